@@ -26,23 +26,17 @@ def read_only(values: Any) -> NDArray[Any]:
 
 
 class ReadOnlyArrays:
-    """Base of frozen dataclasses: fields declared as arrays become read-only ones, and are compared as a whole."""
-
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        # Else dataclasses compare tuples, of which arrays cannot be parts.
-        cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # a dataclass makes one of its own
-
-    def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
-            return NotImplemented
-        names = [field.name for field in dataclasses.fields(cast(Any, self))]
-        return all(_are_equal(getattr(self, name), getattr(other, name)) for name in names)
+    """Base of frozen dataclasses: fields declared as arrays become read-only ones, and texts of them are short."""
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(cast(Any, self)):
             if field.type is np.ndarray:
                 object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
+
+    def __repr__(self) -> str:
+        """The type, and a line for every field; of arrays their shape and their range."""
+        fields = (field.name for field in dataclasses.fields(cast(Any, self)))
+        return "\n".join([type(self).__name__, *(f"{name}: {_in_short(getattr(self, name))}" for name in fields)])
 
 
 def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:
@@ -77,11 +71,12 @@ def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "")
     return values
 
 
-def _are_equal(one: Any, other: Any) -> bool:
-    """Whether two values are equal; nan equals nan in arrays."""
-    if not isinstance(one, np.ndarray):
-        return one == other
-    return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+def _in_short(value: Any) -> str:
+    """A value as text; of an array its shape and its least and largest number."""
+    if not isinstance(value, np.ndarray):
+        return f"{value:.6g}" if isinstance(value, float) else str(value)
+    least, largest = (float(extreme.reduce(value, axis=None)) for extreme in (np.fmin, np.fmax))
+    return f"{' x '.join(map(str, value.shape))} numbers from {least:.6g} to {largest:.6g}"
 
 
 def _cannot_change(array: NDArray[Any] | None) -> bool:

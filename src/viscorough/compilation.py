@@ -7,9 +7,7 @@ process, and one line says so. Only these functions are affected, not numba itse
 
 import contextlib
 import functools
-import inspect
 import logging
-import os
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -49,12 +47,11 @@ class _Cache(caching.FunctionCache):
 
 
 def _cache(function: Callable[..., Any]) -> Any:
-    """The cache of a function's compiled code; an inactive one if there is no folder for it."""
+    """The cache of a function's compiled code; an inactive one if numba finds no writable folder for it."""
     try:
         return _Cache(function)
-    except RuntimeError:  # numba finds no writable folder, or the function has no source file
-        if os.path.exists(inspect.getfile(function)):
-            _warn_cache_disabled()
+    except RuntimeError:
+        _warn_cache_disabled()
         return caching.NullCache()
 
 

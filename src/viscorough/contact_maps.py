@@ -1,13 +1,12 @@
 """One contact of an indenter: maps of pressure, gap and contact, and what follows from them."""
 
 from dataclasses import dataclass
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, si_unit, unit_power, with_unit
 from viscorough.units import square_metres
 
 # Mean area by which a whole element exceeds the contact, per change of contact between two elements, over dx dy.
@@ -29,8 +28,8 @@ class Patches(NamedTuple):
     areas: np.ndarray
 
 
-@dataclass(frozen=True)
-class Contact(ReadOnlyArrays, Saved, Summarised):
+@dataclass(frozen=True, eq=False, repr=False)
+class Contact(ReadOnlyArrays, Saved):
     """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
 
     Arrays are copied and read-only.
@@ -84,26 +83,6 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
     length_unit: str = "1"
     shear_modulus: float | None = None
 
-    def _summary(self) -> Summary:
-        """What it is; depth, force and stiffness; contact and pressure."""
-        unit, area = self.length_unit, unit_power(self.length_unit, 2)
-        motion = [
-            ("depth u", with_unit(self.depth, unit)),
-            ("force F/G", with_unit(self.force, area)),
-            ("stiffness k/G", with_unit(self.stiffness, unit)),
-        ]
-        contact = [
-            ("contact area", f"{with_unit(self.contact_area, area)} ({100 * self.contact_fraction:.3g} %)"),
-            ("mean p/G", with_unit(self.mean_pressure)),
-            ("largest p/G", with_unit(self.largest_pressure)),
-        ]
-        lines = [motion, contact]
-        if self.shear_modulus is not None:
-            mean, largest = (self.shear_modulus * each for each in (self.mean_pressure, self.largest_pressure))
-            names = ("force F", self.normal_force, "N"), ("mean p", mean, "Pa"), ("largest p", largest, "Pa")
-            lines.append([(name, with_unit(cast(float, value), si_unit(si, unit))) for name, value, si in names])
-        return f"Contact of {self.contact_count} of {self.elements} elements", *lines
-
     @property
     def normal_force(self) -> float | None:
         """Force F [N], or in consistent units if the unit of length is not known; None without a shear modulus."""
@@ -156,24 +135,11 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
         """Largest p/G [1]."""
         return float(np.nanmax(self.pressure))
 
-    def patches(self, connectivity: int = 4) -> Patches:
-        """The Patches of the contact: regions of elements in contact that are neighbours.
-
-        Parameters
-        ----------
-        connectivity : int
-            4: elements that share a side are neighbours; 8: those that share a corner, too.
-
-        Raises
-        ------
-        ValueError
-            For another connectivity.
-        """
+    def patches(self) -> Patches:
+        """The Patches of the contact: regions of elements in contact that are connected by their sides."""
         from scipy import ndimage  # takes long to import
 
-        if connectivity not in (4, 8):
-            raise ValueError(f"patches: connectivity must be 4 or 8, not {connectivity!r}")
-        labels, count = ndimage.label(self.contact, structure=ndimage.generate_binary_structure(2, connectivity // 4))
+        labels, count = ndimage.label(self.contact)
         sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
         order = np.argsort(-sizes, kind="stable")
         rank = np.zeros(count + 1, dtype=labels.dtype)

@@ -16,7 +16,7 @@ from numpy.typing import DTypeLike
 
 from viscorough import line_waves, memory, spectrum
 from viscorough.indenter import positive
-from viscorough.types import Array, Complex, Integers, Seed
+from viscorough.types import Array, Complex, Seed
 
 _ROOM = 1000  # between the rms height and the limits of the floating-point type
 _BLOCK = 16384  # waves computed at a time in double precision
@@ -88,14 +88,14 @@ class SelfAffineLines:
         """Pairs of heights, y_2j + i y_2j+1 at [j₁, j₂]; overwritten by the next call."""
         packed = self._packed
         mean_square = line_waves.fill_packed_spectrum(
-            packed.reshape(-1), self._key(seed), self._amplitude, fixed=self._fixed
+            packed.reshape(-1), line_waves.key_of(spectrum.seed_sequence(seed)), self._amplitude, fixed=self._fixed
         )
         fft.c2c(packed, axes=[0], forward=False, out=packed)
         line_waves.twiddle(packed.view(np.float32), np.float32(spectrum.scale_factor(self._rms, mean_square)))
         return fft.c2c(packed, axes=[1], forward=False, out=packed)
 
     def _by_real_transform(self, seed: Seed) -> Array:
-        points, key = self._points, self._key(seed)
+        points, key = self._points, line_waves.key_of(spectrum.seed_sequence(seed))
         memory_ = np.empty(2 * (points // 2 + 1), self._dtype)
         coefficients = memory_.view(np.result_type(self._dtype, np.complex64))  # of the waves k = 0, 1, ...
         mean_square = 0.0
@@ -119,10 +119,6 @@ class SelfAffineLines:
     def _moduli(self, first: int, count: int, dtype: DTypeLike = np.float32) -> Array:
         """Moduli of the waves first, first + 1, ...; that of wave 0 has no meaning."""
         return spectrum.amplitude(np.arange(first, first + count, dtype=dtype), self._exponent, *self._roll_off)
-
-    @staticmethod
-    def _key(seed: Seed) -> Integers:
-        return line_waves.key_of(spectrum.seed_sequence(seed))
 
 
 def _divisor_near_root(number: int) -> int:

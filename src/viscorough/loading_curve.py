@@ -12,15 +12,14 @@ from numpy.typing import ArrayLike
 
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, span, unit_power
-from viscorough.types import Array, Integers, Pair
+from viscorough.types import Array, Pair
 
 # Relative rounding error of forces and depths that is allowed for.
 _ROUNDING = 1e-12
 
 
-@dataclass(frozen=True)
-class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
+@dataclass(frozen=True, eq=False, repr=False)
+class LoadingCurve(ReadOnlyArrays, Saved):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
     Arrays are copied and read-only. Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem
@@ -87,17 +86,6 @@ class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
         if not (np.isfinite(self.stiffness).all() and (self.stiffness > 0).all()):
             raise ValueError("loading curve: stiffness must be finite and positive")
 
-    def _summary(self) -> Summary:
-        """What it is; the range of depths, forces and stiffnesses; that of the contact fraction."""
-        unit, levels = self.length_unit, self.depth.size
-        title = f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements"
-        ranges = [
-            ("depth u", span(self.depth, unit)),
-            ("force F/G", span(self.force, unit_power(unit, 2))),
-            ("stiffness k/G", span(self.stiffness, unit)),
-        ]
-        return title, ranges, [("contact fraction", span(self.contact_fraction))]
-
     @property
     def contact_fraction(self) -> Array:
         """Share of the indenter's elements that are in contact, shape (levels,)."""
@@ -140,22 +128,12 @@ class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
         depth[force == 0] = 0.0
 
         inside = (force > self.force[0]) & (force <= self.force[-1])
-        levels = self.depth, self.force, self.stiffness, self.contact_count
-        depth[inside], stiffness[inside] = interpolate_levels(*levels, force[inside])
+        j = np.searchsorted(self.force, force[inside])
+        levels = self.force, self.depth, self.stiffness
+        forces, depths, stiffnesses = ((values[j - 1], values[j]) for values in levels)
+        joined = self.contact_count[j] - self.contact_count[j - 1]
+        depth[inside], stiffness[inside] = interpolate_between(forces, depths, stiffnesses, joined, force[inside])
         return depth, stiffness
-
-
-def interpolate_levels(
-    depth: Array, force: Array, stiffness: Array, contact_count: Integers, wanted: Array
-) -> tuple[Array, Array]:
-    """Depth and tangent stiffness at forces above the first and up to the last level; see LoadingCurve.at_force.
-
-    depth, force, stiffness, contact_count : of the levels, shape (levels,), in any consistent units
-    wanted : forces, shape (n,). Returns (depth, stiffness) of that shape.
-    """
-    j = np.searchsorted(force, wanted, side="left")
-    forces, depths, stiffnesses = ((values[j - 1], values[j]) for values in (force, depth, stiffness))
-    return interpolate_between(forces, depths, stiffnesses, contact_count[j] - contact_count[j - 1], wanted)
 
 
 def interpolate_between(

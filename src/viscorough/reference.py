@@ -166,18 +166,6 @@ def flat_disc_stiffness(radius: float) -> float:
 # ---- the paper's laws
 
 
-def stiffness_law(x: Numbers, zeta: Numbers, alpha: Numbers) -> Numbers:
-    """κ = ζ X^α (Eq. 3).
-
-    Examples
-    --------
-    >>> from viscorough import reference
-    >>> reference.stiffness_law(4.0, zeta=0.5, alpha=0.5)
-    1.0
-    """
-    return zeta * x**alpha
-
-
 def zeta_elastic(hurst: Numbers) -> Numbers:
     """ζ ≈ π(3 − H)/10, the paper's fit to elastic contact (Eq. 4).
 
@@ -222,7 +210,7 @@ def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False)
 
 
 def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
-    """vt/h = X^(1−α)/ζ = X/κ (Eqs. 1 and 3); with `gamma` divided by Γ(2−α) (Eq. 9).
+    """vt/h = X^(1−α)/ζ = X/κ (Eq. 1), as κ = ζ X^α (Eq. 3); with `gamma` divided by Γ(2−α) (Eq. 9).
 
     Examples
     --------

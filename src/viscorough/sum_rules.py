@@ -17,7 +17,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.contact.halfspace.operator import Halfspace
@@ -30,12 +29,12 @@ from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
-from viscorough.summaries import Summarised, Summary, unit_power, with_unit
+from viscorough.summaries import unit_power, with_unit
 from viscorough.types import Array, Progress
 
-# Elements up to which the linear problem is solved densely; of larger ones, norm of the residual over that of the
-# right-hand side, and iterations after which ConvergenceError is raised.
-_DENSE_ELEMENTS, _RESIDUAL, _MAX_ITERATIONS = 400, 1e-12, 500
+# Of the linear problems: norm of the residual over that of the right-hand side, and iterations after which
+# ConvergenceError is raised.
+_RESIDUAL, _MAX_ITERATIONS = 1e-12, 500
 # Relative difference of chord and tangent below which the curve is straight between two levels.
 _STRAIGHT = 1e-9
 # Points between two levels at which the interpolated curve is evaluated.
@@ -84,37 +83,29 @@ class CompleteContact:
 
 @dataclass(frozen=True)
 class Integral:
-    """One of the two integrals of a loading curve beside its exact value; in the units of the latter.
+    """One of the two integrals of a loading curve beside its exact value.
 
     Attributes
     ----------
     exact : float
         From linear solutions.
-    values : dict
-        Quadratures over the curve, by name.
+    deviations : dict
+        Of quadratures over the curve from the exact value, relative, by name.
     error : float
-        Estimated error of the quadrature "by levels".
-    scale : float
-        What errors are relative to: the exact value, unless that is 0.
+        Estimated error of the quadrature "by levels", relative.
     """
 
     exact: float
-    values: dict[str, float]
+    deviations: dict[str, float]
     error: float
-    scale: float
 
-    @property
-    def relative_error(self) -> float:
-        """The estimated error over the scale."""
-        return self.error / self.scale
-
-    @property
-    def deviations(self) -> dict[str, float]:
-        """What separates the quadratures from the exact value, over the scale, by name."""
-        return {name: float(value - self.exact) / self.scale for name, value in self.values.items()}
+    @classmethod
+    def of(cls, exact: float, values: dict[str, float], error: float, scale: float) -> "Integral":
+        """The integral with these quadratures and this error; `scale` is what they are relative to."""
+        return cls(exact, {name: float(value - exact) / scale for name, value in values.items()}, error / scale)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class SumRules(ReadOnlyArrays):
     """Both integrals of a loading curve.
 
@@ -137,7 +128,7 @@ class SumRules(ReadOnlyArrays):
     @property
     def error(self) -> float:
         """The larger one of the estimated errors of both integrals, relative."""
-        return max(self.first.relative_error, self.second.relative_error)
+        return max(self.first.error, self.second.error)
 
     @property
     def largest_deviation(self) -> float:
@@ -146,7 +137,7 @@ class SumRules(ReadOnlyArrays):
 
 
 @dataclass(frozen=True)
-class Audit(Summarised):
+class Audit:
     """A loading curve with levels added until its integrals are known to a tolerance, and what they are.
 
     Attributes
@@ -184,22 +175,19 @@ class Audit(Summarised):
         """Whether the integrals agree, and the interpolated depth is as accurate as promised."""
         return self.integrals_agree and self.is_interpolated
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """Verdict; exact value, deviations and estimated error of both integrals."""
-        curve = self.curve
         verdict = "agree" if self.integrals_agree else "do not agree"
-        title = f"Audit over {curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
+        lines = [f"Audit over {self.curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"]
         if not self.is_interpolated:
-            title += f", and depths between levels are off by {self.interpolation_error:.1e}"
-        integrals = ("mean gap", self.rules.first, 1), ("energy U/G", self.rules.second, 3)
-        return title, *(
-            [
-                (name, with_unit(integral.exact, unit_power(curve.length_unit, power), 8)),
-                *((of, f"{deviation:+.1e}") for of, deviation in integral.deviations.items()),
-                ("estimated error", f"{integral.relative_error:.1e}"),
-            ]
-            for name, integral, power in integrals
-        )
+            lines[0] += f", and depths between levels are off by {self.interpolation_error:.1e}"
+        for name, integral, power in ("mean gap", self.rules.first, 1), ("energy U/G", self.rules.second, 3):
+            exact = with_unit(integral.exact, unit_power(self.curve.length_unit, power), 8)
+            deviations = [f"{of} {deviation:+.1e}" for of, deviation in integral.deviations.items()]
+            lines.append(", ".join([f"{name} {exact}", *deviations, f"estimated error {integral.error:.1e}"]))
+        return "\n".join(lines)
+
+    __repr__ = __str__
 
 
 def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
@@ -209,8 +197,8 @@ def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
 
         ⟨g₀⟩_q = Σs/Σq,   k_c/G = 4π d Σq,   U/G = 2π d (Σ s g₀ − (Σs)²/Σq),   u = max s/q
 
-    where u is the depth at which the last tension vanishes. Up to 400 elements they are solved densely, more on the
-    grid by preconditioned conjugate gradients. On a line, springs of stiffness 4G Δx are independent (MDR)::
+    where u is the depth at which the last tension vanishes. They are solved on the grid by preconditioned conjugate
+    gradients. On a line, springs of stiffness 4G Δx are independent (MDR)::
 
         ⟨g₀⟩_q = mean g₀,   k_c/G = 4 Δx n,   U/G = 2 Δx Σ (g₀ − mean g₀)²,   u = max g₀
 
@@ -242,9 +230,8 @@ def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
         gap, stiffness = indenter.initial_gap, 4 * indenter.spacing * indenter.elements
         return CompleteContact(gap.mean(), stiffness / 2 * gap.var(), stiffness, gap.max(), indenter.length_unit)
     elements, units = elements_of(indenter, threads)
-    solve = _dense_solution if elements.count <= _DENSE_ELEMENTS else _grid_solution
     gap = elements.initial_gap
-    tangent, load = solve(elements, [np.ones(gap.size), gap], threads)
+    tangent, load = _solutions(elements, [np.ones(gap.size), gap], threads)
     mean_gap = load.sum() / tangent.sum()
     with np.errstate(over="ignore"):
         energy = units.stiffness / 2 * load @ (gap - mean_gap) * np.square(units.length)
@@ -300,23 +287,21 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     inner_sinks = rise[1:] * ((1 / inner_stiffness - least) @ _WEIGHTS)
     error_of_second = np.maximum(_JUMP_OF_SECOND / _JUMP * rise * error, np.append(0, np.abs(inner_areas - areas[1:])))
 
-    first = Integral(
-        exact=complete.mean_gap,
-        values={
-            "last level": depth[-1] - force[-1] * least,
-            "by levels": trapezoid.sum() - force[-1] * least,
-            "between levels": sink[0] - rise[0] * least + inner_sinks.sum(),
-        },
-        error=max(abs(off.sum()), np.sqrt((error**2).sum())),
-        scale=complete.mean_gap or depth[-1],
+    # Errors are relative to the exact values, unless those are 0.
+    scale, scale_of_second = complete.mean_gap or depth[-1], complete.energy or force[-1] * depth[-1]
+    first = {
+        "last level": depth[-1] - force[-1] * least,
+        "by levels": trapezoid.sum() - force[-1] * least,
+        "between levels": sink[0] - rise[0] * least + inner_sinks.sum(),
+    }
+    second = {"by levels": areas.sum(), "between levels": areas[0] + inner_areas.sum()}
+    total = max(abs(off.sum()), np.sqrt((error**2).sum()))
+    total_of_second = max(abs(areas[1:].sum() - inner_areas.sum()), 2 * np.sqrt((error_of_second**2).sum()))
+    return SumRules(
+        Integral.of(complete.mean_gap, first, total, scale),
+        Integral.of(complete.energy, second, total_of_second, scale_of_second),
+        np.hypot(error / scale, error_of_second / scale_of_second),
     )
-    second = Integral(
-        exact=complete.energy,
-        values={"by levels": areas.sum(), "between levels": areas[0] + inner_areas.sum()},
-        error=max(abs(areas[1:].sum() - inner_areas.sum()), 2 * np.sqrt((error_of_second**2).sum())),
-        scale=complete.energy or force[-1] * depth[-1],
-    )
-    return SumRules(first, second, np.hypot(error / first.scale, error_of_second / second.scale))
 
 
 def audit(
@@ -413,9 +398,9 @@ def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Arra
     # Levels must not be so close that their differences are lost to rounding.
     parts[np.diff(curve.depth) < 1e-6 * curve.depth[1:]] = 1
     parts = np.maximum(parts, 1).astype(int)
-    before = np.repeat(np.arange(parts.size), parts - 1)
-    number = 1 + np.arange(before.size) - np.repeat(np.cumsum(parts - 1) - (parts - 1), parts - 1)
-    return curve.depth[before] + np.diff(curve.depth)[before] * number / parts[before]
+    intervals = zip(curve.depth[:-1], curve.depth[1:], parts, strict=True)
+    added = (np.linspace(start, end, number + 1)[1:-1] for start, end, number in intervals)
+    return np.concatenate([np.empty(0), *added])
 
 
 def _merged(curve: LoadingCurve, added: LoadingCurve) -> LoadingCurve:
@@ -429,15 +414,8 @@ def _merged(curve: LoadingCurve, added: LoadingCurve) -> LoadingCurve:
     return replace(curve, operator_applications=applications, **levels)
 
 
-def _dense_solution(elements: Elements, right_sides: list[Array], _threads: int) -> Array:
-    """Solutions x of K x = b for several b over the elements, by rank."""
-    row, column = elements.row, elements.column
-    influence = elements.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
-    return scipy.linalg.solve(influence, np.transpose(right_sides), assume_a="pos").T
-
-
-def _grid_solution(elements: Elements, right_sides: list[Array], threads: int) -> list[Array]:
-    """The same by conjugate gradients in double precision."""
+def _solutions(elements: Elements, right_sides: list[Array], threads: int) -> list[Array]:
+    """Solutions x of K x = b for several b over the elements, by conjugate gradients in double precision."""
     from scipy.sparse.linalg import LinearOperator, cg  # takes long to import
 
     rows, columns = elements.shape

@@ -88,7 +88,7 @@ def test_heights_that_make_no_indenter_are_refused(heights, what):
         Indenter(heights, 1.0)
 
 
-# ---- units, comparison and mistaken types
+# ---- units and mistaken types
 
 
 def test_lengths_are_converted():
@@ -100,17 +100,6 @@ def test_lengths_are_converted():
         Indenter([[1.0]], 1.0).to("m")
     with refused("unit 's': "):
         indenter.to("s")
-
-
-def test_indenters_and_curves_are_compared_by_their_numbers():
-    heights = np.array([[0.0, 2.0], [1.0, np.nan]])
-    assert Indenter(heights, 1.0) == Indenter(heights.copy(), 1.0)
-    assert Indenter(heights, 1.0) != Indenter(heights, 2.0)
-    assert Indenter(heights, 1.0) != heights.size
-    curve = viscorough.indent(Indenter(heights, 1.0))
-    assert curve == viscorough.indent(Indenter(heights, 1.0))
-    assert curve != viscorough.indent(Indenter(2 * heights, 1.0))
-    assert len(repr(curve).splitlines()) <= 5
 
 
 @pytest.mark.parametrize("function", ["indent", "reduce", "prepare"])

@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from support.contract import refused
 from viscorough.indenter import Indenter
-from viscorough.mdr import _binned_gaps, line_of_map, line_of_surface, reduce, reduce_heights
+from viscorough.mdr import line_of_map, line_of_surface, reduce, reduce_heights
 from viscorough.surfaces import cut_disc, self_affine_line, self_affine_square
 
 
@@ -31,19 +31,6 @@ def assert_exact(curve, line):
     np.testing.assert_allclose(curve.force, force, rtol=1e-12)
     assert np.all(np.diff(curve.depth) > 0)
     assert curve.depth[0] > 0
-
-
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_compiled_binning_agrees_with_numpy(dtype):
-    heights = self_affine_line(0.6, 5001, seed=6, dtype=dtype).heights
-    edges, counts, sums = _binned_gaps(heights)
-    ratio = edges[1:] / edges[:-1]
-    assert 1 + 0.99 / 128 < ratio[edges[:-1] > 0].min() <= ratio.max() <= 1 + 1 / 64
-    highest = float(heights.max())
-    gaps = highest - heights.astype(float)
-    place = np.searchsorted(edges[1:-1], gaps, side="right")
-    np.testing.assert_array_equal(counts, np.bincount(place, minlength=counts.size))
-    np.testing.assert_allclose(sums, np.bincount(place, weights=gaps, minlength=counts.size), rtol=1e-13)
 
 
 @pytest.mark.parametrize("points", [100, 20_000])

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "second_order")  # methods that integrate viscoelastic media
-_METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  # {option: methods that have it}
+_METHODS_OF = {"until_fraction": ("events",)}  # {option: methods that have it}
 
 
 @click.command()
@@ -40,11 +40,6 @@ _METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  
     "--times", type=options.Increasing(), help="Ends of the time steps; for events with --medium, times of output."
 )
 @options.force_history
-@click.option(
-    "--overlap",
-    type=options.PositiveNumber(1),
-    help="Largest overlap allowed, relative to the depth; explicit and heun divide their steps to keep to it.",
-)
 @options.until(1)
 @options.progress
 def march(
@@ -139,8 +134,10 @@ def _in_viscous_medium(
         steps = np.unique(load.impulse[load.impulse > 0]) / viscosity
         integrated = march_steps(indenter, steps, scheme=method, **options)
     if isinstance(load, float):
-        return viscous_motion_to_content(under_constant_force(integrated, load / viscosity))
-    return viscous_motion_to_content(under_force_history(integrated, load, viscosity))
+        motion = under_constant_force(integrated, load / viscosity)
+    else:
+        motion = under_force_history(integrated, load, viscosity)
+    return viscous_motion_to_content(motion, indenter.length_unit)
 
 
 def _in_medium(

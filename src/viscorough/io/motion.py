@@ -12,13 +12,12 @@ from viscorough.io.columns import read_columns
 from viscorough.io.curves import level_attributes
 from viscorough.io.netcdf import Content, Variable
 from viscorough.summaries import si_unit, velocity_unit
-from viscorough.types import FilePath
+from viscorough.types import Array, FilePath
 from viscorough.viscous.correspondence import ForceHistory, Kinetics, impulses
 
 if TYPE_CHECKING:
     from viscorough.estimates import Estimate
     from viscorough.viscous.integration.internal_variables import MediumMotion
-    from viscorough.viscous.integration.motion import ViscousMotion
 
 
 # Quantities over time beside those of curves.OVER_LEVELS: long_name.
@@ -41,17 +40,16 @@ def _over_levels(length_unit: str, **values: Any) -> dict[str, Variable]:
     }
 
 
-def viscous_motion_to_content(motion: ViscousMotion) -> Content:
-    """A viscous.integration.motion.ViscousMotion as a Content over its times.
+def viscous_motion_to_content(motion: dict[str, Array], length_unit: str) -> Content:
+    """What viscous.integration.motion gives as a Content over its times.
 
     Raises ValueError unless times and velocities are finite.
     """
-    if not np.isfinite([motion.time, motion.velocity]).all():
+    if not np.isfinite([motion["time"], motion["velocity"]]).all():
         raise ValueError("times or velocities overflow; a force and a viscosity closer to each other are needed")
-    values = {name: value for name, value in motion._asdict().items() if value is not None}
-    load = "" if motion.force is None else " under a force history"
+    load = " under a force history" if "force" in motion else ""
     title = f"Penetration of a rigid indenter{load}, integrated directly in time"
-    return Content(_over_levels(**values), {"title": title})
+    return Content(_over_levels(length_unit, **motion), {"title": title})
 
 
 def medium_motion_to_content(motion: MediumMotion) -> Content:

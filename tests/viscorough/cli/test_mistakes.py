@@ -75,7 +75,6 @@ MISTAKES = [
     (f"{GENERATE} --elements 5 --unit 1 --rms '2 um'", f"--rms 2 um: {NO_UNIT}"),
     (f"{MARCH} events --times 1,2", "--times is not for --method events"),
     (f"{MARCH} explicit", "--times is needed by --method explicit"),
-    (f"{MARCH} implicit --times 1 --overlap 0.1", "--overlap is not for"),
     (f"{MARCH} explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
     (f"{MARCH} second_order --times 1", "--method second_order is for use with --medium"),
     (f"{MARCH} heun --medium medium.yaml --times 1", "--medium is not for --method heun; allowed: events, "),

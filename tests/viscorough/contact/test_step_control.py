@@ -6,8 +6,7 @@ import pytest
 from viscorough import Indenter, indent, march_events, self_affine_disc
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.solver import ContactSolver
-from viscorough.contact.step_control import Level, StepControl, division, interpolation_bound
-from viscorough.loading_curve import interpolate_levels
+from viscorough.contact.step_control import Level, StepControl, division, interpolate, interpolation_bound
 
 
 def springs(gaps, depth):
@@ -22,8 +21,7 @@ def test_the_bound_holds_wherever_elements_join(least, width):
     before, after = (springs(gaps, depth) for depth in (0.3, 0.8))
     depth = np.linspace(0.3, 0.8, 100)[1:-1]
     force = np.maximum(depth[:, None] - gaps, 0).sum(axis=1)
-    ends = np.array([[level.depth, level.pressure_sum, level.tangent_sum, level.count] for level in (before, after)]).T
-    error = np.abs(interpolate_levels(*ends, force)[0] / depth - 1).max()
+    error = np.abs(interpolate(before, after, force) / depth - 1).max()
     assert error <= interpolation_bound(before, after)
 
 

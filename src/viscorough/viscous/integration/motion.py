@@ -2,47 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscorough.viscous.integration.events import Events
 
 if TYPE_CHECKING:
+    from viscorough.types import Array
     from viscorough.viscous.correspondence import ForceHistory
     from viscorough.viscous.integration.stepping import Steps
 
 
-class ViscousMotion(NamedTuple):
-    """Penetration into a linearly viscous half-space; arrays of shape (times,).
+def under_constant_force(integration: Events | Steps, force_per_viscosity: float) -> dict[str, Array]:
+    """Time, depth, contact count, overlap over depth, and velocity of Events or Steps, by name.
 
-    time : t [s]; depth : u [length]; contact_count : elements in contact
-    overlap : the largest, over depth [1], or None under a force history; force : F [N], or None if it is constant
-    velocity : v = du/dt [length/s]; length_unit : of the indenter
-    """
-
-    time: np.ndarray
-    depth: np.ndarray
-    contact_count: np.ndarray
-    overlap: np.ndarray | None
-    force: np.ndarray | None
-    velocity: np.ndarray
-    length_unit: str
-
-
-def under_constant_force(integration: Events | Steps, force_per_viscosity: float) -> ViscousMotion:
-    """ViscousMotion of Events or Steps: the impulse over the viscosity is t F/η, and the velocity F/η over resistance.
-
-    force_per_viscosity : F/η
+    force_per_viscosity : F/η; the impulse over the viscosity is t F/η, and the velocity F/η over the resistance
     """
     time, velocity = integration.impulse / force_per_viscosity, force_per_viscosity / integration.resistance
     overlap = np.zeros_like(integration.depth) if isinstance(integration, Events) else integration.overlap
-    of_levels = time, integration.depth, integration.contact_count, overlap
-    return ViscousMotion(*of_levels, None, velocity, integration.length_unit)
+    depth, count = integration.depth, integration.contact_count
+    return {"time": time, "depth": depth, "contact_count": count, "overlap": overlap, "velocity": velocity}
 
 
-def under_force_history(integration: Events | Steps, history: ForceHistory, viscosity: float) -> ViscousMotion:
-    """ViscousMotion of Events or Steps at the times of a force history.
+def under_force_history(integration: Events | Steps, history: ForceHistory, viscosity: float) -> dict[str, Array]:
+    """Time, depth, contact count, force and velocity of Events or Steps at the times of a force history, by name.
 
     integration : Events, or Steps that end at every impulse of the history above zero, over the viscosity
     history : viscous.correspondence.ForceHistory
@@ -59,5 +43,5 @@ def under_force_history(integration: Events | Steps, history: ForceHistory, visc
         i = np.searchsorted(integration.impulse, reached * (1 - 1e-12))
         depth = np.where(reached > 0, integration.depth[i], 0.0)
     velocity = history.force / (viscosity * integration.resistance[i])
-    of_times = history.times, depth, integration.contact_count[i]
-    return ViscousMotion(*of_times, None, history.force, velocity, integration.length_unit)
+    motion = {"time": history.times, "depth": depth, "contact_count": integration.contact_count[i]}
+    return motion | {"force": history.force, "velocity": velocity}

@@ -8,6 +8,7 @@ during the step overlap the surface; the implicit scheme demands contact without
 
 import warnings
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,7 +31,7 @@ _LARGEST_SHARE = 1e-8
 _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 0.1, 50
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Steps(ReadOnlyArrays):
     """The penetration of an indenter at given impulses; read-only arrays of shape (impulses,).
 
@@ -63,7 +64,6 @@ def march_steps(
     impulses: ArrayLike,
     *,
     scheme: str = "explicit",
-    overlap: float = np.inf,
     tolerance: float = 1e-6,
     progress: Progress | None = None,
 ) -> Steps:
@@ -85,9 +85,6 @@ def march_steps(
         ∫F dt/η at the ends of the steps, positive and increasing [length²]; the first step starts at zero.
     scheme : str, optional
         One of SCHEMES.
-    overlap : float, optional
-        Explicit steps are divided so that no element is predicted to overlap the surface by more than this share of the
-        depth.
     tolerance : float, optional
         Residual of the contact problems, as in indent.
     progress : Progress, optional
@@ -122,15 +119,10 @@ def march_steps(
     if scheme not in SCHEMES:
         raise ValueError(f"march_steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
     impulses = increasing("march_steps: impulses", np.atleast_1d(impulses), above_zero=True)
-    if not overlap > 0:
-        raise ValueError(f"march_steps: overlap must be positive, not {overlap!r}")
     integrator = _INTEGRATORS[scheme](indenter, tolerance)
     scale, rows = 4 * np.pi * indenter.element_side, []
-    for remaining in np.diff(impulses / scale, prepend=0.0):
-        while remaining > 0:
-            step = min(remaining, integrator.longest_step(overlap))
-            integrator.step(step)
-            remaining -= step
+    for step in np.diff(impulses / scale, prepend=0.0):
+        integrator.step(step)
         rows.append((integrator.depth, integrator.resistance, integrator.count, integrator.overlap))
         if progress:
             progress(len(rows) / impulses.size)
@@ -138,8 +130,7 @@ def march_steps(
     if overlaps.max() > _WARN_OVERLAP:
         warnings.warn(
             f"march_steps: with these steps the indenter overlaps the surface by up to {overlaps.max():.2g} of its "
-            "depth, which is about the error of the depth; more steps, a smaller overlap per step or the implicit "
-            "scheme help",
+            "depth, which is about the error of the depth; more steps or the implicit scheme help",
             AccuracyWarning,
             stacklevel=2,
         )
@@ -162,19 +153,6 @@ class _Explicit:
         self._tangent, self._tangent_gap = np.zeros_like(self._gap), np.full_like(self._gap, -1.0)
         self.depth = 0.0
         self._solve_flat_punch()
-
-    def longest_step(self, overlap: float) -> float:
-        """Impulse until some element overlaps the surface by the given share of the depth."""
-        if np.isinf(overlap):
-            return np.inf
-        # Beyond the step some element that is now outside the contact would overlap the surface by more than allowed.
-        closing = -self._tangent_gap - overlap
-        ahead = (closing > 0) & ~self._inside & np.isfinite(self._gap)
-        if not ahead.any():
-            return np.inf
-        depth_step = (np.maximum(self._gap[ahead], 0) + overlap * self.depth) / closing[ahead]
-        # At first contact the depth, and with it the overlap allowed, is zero; a step must not be.
-        return self.resistance * max(depth_step.min(), np.finfo(float).tiny)
 
     def step(self, impulse: float) -> None:
         """Advance by an impulse."""
@@ -243,10 +221,6 @@ class _Implicit:
         self._spacings = indenter.spacing, indenter.row_spacing
         self.depth, self.resistance, self.count, self.overlap = 0.0, 0.0, 0, 0.0
 
-    def longest_step(self, _overlap: float) -> float:
-        """A step of any length is exact."""
-        return np.inf
-
     def step(self, impulse: float) -> None:
         """Advance by an impulse; the depth that belongs to it is found by Newton's method."""
         solver = ContactSolver(Indenter(-self._gap, *self._spacings), self._tolerance)
@@ -267,6 +241,5 @@ class _Implicit:
         self.overlap = contact.residual * depth_step / self.depth
 
 
-_INTEGRATORS: dict[str, type[_Explicit] | type[_Implicit]]
-_INTEGRATORS = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}
+_INTEGRATORS: dict[str, Any] = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}
 SCHEMES = tuple(_INTEGRATORS)

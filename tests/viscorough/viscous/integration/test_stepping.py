@@ -32,17 +32,6 @@ def test_implicit_steps_find_depths_where_loose_contacts_make_the_force_jump():
     np.testing.assert_allclose(steps.depth[-1], sphere.mdr_profile(0.45), rtol=1e-2)
 
 
-def test_explicit_steps_are_of_first_order_in_the_overlap_they_allow(events):
-    impulses = np.geomspace(events.impulse[3], events.impulse[700], 5)
-    allowed, errors = np.array([1e-1, 3e-2, 1e-2, 3e-3, 1e-3]), []
-    for overlap in allowed:
-        result = march_steps(DISC, impulses, overlap=overlap)
-        assert result.overlap.max() <= overlap * (1 + 1e-9)
-        errors.append(np.abs(result.depth / events.depth_at(impulses) - 1).max())
-    assert errors[-1] < 2e-3
-    assert np.polyfit(np.log(allowed), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.25)
-
-
 def test_mean_velocities_of_a_step_are_more_accurate_than_those_at_its_start(events):
     errors = {"explicit": [], "heun": []}
     for steps in (32, 64, 128, 256):
@@ -68,7 +57,6 @@ def test_refuses():
     for change, message in (
         ({"scheme": "magic"}, "scheme must be one of explicit, heun, implicit"),
         ({"impulses": [2.0, 1.0]}, "each larger than the one before"),
-        ({"overlap": 0.0}, "overlap must be positive"),
         ({"indenter": Indenter(np.zeros(3), 1.0)}, "two-dimensional"),
     ):
         arguments = {"indenter": DISC, "impulses": [1.0], **change}

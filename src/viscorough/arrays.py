@@ -26,17 +26,12 @@ def read_only(values: Any) -> NDArray[Any]:
 
 
 class ReadOnlyArrays:
-    """Base of frozen dataclasses: fields declared as arrays become read-only ones, and texts of them are short."""
+    """Base of frozen dataclasses: fields declared as arrays become read-only ones."""
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(cast(Any, self)):
             if field.type is np.ndarray:
                 object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
-
-    def __repr__(self) -> str:
-        """The type, and a line for every field; of arrays their shape and their range."""
-        fields = (field.name for field in dataclasses.fields(cast(Any, self)))
-        return "\n".join([type(self).__name__, *(f"{name}: {_in_short(getattr(self, name))}" for name in fields)])
 
 
 def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:
@@ -69,14 +64,6 @@ def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "")
         where = int(np.argmin(allowed))
         raise ValueError(f"{name}: sample {where} is {values[where]}; allowed: finite, 0 or more{reason}")
     return values
-
-
-def _in_short(value: Any) -> str:
-    """A value as text; of an array its shape and its least and largest number."""
-    if not isinstance(value, np.ndarray):
-        return f"{value:.6g}" if isinstance(value, float) else str(value)
-    least, largest = (float(extreme.reduce(value, axis=None)) for extreme in (np.fmin, np.fmax))
-    return f"{' x '.join(map(str, value.shape))} numbers from {least:.6g} to {largest:.6g}"
 
 
 def _cannot_change(array: NDArray[Any] | None) -> bool:

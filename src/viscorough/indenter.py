@@ -10,14 +10,15 @@ from numpy.typing import NDArray
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, read_only
 from viscorough.saved import Saved
+from viscorough.summaries import Summarised, Summary, with_unit
 from viscorough.types import Array
 
 LARGEST_ASPECT = 5  # of the sides of an element, either way
 _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double precision
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Indenter(ReadOnlyArrays, Saved):
+@dataclass(frozen=True, eq=False)
+class Indenter(ReadOnlyArrays, Saved, Summarised):
     """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
     Parameters
@@ -82,6 +83,15 @@ class Indenter(ReadOnlyArrays, Saved):
         object.__setattr__(self, "row_spacing", row_spacing)
         if not isinstance(self.length_unit, str) or not self.length_unit.strip():
             raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {self.length_unit!r}")
+
+    def _summary(self) -> Summary:
+        """What it is; distances of its points; the difference of its heights."""
+        points = " x ".join(map(str, self.heights.shape))
+        difference = np.nanmax(self.heights) - np.nanmin(self.heights)
+        title = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements"
+        spacings = {"spacing": self.spacing} | ({"row spacing": self.row_spacing} if self.aspect != 1 else {})
+        numbers = spacings | {"highest over lowest point": difference}
+        return title, *([(name, with_unit(value, self.length_unit))] for name, value in numbers.items())
 
     def to(self, unit: str) -> "Indenter":
         """The same indenter with lengths in another unit, such as "m". Raises ValueError if its own is not known."""

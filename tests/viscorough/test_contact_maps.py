@@ -50,6 +50,7 @@ def test_forces_in_newtons_on_a_modulus():
     assert contact.force == pytest.approx(2e7, rel=1e-12)
     assert contact.normal_force == pytest.approx(1e-5, rel=1e-12)
     assert np.nansum(contact.pressure) * 0.5e6 * 5e-6**2 == pytest.approx(1e-5, rel=1e-6)
+    assert str(contact).splitlines()[-1].startswith("force F 1e-05 N, mean p ")
     assert viscorough.contact_at(indenter, force=2e7).normal_force is None
     assert viscorough.contact_at(indenter, depth="20 nm").depth == 20
     curve = viscorough.indent(indenter, forces=["5 uN", "10 uN"], shear_modulus=0.5e6)

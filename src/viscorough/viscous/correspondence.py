@@ -29,6 +29,7 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
+from viscorough.summaries import Summarised, Summary, si_unit, span, velocity_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import medium_of
@@ -40,8 +41,8 @@ _SPREAD, _EARLY = 100, 1e-3  # number of times that are chosen; share of the cre
 _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a million force samples
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Kinetics(ReadOnlyArrays, Saved):
+@dataclass(frozen=True, eq=False)
+class Kinetics(ReadOnlyArrays, Saved, Summarised):
     """Penetration over time; read-only arrays of shape (times,).
 
     Attributes
@@ -60,6 +61,16 @@ class Kinetics(ReadOnlyArrays, Saved):
     depth: np.ndarray
     velocity: np.ndarray
     length_unit: str = units.UNKNOWN
+
+    def _summary(self) -> Summary:
+        """What it is; the first and last time, depth and velocity."""
+        unit = self.length_unit
+        return (
+            f"Penetration at {self.time.size} times",
+            [("time t", span(self.time, si_unit("s", unit)))],
+            [("depth u", span(self.depth, unit))],
+            [("velocity v", span(self.velocity, si_unit(velocity_unit(unit), unit)))],
+        )
 
 
 class ForceHistory(NamedTuple):

@@ -19,6 +19,7 @@ from scipy.special import stdtrit
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
+from viscorough.summaries import Summarised, Summary, si_unit, span, with_unit
 from viscorough.types import Array, Integers
 from viscorough.units import UNKNOWN
 from viscorough.viscous.correspondence import ForceHistory, consistent_force, impulses, resampled
@@ -39,8 +40,8 @@ _FIXED = 1e4  # weight of a prescribed J, in units of the weight of the record
 _TRIALS, _CLOSE = 8, 0.02  # for an end of an interval: of its distance from the fit, and its relative accuracy
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class IdentifiedMedium(ReadOnlyArrays, Saved):
+@dataclass(frozen=True, eq=False)
+class IdentifiedMedium(ReadOnlyArrays, Saved, Summarised):
     """A medium identified from a record of depth over time, as `identify_medium` returns it.
 
     Attributes
@@ -77,6 +78,15 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
     high: np.ndarray
     scatter: float
     length_unit: str = UNKNOWN
+
+    def _summary(self) -> Summary:
+        """What it is; J over time."""
+        return (
+            f"{type(self.medium).__name__} identified from a record of depth",
+            [("time t", span(self.time, si_unit("s", self.length_unit)))],
+            [("compliance J", span(self.compliance, si_unit("1/Pa", self.length_unit)))],
+            [("scatter of depth", with_unit(self.scatter, self.length_unit, 3))],
+        )
 
 
 def identify_medium(

@@ -161,6 +161,11 @@ def test_forces_and_viscosities_are_in_si_where_the_unit_of_length_is_known():
     for force, viscosity in ((2e-5, 3e3), ("20 uN", "3 kPa s"), ("2e-5 N", 3e3), (of_pint, 3e3)):
         motion = kinetics(in_micrometres, force, viscosity, [1e-4, 1e-3])
         np.testing.assert_allclose([motion.depth, motion.velocity], [wanted.depth, wanted.velocity], rtol=1e-12)
+    assert str(motion).splitlines()[1:] == [
+        "time t 0.0001 to 0.001 s",
+        f"depth u {wanted.depth[0]:.4g} to {wanted.depth[1]:.4g} um",
+        f"velocity v {wanted.velocity[0]:.4g} to {wanted.velocity[1]:.4g} um s-1",
+    ]
     relaxed = force_under_depth(in_micrometres, [1.0, 1.0], Maxwell(2e6, 1e6), [0.0, 0.5])
     consistent = force_under_depth(curve, [1.0, 1.0], Maxwell(2e-6, 1e-6), [0.0, 0.5])
     np.testing.assert_allclose(relaxed.force, consistent.force, rtol=1e-12)

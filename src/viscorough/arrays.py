@@ -26,7 +26,18 @@ def read_only(values: Any) -> NDArray[Any]:
 
 
 class ReadOnlyArrays:
-    """Base of frozen dataclasses: fields declared as arrays become read-only ones."""
+    """Base of frozen dataclasses: fields declared as arrays become read-only ones, and are compared as a whole."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        # Else dataclasses compare tuples, of which arrays cannot be parts.
+        cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # a dataclass makes one of its own
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        names = [field.name for field in dataclasses.fields(cast(Any, self))]
+        return all(_are_equal(getattr(self, name), getattr(other, name)) for name in names)
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(cast(Any, self)):
@@ -64,6 +75,13 @@ def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "")
         where = int(np.argmin(allowed))
         raise ValueError(f"{name}: sample {where} is {values[where]}; allowed: finite, 0 or more{reason}")
     return values
+
+
+def _are_equal(one: Any, other: Any) -> bool:
+    """Whether two values are equal; nan equals nan in arrays."""
+    if not isinstance(one, np.ndarray):
+        return one == other
+    return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
 
 
 def _cannot_change(array: NDArray[Any] | None) -> bool:

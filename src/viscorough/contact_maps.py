@@ -29,7 +29,7 @@ class Patches(NamedTuple):
     areas: np.ndarray
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Contact(ReadOnlyArrays, Saved, Summarised):
     """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
 

@@ -20,7 +20,7 @@ from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Estimate(ReadOnlyArrays):
     """Depth and velocity over time by the penetration law; arrays of shape (times,), nan where the law does not hold.
 

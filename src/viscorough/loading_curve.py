@@ -19,7 +19,7 @@ from viscorough.types import Array, Pair
 _ROUNDING = 1e-12
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 

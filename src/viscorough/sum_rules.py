@@ -105,7 +105,7 @@ class Integral:
         return cls(exact, {name: float(value - exact) / scale for name, value in values.items()}, error / scale)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class SumRules(ReadOnlyArrays):
     """Both integrals of a loading curve.
 

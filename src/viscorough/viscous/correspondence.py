@@ -41,7 +41,7 @@ _SPREAD, _EARLY = 100, 1e-3  # number of times that are chosen; share of the cre
 _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a million force samples
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Kinetics(ReadOnlyArrays, Saved, Summarised):
     """Penetration over time; read-only arrays of shape (times,).
 

@@ -40,7 +40,7 @@ _FIXED = 1e4  # weight of a prescribed J, in units of the weight of the record
 _TRIALS, _CLOSE = 8, 0.02  # for an end of an interval: of its distance from the fit, and its relative accuracy
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class IdentifiedMedium(ReadOnlyArrays, Saved, Summarised):
     """A medium identified from a record of depth over time, as `identify_medium` returns it.
 

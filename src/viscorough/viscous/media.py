@@ -311,7 +311,7 @@ class Springpot(Medium):
         return self.modulus * _power_increment(start, end, 1 - self.exponent) / gamma(2 - self.exponent)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class CreepTable(ReadOnlyArrays, Medium):
     """A measured creep compliance, linear between its points.
 

@@ -22,7 +22,7 @@ from viscorough.types import Array, Integers
 from viscorough.viscous.integration.elements import elements_of_map
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Events(ReadOnlyArrays):
     """The penetration of an indenter from contact event to contact event; read-only arrays of shape (events,).
 

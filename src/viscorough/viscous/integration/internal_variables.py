@@ -30,7 +30,7 @@ _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
 _ROUNDING = 1e-12  # of gaps, relative to the depth
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class MediumMotion(ReadOnlyArrays):
     """Motion of an indenter in a viscoelastic half-space; read-only arrays of shape (times,).
 

@@ -31,7 +31,7 @@ _LARGEST_SHARE = 1e-8
 _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 0.1, 50
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Steps(ReadOnlyArrays):
     """The penetration of an indenter at given impulses; read-only arrays of shape (impulses,).
 

@@ -44,6 +44,7 @@ from viscorough.viscous.media import Prony as Prony
 from viscorough.viscous.media import Springpot as Springpot
 from viscorough.viscous.media import StandardLinearSolid as StandardLinearSolid
 from viscorough.viscous.medium import Medium as Medium
+from viscorough.viscous.pressures import pressure_at as pressure_at
 from viscorough.viscous.relaxation import force_under_depth as force_under_depth
 
 __version__: str

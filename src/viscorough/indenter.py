@@ -14,6 +14,7 @@ from viscorough.summaries import Summarised, Summary, with_unit
 from viscorough.types import Array
 
 LARGEST_ASPECT = 5  # of the sides of an element, either way
+_LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double precision
 
 
 @dataclass(frozen=True)
@@ -38,9 +39,10 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
     Raises
     ------
     ValueError
-        If the heights are not real numbers in one or two dimensions, are infinite, differ by more than double precision
-        holds, have no element or, on a line, have a nan; if a spacing is not a positive number, or the two differ by
-        more than a factor of five, or on a line at all; or if the unit is no text.
+        If the heights are not real numbers in one or two dimensions, are whole numbers beyond 2**53, are infinite,
+        differ by more than double precision holds, have no element or, on a line, have a nan; if a spacing is not a
+        positive number, or the two differ by more than a factor of five, or on a line at all; or if the unit is no
+        text.
 
     Examples
     --------
@@ -62,6 +64,8 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
         if heights.ndim not in (1, 2):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
+        if not _exact(np.asanyarray(self.heights)):
+            raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
         heights = _native(heights)
         if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
             raise ValueError("indenter heights: must have at least one element that is not nan")
@@ -145,6 +149,13 @@ def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
             f"a factor of {LARGEST_ASPECT}, which is the largest allowed; resample the map"
         )
     return spacing, row_spacing
+
+
+def _exact(values: NDArray[Any]) -> bool:
+    """Whether double precision holds these values exactly, if they are whole numbers; masked ones do not matter."""
+    if values.dtype.kind not in "iu" or np.ma.count(values) == 0:
+        return True
+    return int(values.min()) >= -_LARGEST_WHOLE and int(values.max()) <= _LARGEST_WHOLE
 
 
 def _native(heights: NDArray[Any]) -> NDArray[Any]:

@@ -45,7 +45,7 @@ def test_spacings_and_units_out_of_range_are_refused():
 @pytest.mark.parametrize("dtype", [float, np.float32, int])
 def test_masked_heights_lie_outside_the_indenter(dtype):
     heights = np.ma.array([[1, 2], [3, 4]], mask=[[0, 1], [0, 0]], dtype=dtype)
-    heights.data[0, 1] = 2**60  # the fill value must not become the peak
+    heights.data[0, 1] = 2**60  # the fill value must neither become the peak nor be too large
     indenter = Indenter(heights, 1.0, length_unit="um")
     assert indenter.elements == 3
     np.testing.assert_array_equal(indenter.initial_gap, [[3, np.nan], [1, 0]])
@@ -71,6 +71,7 @@ def test_gaps_are_computed_in_double_precision(dtype):
 @pytest.mark.parametrize(
     ("heights", "what"),
     [
+        (np.array([[0, 2**53 + 1]], np.uint64), r"whole numbers must not exceed 2\*\*53"),
         (np.array([[1e308, -1e308]]), "also their differences; some are infinite"),
         (np.array([[np.longdouble("1e400"), 0]]), "some are infinite"),
         (np.zeros((2, 2, 2)), "one or two dimensions, not"),

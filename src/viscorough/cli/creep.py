@@ -18,9 +18,9 @@ from viscorough.units import Quantity
 @options.force_history
 @click.option(
     "--fit",
-    type=click.Choice(["table", "prony"]),
+    type=click.Choice(["table", "prony", "springpot"]),
     default="table",
-    help="Kind of medium: a table of J(t), or a Prony series.",
+    help="Kind of medium: a table of J(t), a Prony series or a springpot.",
 )
 @click.option(
     "-o", "--output", type=options.FILE, required=True, metavar="MEDIUM.yaml", help="File to write or replace."

@@ -72,19 +72,17 @@ class _Intervals(ABC):
         dΦ/dt is a sum of terms that rise and terms that fall within an interval, so that it is nowhere below the sum of
         the former at the start and the latter at the end. Intervals whose bound is negative are halved.
         """
-        with np.errstate(over="ignore"):
-            springs = self.medium.creep_compliance(0.0) > 0 or np.isinf(self.medium.creep_rate(0.0))
-        down = self.jumps < -_ROUNDING * self.force
-        found = self.times[down].min(initial=np.inf) if springs else np.inf
+        found = self._first_jump_down()
         interval, start, end = self.intervals, np.zeros(self.intervals.size), self.lengths[self.intervals]
         for _ in range(_HALVINGS):
             rising, falling, terms = self.parts(interval, start, left=False)
             rising_at_end, falling_at_end, terms_at_end = self.parts(interval, end, left=True)
             begins = self.times[interval]
-            rate, rate_at_end = rising + falling, rising_at_end + falling_at_end
-            found = min(found, (begins + start)[rate < -_ROUNDING * terms].min(initial=np.inf))
-            found = min(found, (begins + end)[rate_at_end < -_ROUNDING * terms_at_end].min(initial=np.inf))
-            doubtful = rising + falling_at_end < -_ROUNDING * np.minimum(terms, terms_at_end)
+            negative = rising + falling < -_ROUNDING * terms
+            negative_at_end = rising_at_end + falling_at_end < -_ROUNDING * terms_at_end
+            for which, offset in ((negative, start), (negative_at_end, end)):
+                found = min(found, (begins + offset)[which].min(initial=np.inf))
+            doubtful = ~negative & (rising + falling_at_end < -_ROUNDING * np.minimum(terms, terms_at_end))
             doubtful &= begins + start < found
             if not doubtful.any():
                 break
@@ -94,12 +92,23 @@ class _Intervals(ABC):
             start, end = np.concatenate([start, middle]), np.concatenate([middle, end])
         return found
 
+    def _first_jump_down(self) -> float:
+        """The first time of a downward step to which the medium responds instantaneously."""
+        with np.errstate(over="ignore"):
+            at_once = self.medium.creep_compliance(0.0) > 0 or np.isinf(self.medium.creep_rate(0.0))
+        down = self.jumps < -_ROUNDING * self.force
+        return self.times[down].min(initial=np.inf) if at_once else np.inf
+
     def rate_at_samples(self) -> Array:
         """dΦ/dt just after every sample; just before it at the last one and before a step."""
+        after = np.append(self.lengths > 0, False)
+        before = np.append(False, self.lengths > 0) & ~after
         rate = np.zeros(self.times.size)
-        ends = np.setdiff1d(self.intervals + 1, self.intervals)
-        rate[self.intervals] = np.add(*self.parts(self.intervals, np.zeros(self.intervals.size), left=False)[:2])
-        rate[ends] = np.add(*self.parts(ends - 1, self.lengths[ends - 1], left=True)[:2])
+        for which, shift in ((after, 0), (before, 1)):
+            interval = np.flatnonzero(which) - shift
+            offset = self.lengths[interval] if shift else np.zeros(interval.size)
+            rising, falling, _ = self.parts(interval, offset, left=bool(shift))
+            rate[which] = rising + falling
         return rate
 
 
@@ -140,9 +149,9 @@ class _BySums(_Intervals):
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         """As of _ByStates; J is concave, so that positive contributions of the past decrease with time."""
-        compliance, rate = self.medium.creep_compliance, functools.partial(self.medium.creep_rate, left=left)
-        falling, rising = self._sums(interval, offset, rate, lambda start, end: compliance(end) - compliance(start))
-        present = self.slopes[interval] * compliance(offset)
+        rate = functools.partial(self.medium.creep_rate, left=left)
+        falling, rising = self._sums(interval, offset, rate, self.medium.creep_increment)
+        present = self.slopes[interval] * self.medium.creep_compliance(offset)
         terms = falling - rising + abs(present)
         return rising + np.maximum(present, 0), falling + np.minimum(present, 0), terms
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import stdtrit
+from scipy.special import gamma, stdtrit
 
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.loading_curve import LoadingCurve
@@ -24,11 +24,11 @@ from viscorough.types import Array, Integers
 from viscorough.units import UNKNOWN
 from viscorough.viscous.correspondence import ForceHistory, consistent_force, impulses, resampled
 from viscorough.viscous.creep_response import branch_states
-from viscorough.viscous.media import CreepTable, Prony
+from viscorough.viscous.media import CreepTable, Prony, Springpot
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.relaxation import elastic_force
 
-KINDS = ("table", "prony")
+KINDS = ("table", "prony", "springpot")
 _KNOTS = 60  # of J, at most
 _EARLIER = 64  # ratio of the first row to the first knot under a ramp of force
 _RETARDATION_TIMES_PER_DECADE = 10
@@ -104,7 +104,7 @@ def identify_medium(
         The record, shape (rows,); times increase. The scatter of the depth is taken for independent from row to row and
         of one size.
     kind : str, optional
-        "table": a CreepTable, the concave J that fits best; "prony": a Prony series, fitted by least
+        "table": a CreepTable, the concave J that fits best; "prony" or "springpot": that medium, fitted by least
         squares in depth.
 
     Returns
@@ -147,7 +147,7 @@ def identify_medium(
     record = _Record(curve, depth, np.column_stack([history.force[place], _hinges(history, times, knots)]))
     coefficients = record.fit(record.responses)
     freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
-    scatter = np.linalg.norm(record.residual(record.responses @ coefficients)) / np.sqrt(freedom)
+    scatter = np.sqrt(record.squares(record.responses @ coefficients) / freedom)
     time = np.append(0.0, knots)
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
     compliance = np.maximum.accumulate(values @ coefficients)  # where J is constant, its rounding is not
@@ -158,7 +158,12 @@ def identify_medium(
         low[before], high[before] = 0.0, high[~before][0]
     else:
         low = high = compliance
-    medium: Medium = CreepTable(time, compliance) if kind == "table" else _prony(record, history, place, lags)
+    if kind == "prony":
+        medium = _prony(record, history, place, lags)
+    elif kind == "springpot":
+        medium = _springpot(record, knots)
+    else:
+        medium = CreepTable(time, compliance)
     return IdentifiedMedium(medium, time, compliance, low, high, float(scatter), curve.length_unit)
 
 
@@ -190,8 +195,8 @@ def _check_growth(times: Array, depth: Array) -> None:
     """Raise ValueError where the depth recedes by more than scatter and resolution of the record explain."""
     steps = np.diff(depth)
     scatter = 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6)
-    changes = abs(steps[steps != 0])
-    resolution = changes.min() if 0 < changes.size < steps.size else 0.0
+    resolution = abs(steps[steps != 0]).min(initial=np.inf) if (steps == 0).any() else 0.0
+    resolution = resolution if np.isfinite(resolution) else 0.0
     size = 1
     while size <= depth.size // 2:
         count = depth.size // size
@@ -249,6 +254,10 @@ class _Record:
             if abs(creep - last).max() <= 1e-12 * abs(creep).max():
                 break
         return amounts
+
+    def squares(self, creep: Array) -> float:
+        """Sum of the squares of the measured depth less that of this creep."""
+        return float((self.residual(creep) ** 2).sum())
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
         """Depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
@@ -329,7 +338,7 @@ def _prony(record: _Record, history: ForceHistory, place: Integers, lags: Array)
     if at_once <= _ROUNDING * (responses @ amounts).max() or not (fluidity or kept.any()):
         raise ValueError(
             "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
-            "table"
+            "table or springpot"
         )
     return _series(instantaneous, fluidity, strengths[kept], 1 / times[kept])
 
@@ -348,3 +357,20 @@ def _series(instantaneous: float, fluidity: float, strengths: Array, rates: Arra
     moduli = (b @ vectors) ** 2 / (values * instantaneous**2)
     relaxed = 0.0 if fluidity else 1 / (instantaneous + strengths.sum())
     return Prony(relaxed, tuple(moduli.tolist()), tuple((1 / values).tolist()))
+
+
+def _springpot(record: _Record, knots: Array) -> Springpot:
+    """The springpot that fits best; its J is sampled at the knots."""
+    from scipy.optimize import minimize_scalar  # takes long to import
+
+    def response(exponent: float) -> Array:
+        slopes = np.diff(np.append(0.0, knots**exponent)) / np.diff(knots, prepend=0.0)
+        return record.responses[:, 1:] @ (slopes - np.append(slopes[1:], 0.0))
+
+    def squares(exponent: float) -> float:
+        column = response(exponent)[:, None]
+        return record.squares(column @ record.fit(column))
+
+    exponent = float(minimize_scalar(squares, bounds=(0.001, 0.999), method="bounded", options={"xatol": 1e-7}).x)
+    (amount,) = record.fit(response(exponent)[:, None])
+    return Springpot(1 / (amount * gamma(1 + exponent)), exponent)

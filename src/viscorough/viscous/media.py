@@ -62,11 +62,26 @@ class _Exponential(Medium):
         _, fluidity, compliances, times = self.retardation
         return fluidity + (compliances / times * np.exp(-time[..., None] / times)).sum(axis=-1)
 
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫J dt from start ≥ 0 to end ≥ start."""
+        start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+        instantaneous, fluidity, compliances, times = self.retardation
+        x, length = (end - start)[..., None] / times, end - start
+        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-start[..., None] / times) * np.expm1(-x))
+        return (instantaneous + 0.5 * fluidity * (start + end)) * length + delayed.sum(axis=-1)
+
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """ψ at times t > 0, any shape, and its limit at time 0, without the pulse η δ(t) of a dashpot."""
         time = np.asarray(time, dtype=float)
         _, relaxed, moduli, times = self.relaxation
         return relaxed + (moduli * np.exp(-time[..., None] / times)).sum(axis=-1)
+
+    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse η δ(t) of a dashpot."""
+        start, end = np.asarray(start, dtype=float)[..., None], np.asarray(end, dtype=float)[..., None]
+        _, relaxed, moduli, times = self.relaxation
+        decayed = -np.expm1(-(end - start) / times) * np.exp(-start / times)
+        return relaxed * (end - start)[..., 0] + (moduli * times * decayed).sum(axis=-1)
 
     def _check_spectra(self) -> None:
         """Raise ValueError if spectra cannot be held in double precision."""
@@ -296,6 +311,10 @@ class Springpot(Medium):
         """dJ/dt at times t ≥ 0, any shape; infinite at time 0."""
         with np.errstate(divide="ignore"):
             return np.asarray(time, dtype=float) ** (self.exponent - 1) / (self.modulus * gamma(self.exponent))
+
+    def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """J(end) − J(start) for 0 ≤ start ≤ end, to rounding."""
+        return _power_increment(start, end, self.exponent) / (self.modulus * gamma(1 + self.exponent))
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫J dt from start ≥ 0 to end ≥ start, to rounding."""

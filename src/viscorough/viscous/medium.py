@@ -42,8 +42,8 @@ class RetardationSpectrum(NamedTuple):
 class Medium(ABC):
     """A linear viscoelastic medium: creep compliance J(t) and relaxation modulus ψ(t) in shear.
 
-    A subclass gives J and its rate. Where its ψ or its spectra are known it gives those as well: ψ is what prescribed
-    depths need, discrete spectra are what direct integration needs. A medium without spectra gives the integrals, too.
+    A subclass gives J, its rate and its integral. Where its ψ or its spectra are known it gives those as well: ψ is
+    what prescribed depths and pressures need, discrete spectra are what direct integration needs.
 
     Examples
     --------
@@ -77,14 +77,21 @@ class Medium(ABC):
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """dJ/dt at times t ≥ 0, any shape; where J has a kink, the rate after it, or with `left` before it."""
 
+    @abstractmethod
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫J dt from start ≥ 0 to end ≥ start; of media without spectra."""
-        raise NotImplementedError
+        """∫J dt from start ≥ 0 to end ≥ start."""
+
+    def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """J(end) − J(start) for 0 ≤ start ≤ end."""
+        return self.creep_compliance(end) - self.creep_compliance(start)
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """ψ at times t ≥ 0, any shape, without the pulse η δ(t) of a dashpot. Raises ValueError if it is not known."""
-        raise ValueError(f"medium: {type(self).__name__}; allowed: media whose relaxation is known, as a Prony series")
+        raise self._without_modulus()
 
     def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫ψ dt from start ≥ 0 to end ≥ start; of media without spectra, if ψ is known."""
-        raise NotImplementedError
+        """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse at time 0. Raises ValueError if it is not known."""
+        raise self._without_modulus()
+
+    def _without_modulus(self) -> ValueError:
+        return ValueError(f"medium: {type(self).__name__}; allowed: media whose relaxation is known, as a Prony series")

@@ -25,12 +25,13 @@ def here(here):
     return here
 
 
-@pytest.mark.parametrize("fit", ["table", "prony"])
+@pytest.mark.parametrize("fit", ["table", "prony", "springpot"])
 def test_media_are_read_back(here, capsys, fit):
     assert run(f"creep curve.nc record.csv --force '20 uN' --fit {fit} -o rubber.yaml") == 0
     assert "rubber.yaml: J " in capsys.readouterr().out
     medium = viscorough.read_medium("rubber.yaml", "um")
-    np.testing.assert_allclose(medium.creep_compliance(TIMES[1:]), MEDIUM.creep_compliance(TIMES[1:]), rtol=0.003)
+    error = 0.2 if fit == "springpot" else 0.003
+    np.testing.assert_allclose(medium.creep_compliance(TIMES[1:]), MEDIUM.creep_compliance(TIMES[1:]), rtol=error)
     assert (here / "rubber.csv").exists() == (fit == "table")
     assert run("kinetics curve.nc --force 2e-5 --medium rubber.yaml --times 0.5,5 -o motion.nc") == 0
 

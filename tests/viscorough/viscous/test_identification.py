@@ -6,7 +6,7 @@ import pytest
 from support.contract import refused
 from support.curves import curve_of_body
 from support.media import MEDIA
-from viscorough import Prony, identify_medium, impulses, kinetics
+from viscorough import Prony, Springpot, identify_medium, impulses, kinetics
 from viscorough.reference import sphere
 
 CURVE = curve_of_body(sphere(1.0), np.geomspace(1e-9, 10, 300))
@@ -54,6 +54,14 @@ def test_prony_series_are_fitted(name):
     np.testing.assert_allclose(identified.creep_compliance(TIMES), MEDIA[name].creep_compliance(TIMES), rtol=0.003)
 
 
+@pytest.mark.parametrize("ramp", [False, True])
+def test_springpots_are_fitted(ramp):
+    force, depth = record(MEDIA["springpot"], ramp=ramp)
+    identified = identify_medium(CURVE, force, TIMES, depth, kind="springpot").medium
+    assert isinstance(identified, Springpot)
+    assert (identified.modulus, identified.exponent) == pytest.approx((2.0, 0.4), rel=3e-3 if ramp else 1e-5)
+
+
 def test_records_that_no_growing_contact_can_have_are_refused():
     force, depth = record(MEDIA["solid"])
     with refused("record: at time .* the depth has receded by .*; allowed: depths that grow"):
@@ -64,7 +72,7 @@ def test_records_that_no_growing_contact_can_have_are_refused():
         identify_medium(CURVE, force, TIMES[:4], depth[:4])
     with refused("force: .* record from -1 on; allowed"):
         identify_medium(CURVE, force, TIMES - 1.02, depth)
-    with refused("kind 'maxwell'; allowed: table, prony"):
+    with refused("kind 'maxwell'; allowed: table, prony, springpot"):
         identify_medium(CURVE, force, TIMES, depth, kind="maxwell")
     force, depth = record(MEDIA["newtonian"])
     with refused("kind prony: the record shows no compliance at once"):

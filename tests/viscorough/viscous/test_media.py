@@ -44,6 +44,20 @@ def test_creep_is_the_inverse_of_relaxation(name):
     assert (SPECTRA[name].retardation.compliances > 0).all()
 
 
+@pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
+def test_integrals_over_time(name):
+    """∫J dt and ∫ψ dt against quadrature, and one interval against its parts."""
+    medium = SPRINGS_AND_DASHPOTS[name]
+    for integral, function in (
+        (medium.creep_integral, medium.creep_compliance),
+        (medium.relaxation_integral, medium.relaxation_modulus),
+    ):
+        for start, end in ((0.0, 0.2), (0.7, 3.0)):
+            assert integral(start, end) == pytest.approx(quad(function, start, end, epsabs=0)[0], rel=1e-12)
+        times = np.linspace(0, 8, 9)
+        assert integral(times[:-1], times[1:]).sum() == pytest.approx(integral(0.0, 8.0), rel=1e-13)
+
+
 def test_closed_forms():
     t = TIMES
     np.testing.assert_allclose(Newtonian(3.0).creep_compliance(t), t / 3, rtol=1e-15)
@@ -63,7 +77,12 @@ def test_springpot(a):
     for t in (0.1, 3.0):
         product = medium.relaxation_modulus(t) * medium.creep_compliance(t)
         assert product * beta(1 - a, 1 + a) == pytest.approx(1, rel=1e-14)
-    assert medium.creep_integral(1e8, 1e8 + 1) == pytest.approx(medium.creep_compliance(1e8 + 0.5), rel=1e-14)
+    start, end = np.array([0.0, 1.0, 1e8]), np.array([2.0, 1.5, 1e8 + 1])
+    increment = medium.creep_increment(start, end)
+    np.testing.assert_allclose(
+        increment[:2], np.diff(medium.creep_compliance([[0, 2], [1, 1.5]]), axis=1)[:, 0], rtol=1e-13
+    )
+    assert increment[2] == pytest.approx(medium.creep_rate(1e8 + 0.5), rel=1e-14)
     assert medium.creep_integral(0, 2) == pytest.approx(quad(medium.creep_compliance, 0, 2)[0], rel=1e-8)
     assert medium.relaxation_integral(1, 2) == pytest.approx(quad(medium.relaxation_modulus, 1, 2)[0], rel=1e-10)
 

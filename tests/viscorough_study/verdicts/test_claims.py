@@ -162,11 +162,6 @@ def test_markdown_has_a_row_for_every_claim_and_sums_up_many_cases(table):
     assert shown[1][1].startswith("0.9 [")
 
 
-def test_unknown_claim_is_named():
-    with pytest.raises(ValueError, match="claim beauty: no criterion computes it"):
-        judge({"beauty": CLAIMS["beta"]}, evidence())
-
-
 @pytest.mark.parametrize(("across", "trial"), [(129, 0), (127, 1)])
 def test_scale_attributes(across, trial):
     fewer = evidence().discs.isel(realization=slice(6, None))  # of the first Hurst exponent

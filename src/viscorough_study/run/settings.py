@@ -15,14 +15,11 @@ import jsonschema
 _LIMITS = ("type", "enum", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems", "decimals")
 
 
-class SettingsError(ValueError):
-    """An invalid setting; the message is one line with key, value and allowed values."""
-
-
 def check_settings(settings, schema):
-    """Raise SettingsError unless the settings agree with the schema and with each other.
+    """Raise ValueError unless the settings agree with the schema and with each other.
 
     schema : of JSON, with a unit and a description for every key
+    The message is one line with key, value and allowed values.
     """
     standard = jsonschema.Draft202012Validator
     checker = standard.TYPE_CHECKER.redefine_many({"integer": _is_whole, "number": _is_finite})
@@ -32,7 +29,7 @@ def check_settings(settings, schema):
     checks = (_disc_without_line, _unlike_lengths, _too_short_wave, _empty_range, _too_short_curve)
     contradictions = chain.from_iterable(check(settings) for check in (*checks, _wrong_medium))
     if complaint := _schema_complaint(error) if error else next(contradictions, None):
-        raise SettingsError(complaint)
+        raise ValueError(complaint)
 
 
 def _is_whole(_, value):

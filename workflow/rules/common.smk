@@ -31,7 +31,7 @@ from viscorough.io.atomic import atomic_write
 from viscorough_study.run import cases
 from viscorough_study.run.paper_data import number, read_paper
 from viscorough_study.run.scans import scans
-from viscorough_study.run.settings import SettingsError, check_settings
+from viscorough_study.run.settings import check_settings
 from viscorough_study.run.settings_files import read_settings_file
 from viscorough_study.run.source_digest import SourceDigests
 from viscorough_study.run.stale_locks import remove_stale_locks
@@ -72,7 +72,7 @@ def complete(settings, files):
         update_config(completed, settings)
         check_settings(completed, read_yaml("workflow/schemas/config.schema.yaml"))
         return completed, cases.measured_cases(scans(completed["measured"]), completed["indentation"])
-    except SettingsError as error:
+    except ValueError as error:
         # A WorkflowError would show three more lines, about this file.
         raise SystemExit(f"Error in the settings: {error}")
 
@@ -183,7 +183,7 @@ def article_digests():
 def page_digests():
     """Digests of the texts of the page that are not results; their paths depend on the location of the project."""
     texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
-    texts += [PROJECT / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")]
+    texts += [PROJECT / name for name in ("docs/claims.csv", "docs/rules.png")]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
 

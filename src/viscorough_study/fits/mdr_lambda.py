@@ -52,14 +52,9 @@ class LineMatch:
 
         stretch : ln s, shape (1 + resamples,); chosen : mask of abscissae; nan beyond the range of the lines
         """
-        log_x, last = np.log(self.x), self.x.size - 1
-        place = (log_x[chosen] - stretch[:, None] - log_x[0]) / (log_x[-1] - log_x[0]) * last
-        below = np.clip(np.floor(np.nan_to_num(place)).astype(int), 0, last - 1)
-        rows = np.arange(len(self.lines))[:, None]
-        lower, upper = self.lines[rows, below], self.lines[rows, below + 1]
-        lines = lower + (place - below) * (upper - lower)
-        inside = (place >= 0) & (place <= last)
-        return np.where(inside, lines, np.nan) - self.discs[:, chosen]
+        log_x, shifted = np.log(self.x), np.log(self.x[chosen]) - stretch[:, None]
+        rows = zip(shifted, self.lines, strict=True)
+        return [np.interp(x, log_x, lines, left=np.nan, right=np.nan) for x, lines in rows] - self.discs[:, chosen]
 
     def best_stretch(self, window):
         """ln s that minimizes the largest deviation over a window of X, shape (1 + resamples,); nan if there is none.

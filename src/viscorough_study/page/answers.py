@@ -28,8 +28,7 @@ def answers(results):
         return results.records("claims", claim=claim)
 
     def extremes(claim, column):
-        rows = results.rows("claims", claim=claim)
-        return [find(rows, "claims", column) for find in (results.least, results.largest)]
+        return results.extremes(results.rows("claims", claim=claim), "claims", column)
 
     differences = results.rows("claims", claim="coincide")["value"].abs().dropna()
     return {
@@ -86,6 +85,6 @@ def failures(results):
     return {
         "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # one row per case
         **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned")},
-        "worst_model": results.largest(outside[np.isfinite(outside["error"])], "failure_map", "error"),
+        "worst_model": results.extremes(outside[np.isfinite(outside["error"])], "failure_map", "error")[1],
         "methods": {name: Counter(rows["verdict"]) for name, rows in table.groupby("method", sort=False)},
     }

@@ -24,14 +24,16 @@ def article(project, contents, *, paper, figures):
     contents : of a run (assembly.contents_of); paper : content of resources/paper/numbers.yaml
     figures : folder of the figures
     """
-    style, template = (read(project / "workflow/article" / name) for name in ("style.typ", "article.typ.jinja"))
+    names = ("style.typ", "article.typ.jinja")
+    style, template = ((project / "workflow/article" / name).read_text("utf-8") for name in names)
     environment = jinja2.Environment(
         undefined=jinja2.StrictUndefined, finalize=as_markup, trim_blocks=True, lstrip_blocks=True
     )
     published, results = project / "docs/results", contents["results"]
-    citation, law = yaml.safe_load(read(project / "CITATION.cff")), read_table(published / "law.csv")
-    sum_rules = json.loads(read(published / "sum_rules.json"))
+    citation, law = yaml.safe_load((project / "CITATION.cff").read_text("utf-8")), read_table(published / "law.csv")
+    sum_rules = json.loads((published / "sum_rules.json").read_text("utf-8"))
     springs = results.rows("interface", source="discs", case_group="base").sort_values("hurst")
+    validation = results.tables["validation"]
     text = environment.from_string(template).render(
         contents,
         citation=citation,
@@ -39,7 +41,7 @@ def article(project, contents, *, paper, figures):
         paper=paper,
         physics=counted_physics(contents["verdicts"]),
         titles=titles(contents["verdicts"]),
-        validation=finest_grid(results),
+        validation=validation[validation["elements"] == validation["elements"].max()].to_dict("records"),
         springs=springs.to_dict("records"),
         law=law[law["across"] == ACROSS].to_dict("records"),
         plateaus=results.tables["plateaus"].to_dict("records"),
@@ -47,13 +49,9 @@ def article(project, contents, *, paper, figures):
         sum_rules=sum_rules_shown(sum_rules),
         audited={"plain": float(PLAIN), "audit": float(AUDITED), "across": sum_rules["across"]},
         outside=read_table(published / "outside.csv").to_dict("records"),
-        origins=json.loads(read(published / "published.json")),
+        origins=json.loads((published / "published.json").read_text("utf-8")),
     )
     return typst.compile((style + text).encode(), root=figures, ignore_system_fonts=True)
-
-
-def read(path):
-    return path.read_text(encoding="utf-8")
 
 
 def as_markup(value):
@@ -77,12 +75,6 @@ def titles(verdicts):
     for claim in (claim for members in verdicts.values() for claim in members):
         named[claim["verdict"]].append(f"{claim['title']} ({claim['where']})")
     return named
-
-
-def finest_grid(results):
-    """Rows of the table of validation on the finest grid."""
-    table = results.tables["validation"]
-    return table[table["elements"] == table["elements"].max()].to_dict("records")
 
 
 def control(results):

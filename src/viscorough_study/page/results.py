@@ -66,13 +66,10 @@ class Results:
         """The records of the rows with these values, {column: value}."""
         return [self.record(table, row) for row in self.rows(table, **wanted).index]
 
-    def least(self, rows, table, column):
-        """The smallest number in a column of some rows of a table; None if there is none."""
-        return self.number(table, rows[column].idxmin(), column) if rows[column].notna().any() else None
-
-    def largest(self, rows, table, column):
-        """The largest number in a column of some rows of a table; None if there is none."""
-        return self.number(table, rows[column].idxmax(), column) if rows[column].notna().any() else None
+    def extremes(self, rows, table, column):
+        """The smallest and the largest number in a column of some rows of a table; (None, None) if there is none."""
+        ends = rows[column].dropna().agg(["idxmin", "idxmax"]) if rows[column].notna().any() else ()
+        return tuple(self.number(table, row, column) for row in ends) or (None, None)
 
     def count(self, table, column, counted):
         """Number of rows with the value `counted` in a column."""

@@ -72,9 +72,8 @@ def versions():
 def _time_and_memory(path):
     """Seconds and megabytes of a job."""
     try:
-        job = pd.read_csv(path, sep="\t").iloc[-1]
-        seconds, memory = float(job["s"]), job["max_rss"]
-        memory = 0.0 if memory == "-" or pd.isna(memory) else float(memory)  # not measured for the shortest jobs
+        job = pd.read_csv(path, sep="\t", na_values="-").iloc[-1]
+        seconds, memory = float(job["s"]), float(job.fillna(0.0)["max_rss"])  # not measured for the shortest jobs
     except (ValueError, LookupError):
         seconds = memory = math.nan
     if not (0 <= seconds < math.inf and 0 <= memory < math.inf):

@@ -5,14 +5,12 @@ import re
 from glob import glob
 from pathlib import Path
 
-from viscorough_study.run.settings import SettingsError
-
 
 def scans(entries):
     """{scan: group, file, bytes, digest of its content, spacing, unit, preparation, forces} of all files.
 
     entries : the setting `measured`; its patterns are relative to the working directory
-    A scan is named after its group and file. Raises SettingsError if a pattern matches no file, or two names agree.
+    A scan is named after its group and file. Raises ValueError if a pattern matches no file, or two names agree.
     """
     result = {}
     for entry in entries:
@@ -20,14 +18,12 @@ def scans(entries):
             matching = map(Path, glob(pattern, recursive=True, include_hidden=True))
             files = sorted(str(path) for path in matching if path.is_file())
             if not files:
-                raise SettingsError(
-                    f"measured: no file {pattern} of {entry['name']}; allowed: files or patterns of files"
-                )
+                raise ValueError(f"measured: no file {pattern} of {entry['name']}; allowed: files or patterns of files")
             for file in files:
                 name = f"{entry['name']}_{re.sub('[^A-Za-z0-9]+', '_', Path(file).stem).strip('_')}"
                 if name in result and result[name]["file"] != file:
                     both = f"{result[name]['file']} and {file}"
-                    raise SettingsError(f"measured: {both} have the same name {name}; allowed: different names")
+                    raise ValueError(f"measured: {both} have the same name {name}; allowed: different names")
                 shared = {"spacing": entry.get("spacing", []), "unit": entry.get("unit")}
                 shared |= {"preparation": entry.get("preparation", {}), "forces": entry.get("forces", [])}
                 result[name] = shared | _content(file) | {"group": entry["name"], "file": file}

@@ -15,24 +15,21 @@ import jsonschema
 _LIMITS = ("type", "enum", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems", "decimals")
 
 
-class SettingsError(ValueError):
-    """An invalid setting; the message is one line with key, value and allowed values."""
-
-
 def check_settings(settings, schema):
-    """Raise SettingsError unless the settings agree with the schema and with each other.
+    """Raise ValueError unless the settings agree with the schema and with each other.
 
     schema : of JSON, with a unit and a description for every key
+    The message is one line with key, value and allowed values.
     """
     standard = jsonschema.Draft202012Validator
     checker = standard.TYPE_CHECKER.redefine_many({"integer": _is_whole, "number": _is_finite})
     keywords = {"eachOnce": _each_once, "decimals": _decimals}
     validator = jsonschema.validators.extend(standard, keywords, type_checker=checker)
     error = jsonschema.exceptions.best_match(validator(schema).iter_errors(settings))
-    checks = (_disc_without_line, _unlike_lengths, _decreasing_task, _too_short_wave, _empty_range, _too_short_curve)
+    checks = (_disc_without_line, _unlike_lengths, _too_short_wave, _empty_range, _too_short_curve)
     contradictions = chain.from_iterable(check(settings) for check in (*checks, _wrong_medium))
     if complaint := _schema_complaint(error) if error else next(contradictions, None):
-        raise SettingsError(complaint)
+        raise ValueError(complaint)
 
 
 def _is_whole(_, value):
@@ -94,15 +91,6 @@ def _unlike_lengths(settings):
             yield f"rms {combination['rms']} in {where} is out of range; allowed: below diameter/100, from 1e-12 of it"
 
 
-def _decreasing_task(settings):
-    for task in settings["methods"]["tasks"]:
-        (first, last), where = task["fractions"], f"fractions of {task['name']} in methods.tasks"
-        if first > last:
-            yield f"{where} decrease; allowed: the first not above the second"
-        if task["levels"] > 1 and last < 1.1 * first:
-            yield f"{where} are too close; allowed: the second from 1.1 of the first"
-
-
 def _too_short_wave(settings):
     sizes = settings["sizes"]
     coarsest = {"name": "sizes.control", "elements": min(grid["elements"] for grid in sizes["discs"])}
@@ -114,21 +102,23 @@ def _too_short_wave(settings):
 
 
 def _empty_range(settings):
-    ranges = {
-        f"{section}.x_low and x_high": (settings[section]["x_low"], settings[section]["x_high"])
-        for section in ("ensemble", "reduction")
+    x_low, sizes, times = settings["ensemble"]["x_low"], settings["sizes"], settings["media"]["times"]
+    decades = {
+        "ensemble.x_low and x_high": (x_low, settings["ensemble"]["x_high"]),
+        "reduction.x_low and x_high": (settings["reduction"]["x_low"], settings["reduction"]["x_high"]),
+        "ensemble.x_low and indentation.until_x": (x_low, settings["indentation"]["until_x"]),
+        "ensemble.x_low and sizes.until_x": (x_low, sizes["until_x"]),
+        "media.times.low and high": (times["low"], times["high"]),
+        **{f"sizes.windows[{i}]": window for i, window in enumerate(sizes["windows"])},
     }
-    for section in ("indentation", "sizes"):
-        ends = settings["ensemble"]["x_low"], settings[section]["until_x"]
-        ranges[f"ensemble.x_low and {section}.until_x"] = ends
-    ranges |= {f"sizes.windows[{i}]": window for i, window in enumerate(settings["sizes"]["windows"])}
-    ranges["media.times.low and high"] = settings["media"]["times"]["low"], settings["media"]["times"]["high"]
-    for name, (low, high) in ranges.items():
-        if high < 9.99 * low:  # rounded
-            yield f"{name}: {low} and {high} are less than a decade; allowed: from one decade"
-    low, high = settings["scaling"]["stiffness_range"]
-    if not low < high:
-        yield f"scaling.stiffness_range: {low} and {high} are no range; allowed: the first below the second"
+    ranges = [(name, ends, 10) for name, ends in decades.items()]
+    ranges.append(("scaling.stiffness_range", settings["scaling"]["stiffness_range"], 1.01))
+    for task in settings["methods"]["tasks"]:
+        factor = 1.1 if task["levels"] > 1 else 1
+        ranges.append((f"fractions of {task['name']} in methods.tasks", task["fractions"], factor))
+    for name, (low, high), factor in ranges:
+        if high < factor * low * (1 - 1e-9):  # rounding
+            yield f"{name}: {low} and {high} are too close; allowed: the second from {factor} times the first"
 
 
 def _too_short_curve(settings):

@@ -13,18 +13,14 @@ import yaml
 
 from viscorough.io.atomic import reading
 from viscorough.io.unique_keys import UniqueKeys
-from viscorough_study.run.settings import SettingsError
 
 
 def read_settings_file(path):
-    """The mapping in a file. Raises SettingsError with one line that names the file and, where possible, the line."""
-    try:
-        with reading(path, "a mapping of YAML in UTF-8 is needed", OSError, ValueError, yaml.YAMLError):
-            settings = yaml.load(Path(path).read_bytes().decode("utf-8-sig"), UniqueKeys)
-            if not isinstance(settings, dict):
-                raise ValueError("it holds no settings")
-    except ValueError as error:
-        raise SettingsError(str(error)) from None
+    """The mapping in a file. Raises ValueError with one line that names the file and, where possible, the line."""
+    with reading(path, "a mapping of YAML in UTF-8 is needed", OSError, ValueError, yaml.YAMLError):
+        settings = yaml.load(Path(path).read_bytes().decode("utf-8-sig"), UniqueKeys)
+        if not isinstance(settings, dict):
+            raise ValueError("it holds no settings")
     return settings
 
 
@@ -32,7 +28,7 @@ def main(paths):
     try:
         for path in paths:
             read_settings_file(path)
-    except SettingsError as error:
+    except ValueError as error:
         sys.stderr.write(f"Error in the settings: {error}\n")
         return 2
     return 0

@@ -28,15 +28,11 @@ def remove_stale_locks(folder=".snakemake"):
         except BlockingIOError:
             pass  # another Snakemake is running
         else:
-            _remove(folder / "locks")
+            if stale := list(folder.glob("locks/*.lock")):
+                print(REMOVED, file=sys.stderr)
+            for path in stale:
+                path.unlink(missing_ok=True)
         fcntl.flock(alive, fcntl.LOCK_SH)
     except OSError:
         return None
     return alive
-
-
-def _remove(folder):
-    if stale := list(folder.glob("*.lock")):
-        for path in stale:
-            path.unlink(missing_ok=True)
-        print(REMOVED, file=sys.stderr)

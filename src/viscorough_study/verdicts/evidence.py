@@ -217,3 +217,8 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, 
     elif met is None:
         verdict = "undecided"
     return Case(name, *values, *extremes, expected, verdict, convention, *counts)
+
+
+def exact(name, value, expected, met, values):
+    """Case of a quantity without statistical scatter; values : over grids, times or realizations, for its extremes."""
+    return judged(name, (float(value), *NO_INTERVAL), expected, bool(met), extremes=(min(values), max(values)))

@@ -14,9 +14,8 @@ from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.integration.internal_variables import march_medium
 from viscorough.viscous.media import Newtonian
-from viscorough_study.fits.intervals import NO_INTERVAL
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
-from viscorough_study.verdicts.evidence import hurst_name, judged
+from viscorough_study.verdicts.evidence import exact, hurst_name
 
 ACROSS = 33  # elements across the disc
 DEPTH = 1.5  # in rms heights; some tens of elements are in contact
@@ -43,9 +42,7 @@ def _disc(evidence, hurst):
 
 def _case(name, deviations, tolerance):
     """Case of the largest of several deviations, which should vanish."""
-    worst = max(deviations)
-    extremes = min(deviations), worst
-    return judged(name, (float(worst), *NO_INTERVAL), 0.0, bool(worst <= tolerance), extremes=extremes)
+    return exact(name, max(deviations), 0.0, max(deviations) <= tolerance, deviations)
 
 
 def history(evidence, tolerance):

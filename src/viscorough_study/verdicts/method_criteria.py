@@ -4,7 +4,7 @@ import numpy as np
 
 from viscorough.surfaces import cut_disc
 from viscorough_study.fits.intervals import NO_INTERVAL, UNDEFINED, difference
-from viscorough_study.verdicts.evidence import judged
+from viscorough_study.verdicts.evidence import exact, judged
 
 WEEKS_IN_MINUTES = 7 * 24 * 60  # ratio of "several weeks" to "a few minutes"
 SMALL_ERROR = 0.01  # of the velocity, at which contact problems are counted
@@ -14,8 +14,7 @@ def gamma(evidence, tolerance):
     """Depth of direct integrations in time over the elastic depth, against the factor of Eq. 8."""
     for name, rows in evidence.tables["direct"].groupby("case", sort=False):
         ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
-        met, extremes = bool((np.abs(ratio - factor) <= tolerance).all()), (ratio.min(), ratio.max())
-        yield judged(name, (ratio.median(), *NO_INTERVAL), factor, met, extremes=extremes)
+        yield exact(name, ratio.median(), factor, (np.abs(ratio - factor) <= tolerance).all(), ratio)
 
 
 def line_spectrum(evidence, tolerance):
@@ -44,9 +43,8 @@ def bodies_of_revolution(evidence, tolerance):
     rows = validation[validation["case"].str.endswith("_reduction")]
     for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
         error = grids.sort_values("elements")["error"]
-        met, extremes = bool(error.iloc[-1] <= tolerance), (error.min(), error.max())
         name = f"{case.removesuffix('_reduction')}, {quantity}"
-        yield judged(name, (error.iloc[-1], *NO_INTERVAL), 0.0, met, extremes=extremes)
+        yield exact(name, error.iloc[-1], 0.0, error.iloc[-1] <= tolerance, error)
 
 
 def elements(evidence, tolerance):
@@ -55,8 +53,8 @@ def elements(evidence, tolerance):
     count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
     x = np.arange(across) - (across - 1) / 2
     on_rim = (x[:, None] ** 2 + x**2 == ((across - 1) / 2) ** 2).sum()
-    met, extremes = bool(abs(count - paper_count) <= tolerance), (count - on_rim, count)
-    yield judged(f"{across} across", (count, *NO_INTERVAL), paper_count, met, extremes=extremes)
+    met = abs(count - paper_count) <= tolerance
+    yield exact(f"{across} across", count, paper_count, met, (count - on_rim, count))
 
 
 def contact_problems(evidence, tolerance):
@@ -70,8 +68,7 @@ def contact_problems(evidence, tolerance):
     if not ratios.size:
         yield judged("of a disc", UNDEFINED, 1.0, None)
         return
-    met = bool((np.abs(np.log(ratios)) <= np.log(tolerance)).all())
-    yield judged("of a disc", (ratios.max(), *NO_INTERVAL), 1.0, met, extremes=(ratios.min(), ratios.max()))
+    yield exact("of a disc", ratios.max(), 1.0, (np.abs(np.log(ratios)) <= np.log(tolerance)).all(), ratios)
 
 
 def computing_time(evidence, tolerance):

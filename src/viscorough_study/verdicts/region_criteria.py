@@ -6,16 +6,9 @@ import numpy as np
 from scipy.special import fdtri
 
 from viscorough import reference
-from viscorough_study.fits.intervals import (
-    NO_INTERVAL,
-    UNDEFINED,
-    interval,
-    mean_with_interval,
-    resampled_means,
-    with_interval,
-)
+from viscorough_study.fits.intervals import UNDEFINED, interval, mean_with_interval, resampled_means, with_interval
 from viscorough_study.fits.plateau import inner_slopes
-from viscorough_study.verdicts.evidence import hurst_name, judged
+from viscorough_study.verdicts.evidence import exact, hurst_name, judged
 
 ROUNDING = 1e-9  # relative difference below which numbers of decades count as equal
 LEFT_REGION = 2.0  # ratio of κ to that of one element at which a curve leaves region (a)
@@ -94,8 +87,7 @@ def first_region(evidence, tolerance):
         if not ratio.size:
             yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
             continue
-        met, extremes = bool(np.all(np.abs(ratio - 1) <= tolerance)), (ratio.min(), ratio.max())
-        yield judged(hurst_name(hurst), (np.median(ratio), *NO_INTERVAL), 1.0, met, extremes=extremes)
+        yield exact(hurst_name(hurst), np.median(ratio), 1.0, np.all(np.abs(ratio - 1) <= tolerance), ratio)
 
 
 def last_region(evidence, tolerance):

@@ -2,11 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.special import gamma as gamma_function
 from scipy.stats import binom
 
 from support.study import LIMITS, ensemble_of, three_regions
-from viscorough import reference
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.power_law import find_region, fit_power_law, named_windows
@@ -19,12 +17,12 @@ def one(dataset):
     return dataset.isel(rms_convention=0)
 
 
-def scattered(beta, prefactor, realizations, seed, *, slope_scatter=0.03, scatter=0.3):
+def scattered(beta, prefactor, realizations, seed):
     """vt/h of power laws, each of its own slope and prefactor; their geometric mean is the law."""
     rng = np.random.default_rng(seed)
     log_x = np.log(x)
-    slopes = beta + slope_scatter * rng.normal(size=(realizations, 1))
-    logs = np.log(prefactor) + slopes * log_x + scatter * rng.normal(size=(realizations, 1))
+    slopes = beta + 0.03 * rng.normal(size=(realizations, 1))
+    logs = np.log(prefactor) + slopes * log_x + 0.3 * rng.normal(size=(realizations, 1))
     return np.exp(logs + 0.05 * rng.normal(size=logs.shape))
 
 
@@ -92,23 +90,14 @@ def test_fit_is_least_squares_in_logarithms():
 
 @pytest.mark.parametrize("realizations", [8, 24])
 def test_intervals_cover_the_truth_95_times_in_100(realizations):
-    """200 ensembles; the number of hits lies in the 99.9 % range of the binomial distribution.
-
-    That a percentile interval of 8 realizations without widening would fail here is part of the point.
-    """
-    hits = np.zeros(3)
+    """200 ensembles; the number of hits lies in the 99.9 % range of the binomial distribution."""
+    hits = np.zeros(2)
     for seed in range(200):
         velocity = scattered(0.4, 0.7, realizations, seed=(realizations, seed))
         fit = fit_power_law(x, velocity, (1e-5, 1e-1), average="geometric", resamples=200, seed=seed)
-        plain = np.quantile(fit.betas[1:], [0.025, 0.975])
-        truth = (0.4, 1 / 0.7, 0.4)
-        intervals = (fit.beta()[1:], fit.zeta()[1:], plain)
-        hits += [low <= value <= high for value, (low, high) in zip(truth, intervals, strict=True)]
+        hits += [low <= truth <= high for truth, (_, low, high) in ((0.4, fit.beta()), (1 / 0.7, fit.zeta()))]
     fewest, most = binom.interval(0.999, 200, 0.95)
-    assert fewest <= hits[0] <= most
-    assert fewest <= hits[1] <= most
-    if realizations == 8:
-        assert hits[2] < hits[0]
+    assert fewest <= hits.min() <= hits.max() <= most
 
 
 def test_partly_defined_realizations_count_where_they_are_defined():
@@ -128,14 +117,3 @@ def test_fit_refuses_and_has_no_interval_for_one_realization():
     assert np.isnan(fit_power_law(x, velocity[:1], (1e-4, 1e-2), average="geometric", **BOOTSTRAP).beta()[1:]).all()
     with pytest.raises(ValueError, match="at least 3"):
         fit_power_law(x, velocity, (1.0e-4, 1.1e-4), average="geometric", **BOOTSTRAP)
-
-
-def test_both_readings_describe_the_same_curve():
-    """ζ of either reading, put into the paper's law of that reading, gives back the curve."""
-    velocity = scattered(0.375, 0.7, 6, seed=6, slope_scatter=0)
-    fit = fit_power_law(x, velocity, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
-    for gamma in ("without", "with"):
-        law = reference.velocity_law(x, fit.zeta(gamma=gamma)[0], 1 - fit.betas[0], gamma=gamma == "with")
-        np.testing.assert_allclose(law, x ** fit.betas[0] / fit.zetas[0], rtol=1e-12)
-    ratio = fit.zeta(gamma="with")[0] / fit.zeta()[0]
-    assert ratio == pytest.approx(1 / gamma_function(1 + fit.betas[0]))

@@ -1,7 +1,6 @@
 """Laws of the prefactor by one measure: known factors and shapes, differences, and what cannot be compared."""
 
 import dataclasses
-from itertools import product
 
 import numpy as np
 import pytest
@@ -10,7 +9,7 @@ from scipy.special import gamma as gamma_function
 
 from support.study import BOOTSTRAP, HURST, LIMITS, evidence, evidence_with_factors
 from viscorough import reference
-from viscorough_study.fits.zeta_laws import COLUMNS, LAWS, difference, measure_value, zeta_laws
+from viscorough_study.fits.zeta_laws import COLUMNS, LAWS, measure_value, zeta_laws
 
 MEASURES = "deviation", "common factor", "spread"
 FOUR, VISCOUS, ELEVEN = LAWS  # Eq. 4 without and with Γ, Eq. 11 with Γ
@@ -37,17 +36,6 @@ def test_a_common_factor_is_told_from_the_shape():
         for law in LAWS:
             deviation, factor, spread = measures(table, quantity, law)
             assert deviation**2 == pytest.approx(np.log(factor) ** 2 + spread**2, abs=2e-3)
-
-
-def test_differences_are_those_of_the_same_samples():
-    table = compared(evidence())
-    for quantity, law, measure in product(("zeta", "curve"), (FOUR, VISCOUS), ("deviation", "spread")):
-        value, low, high = measure_value(table, quantity, difference(law), measure)
-        first, second = (measure_value(table, quantity, name, measure)[0] for name in (law, ELEVEN))
-        assert value == pytest.approx(first - second, rel=1e-12)
-        assert low <= value <= high
-    value, _, high = measure_value(table, "curve", difference(FOUR), "deviation")
-    assert value < high < 0, "surfaces that obey Eq. 4 are nearer to it"
 
 
 def test_realizations_of_each_hurst_exponent_are_drawn_independently():

@@ -1,4 +1,4 @@
-"""What the page says of the scale, the methods and other solvers."""
+"""What the page says of the scale, the methods and their failures."""
 
 import json
 from itertools import chain

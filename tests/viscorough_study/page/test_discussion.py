@@ -10,7 +10,8 @@ TABLE = pd.read_csv(ROOT / "docs/results/literature.csv")
 
 
 def test_numbers_of_others_stand_beside_ours():
-    quantities = discussion(Results({"literature": TABLE}, {}))["quantities"]
+    """And every source is listed once, with how it is known."""
+    sources, quantities = discussion(Results({"literature": TABLE}, {})).values()
     for name, rows in quantities.items():
         for row in rows:
             of_table = TABLE[(TABLE["quantity"] == name) & (TABLE["hurst"] == row["hurst"])]
@@ -26,11 +27,6 @@ def test_numbers_of_others_stand_beside_ours():
                 assert source.endswith(", as quoted") == (theirs["sure"] == "quoted")
                 assert source.startswith(theirs["source"].split(",")[0].split(" and ")[0])
     assert sum(len(row["theirs"]) for rows in quantities.values() for row in rows) > 10
-
-
-def test_every_source_is_listed_once_with_how_it_is_known():
-    sources = discussion(Results({"literature": TABLE}, {}))["sources"]
     named = [(source["source"], source["year"]) for source in sources]
     assert len(named) == len(set(named)) == len(TABLE.groupby(["source", "year"]))
     assert {source["known"] for source in sources} <= set(KNOWN.values())
-    assert discussion(Results({"literature": TABLE.assign(hurst=float("nan"))}, {}))["quantities"] == {}

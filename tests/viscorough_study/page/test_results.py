@@ -39,9 +39,9 @@ def test_results_give_numbers_with_their_places(tmp_path):
     write_table(table, *files, columns=columns, dimension="row", title="Errors", attributes=attributes)
     results = read_results({"errors": tmp_path / "errors.csv"})
     rows = results.rows("errors", kind="a")
-    assert results.largest(rows, "errors", "error") == Number(0.3, "errors", "error", 0)
-    assert results.least(results.tables["errors"], "errors", "error") == Number(0.1, "errors", "error", 1)
-    assert results.least(results.rows("errors", kind="c"), "errors", "error") is None
+    assert results.extremes(rows, "errors", "error") == 2 * (Number(0.3, "errors", "error", 0),)
+    assert results.extremes(results.tables["errors"], "errors", "error")[0] == Number(0.1, "errors", "error", 1)
+    assert results.extremes(results.rows("errors", kind="c"), "errors", "error") == (None, None)
     assert results.count("errors", "kind", "a").value == 2
     assert results.settings == {"errors": {"seed": 1}}
 

@@ -3,7 +3,6 @@
 import pytest
 
 from viscorough_study.run.scans import scans
-from viscorough_study.run.settings import SettingsError
 
 
 @pytest.fixture
@@ -36,5 +35,5 @@ def test_patterns_and_names(here):
 )
 @pytest.mark.usefixtures("here")
 def test_missing_and_ambiguous_files(files, message):
-    with pytest.raises(SettingsError, match=message):
+    with pytest.raises(ValueError, match=message):
         scans([{"name": "ground", "files": [files]}])

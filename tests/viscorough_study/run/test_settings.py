@@ -8,7 +8,7 @@ import yaml
 from support.workflow import ROOT, merged, read_settings
 from viscorough_study.figures.conventions import CONVENTION_LABELS
 from viscorough_study.fits.conventions import VALUES
-from viscorough_study.run.settings import SettingsError, check_settings
+from viscorough_study.run.settings import check_settings
 
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 
@@ -33,8 +33,7 @@ WRONG = [
     ({"discs": None}, "discs is empty; allowed: type object ("),
     ({"indentation": {"tolerance": "1e-3"}}, "write numbers as 1.0e-3, with a point"),
     ({"indentation": {"until_x": float("nan")}}, "indentation.until_x is nan; allowed: type number, minimum 1e-14"),
-    ({"indentation": {"until_x": 1e-9}}, "ensemble.x_low and indentation.until_x: 1e-09 and 1e-09 are less than a"),
-    ({"sizes": {"until_x": 1e-12}}, "ensemble.x_low and sizes.until_x: 1e-09 and 1e-12 are less than a decade"),
+    ({"indentation": {"until_x": 1e-9}}, "ensemble.x_low and indentation.until_x: 1e-09 and 1e-09 are too close"),
     ({"surface": {"amplitudes": "constant"}}, "surface.amplitudes is 'constant'; allowed: enum ['random', 'fixed'] ("),
     ({"surface": {"corners": 1}}, "surface.corners is 1; allowed: type boolean ("),
     ({"discs": {"combinations": [{"number": 1, "force": 1.0}]}}, "discs.combinations[0]: 'viscosity' is a required"),
@@ -44,27 +43,27 @@ WRONG = [
     ({"variants": {"cases": [{"name": "nothing"}]}}, "variants.cases[0] is {'name': 'nothing'}; allowed: type"),
     ({"variants": {"cases": [{"name": "sizes", "period": 2.0}]}}, "variants.cases[0].name is 'sizes'; allowed"),
     ({"variants": {"cases": [{"name": "wider\n", "period": 2.0}]}}, r"variants.cases[0].name is 'wider\n'; allowed"),
-    ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.5]}]}}, "fractions of few in methods.tasks are too close"),
-    ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.4]}]}}, "fractions of few in methods.tasks decrease"),
+    (
+        {"methods": {"tasks": [TASK | {"fractions": [0.5, 0.5]}]}},
+        "fractions of few in methods.tasks: 0.5 and 0.5",
+    ),
+    ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.4], "levels": 1}]}}, "the second from 1 times the first"),
     ({"methods": {"elements": [33, 33]}}, "methods.elements: 33 occurs twice; allowed: once"),
     ({"media": {"cases": [FLUID | {"kind": "maxwell"}]}}, "fluid in media.cases: lacks shear_modulus; maxwell needs"),
     ({"media": {"cases": [FLUID | {"exponent": 0.5}]}}, "fluid in media.cases: unknown key 'exponent'; allowed for"),
-    ({"media": {"times": {"low": 1.0, "high": 2.0}}}, "media.times.low and high: 1.0 and 2.0 are less than a decade"),
-    ({"measured": [{"name": "mine", "files": []}]}, "measured[0].files is []; allowed: type array, minItems 1"),
     ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst[1] is 0.40000000001; allowed: type number"),
     ({"sizes": {"discs": [{"elements": 17, "realizations": 2}]}}, "roll_off_wavelength 0.125 of sizes.control is too"),
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"discs": {"short_until_x": 0.5}}, "discs.short_until_x: curves that end at X = 0.5 miss a part of verdicts"),
-    ({"sizes": {"windows": [[0.01, 0.02]]}}, "sizes.windows[0]: 0.01 and 0.02 are less than a decade"),
-    ({"scaling": {"stiffness_range": [0.3, 0.03]}}, "scaling.stiffness_range: 0.3 and 0.03 are no range"),
+    ({"sizes": {"windows": [[0.01, 0.02]]}}, "sizes.windows[0]: 0.01 and 0.02 are too close"),
+    ({"scaling": {"stiffness_range": [0.3, 0.03]}}, "scaling.stiffness_range: 0.3 and 0.03 are too close"),
 ]
 
 
 @pytest.mark.parametrize(("wrong", "message"), WRONG, ids=[message[:30] for _, message in WRONG])
 def test_wrong_settings_end_with_one_line(settings, wrong, message):
-    with pytest.raises(SettingsError) as error:
+    with pytest.raises(ValueError, match=re.escape(message)) as error:
         check_settings(merged(settings, wrong), SCHEMA)
-    assert message in str(error.value)
     assert "\n" not in str(error.value)
     assert len(str(error.value)) < 250
 

@@ -1,9 +1,5 @@
 """Files of settings that cannot be read: one line with file and line."""
 
-import os
-import subprocess
-import sys
-
 import pytest
 
 from viscorough_study.run.settings_files import main, read_settings_file
@@ -32,14 +28,6 @@ def test_broken_file_is_one_line(tmp_path, monkeypatch, capsys, content, message
     assert message in text
     assert text.endswith("; a mapping of YAML in UTF-8 is needed\n")
     assert text.count("\n") == 1
-
-
-def test_pipe_is_not_waited_for(tmp_path):
-    os.mkfifo(tmp_path / "pipe.yaml")
-    command = [sys.executable, "-m", "viscorough_study.run.settings_files", "pipe.yaml"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=3000, check=False)
-    assert done.returncode == 2
-    assert done.stderr == ("Error in the settings: pipe.yaml: not readable (it is a pipe); a regular file is needed\n")
 
 
 def test_readable_file(tmp_path, capsys):

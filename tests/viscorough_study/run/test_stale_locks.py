@@ -4,47 +4,30 @@ import os
 import subprocess
 import sys
 
-import pytest
-
 from viscorough_study.run.stale_locks import remove_stale_locks
 
 REMOVE = "from viscorough_study.run.stale_locks import remove_stale_locks; alive = remove_stale_locks(); "
 
 
-@pytest.fixture
-def locks(tmp_path, monkeypatch):
-    """The locks that a killed run has left in the current folder."""
+def test_locks_are_kept_while_any_other_process_lives(tmp_path, monkeypatch, capfd):
+    """And removed with one line when it has been killed."""
     monkeypatch.chdir(tmp_path)
-    paths = [tmp_path / ".snakemake/locks" / name for name in ("0.input.lock", "0.output.lock")]
-    paths[0].parent.mkdir(parents=True)
-    for path in paths:
-        path.write_text("results/curve.nc\n")
-    return paths
-
-
-def test_locks_of_a_killed_run_are_removed_with_one_line(locks, capfd):
-    os.close(remove_stale_locks())
-    assert not any(path.exists() for path in locks)
-    assert capfd.readouterr().err.count("\n") == 1
-    os.close(remove_stale_locks())
-    assert capfd.readouterr() == ("", ""), "nothing is said without locks"
-
-
-def test_locks_are_kept_while_any_other_process_lives(locks, capfd):
+    lock = tmp_path / ".snakemake/locks/0.input.lock"
     command = [sys.executable, "-c", REMOVE + "print(flush=True); input()"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as other:
         try:
             other.stdout.readline()
-            for path in locks:
-                path.write_text("results/curve.nc\n")
+            lock.parent.mkdir()
+            lock.touch()
             for _ in range(2):
                 os.close(remove_stale_locks())
-                assert all(path.exists() for path in locks)
+                assert lock.exists()
         finally:
             other.kill()
     assert capfd.readouterr().err == ""
     os.close(remove_stale_locks())
-    assert not any(path.exists() for path in locks)
+    assert not lock.exists()
+    assert capfd.readouterr().err.count("\n") == 1
 
 
 def test_folder_that_cannot_be_made(tmp_path, monkeypatch):

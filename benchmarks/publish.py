@@ -32,7 +32,7 @@ from viscorough_study.verdicts.evidence import VERDICTS
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
-OTHER_SOLVERS = "resources/published/other_solvers.csv"
+OTHER_SOLVERS = "resources/published/other_solvers.csv"  # quoted by runs that do not measure them
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
 # {command of make: names of figures, names of tables} that it makes in results/ and that are published
 MADE = {

@@ -183,7 +183,7 @@ def article_digests():
 def page_digests():
     """Digests of the texts of the page that are not results; their paths depend on the location of the project."""
     texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
-    texts += [PROJECT / name for name in ("docs/claims.csv", "docs/rules.png")]
+    texts += [PROJECT / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
 

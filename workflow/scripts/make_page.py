@@ -11,7 +11,7 @@ from viscorough_study.run.job_log import log_to
 def main(project, figures, page_file, *, alternative, **run):
     """Write the page.
 
-    project : folder of the project, which has template, style, captions, published verdicts, and the
+    project : folder of the project, which has template, style, captions, published numbers and verdicts, and the
         picture of the rules
     figures : paths, whose stems name them; alternative : {figure: text for those who cannot see it}
     run : further arguments of `contents_of`

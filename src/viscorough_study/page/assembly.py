@@ -14,7 +14,7 @@ from viscorough_study.run.tables import read_recorded
 def contents_of(project, discs, lines, *, tables, claims, numbers):
     """{name: content} of a run, for the templates of page and article.
 
-    project : folder of the project, which has the verdicts of the full scale
+    project : folder of the project, which has published numbers and the verdicts of the full scale
     discs, lines : paths of the pools
     tables : paths of CSV files, whose stems name them
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
@@ -43,6 +43,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
         "best_model": answers.best_model(results),
         "failures": answers.failures(results),
         "outcomes": OUTCOMES,
+        "other": content.other_solvers(project / "resources/published/other_solvers.csv"),
         "scenes": content.scenes(results),
         "media": content.media(results),
         "literature": discussion(results),

@@ -161,7 +161,8 @@ def measured_cases(scans, indentation):
 
     scans : run.scans.scans; indentation : setting of that name
     """
-    shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": indentation | {"whole_curves": 1}}
+    shared = {"pool": "measured", "realizations": 1, "batch": 1}
+    shared["indentation"] = indentation | {"whole_curves": 1}
     return {name: shared | scan for name, scan in scans.items()}
 
 

@@ -1,4 +1,4 @@
-"""What the page says of the scale, the methods and their failures."""
+"""What the page says of the scale, the methods and other solvers."""
 
 import json
 from itertools import chain

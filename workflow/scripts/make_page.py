@@ -4,6 +4,7 @@ from pathlib import Path
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.page.assembly import contents_of
+from viscorough_study.page.calculator import calculator
 from viscorough_study.page.render import embedded_png, render
 from viscorough_study.run.job_log import log_to
 
@@ -18,9 +19,13 @@ def main(project, figures, page_file, *, alternative, **run):
     """
     figures = {Path(path).stem: path for path in figures}
     captions = {name: project / f"workflow/report/figures/{name}.rst" for name in figures}
-    texts = [(project / "workflow/page" / name).read_text("utf-8") for name in ("page.html.jinja", "style.css")]
-    rules = embedded_png((project / "docs/rules.png").read_bytes())
-    html = render(*texts, figures, captions, alternative=alternative, rules=rules, **contents_of(project, **run))
+    names = ("page.html.jinja", "style.css", "calculator.html", "calculator.js")
+    *texts, section, script = [(project / "workflow/page" / name).read_text("utf-8") for name in names]
+    parts = {
+        "calculator": calculator(section, script),
+        "rules": embedded_png((project / "docs/rules.png").read_bytes()),
+    }
+    html = render(*texts, figures, captions, alternative=alternative, **parts, **contents_of(project, **run))
     with atomic_write(page_file) as temporary:
         temporary.write_text(html, encoding="utf-8")
 

@@ -1,0 +1,23 @@
+"""Calculator of the page: the calibrated law as numbers for a script that mirrors viscorough.estimates."""
+
+import json
+
+from markupsafe import Markup
+
+from viscorough.calibrated_law import ACROSS, interface_calibration
+from viscorough.reference import one_element_stiffness
+
+
+def calculator(section, script):
+    """Section of the page, with the numbers of the law and the script.
+
+    section, script : texts of HTML and JavaScript
+    """
+    law = f'<script id="law" type="application/json">{json.dumps(law_table())}</script>'
+    return Markup(f"{section}{law}\n<script>\n{script}</script>\n")
+
+
+def law_table():
+    """{number of the law: its values over ascending H}."""
+    table = {name: values.tolist() for name, values in interface_calibration().items()}
+    return table | {"of_one_element": [1 / one_element_stiffness(ACROSS) - 1] * len(table["hurst"])}

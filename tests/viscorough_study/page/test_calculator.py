@@ -1,0 +1,102 @@
+"""The calculator of the page computes what viscorough estimate does; in Chromium, and without a browser in Node."""
+
+import json
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from support.page import BROWSER, Page, number_in, opened
+from support.study import ROOT
+from viscorough.calibrated_law import penetration_law
+from viscorough.estimates import estimate
+from viscorough_study.page.calculator import calculator, law_table
+
+SCRIPT = (ROOT / "workflow/page/calculator.js").read_text(encoding="utf-8")
+SECTION = (ROOT / "workflow/page/calculator.html").read_text(encoding="utf-8")
+NODE = shutil.which("node")
+FIELDS = ("hurst", "rms", "diameter", "force", "viscosity", "time")
+
+
+def random_cases(count):
+    """Values in SI units, with X in the range of the law and beyond it."""
+    random, cases = np.random.default_rng(1), []
+    for _ in range(count):
+        hurst, exponents = random.uniform(0.1, 1), random.uniform(-1, 1, 4)
+        rms, diameter, force, viscosity = 10**exponents * [1e-6, 1e-2, 10, 1e8]
+        law = penetration_law(hurst)
+        x = np.exp(random.uniform(np.log(law.x_low / 1.5), np.log(law.x_high * 1.5)))
+        cases.append((hurst, rms, diameter, force, viscosity, x * 4 * rms * diameter * viscosity / force))
+    cases += [(hurst, 1e-6, 0.01, 10.0, 1e9, 0.1) for hurst in law_table()["hurst"]]
+    return [dict(zip(FIELDS, map(float, case), strict=True)) for case in cases]
+
+
+@pytest.mark.skipif(NODE is None, reason="Node is not installed")
+def test_script_agrees_with_the_command():
+    cases = random_cases(200)
+    loop = f"""
+        const table = {json.dumps(law_table())}, cases = {json.dumps(cases)};
+        console.log(JSON.stringify(cases.map((one) => estimate(penetrationLaw(table, one.hurst), one))));
+    """
+    done = subprocess.run([NODE, "-e", SCRIPT + loop], capture_output=True, text=True, check=True)
+    sides = set()
+    for case, computed in zip(cases, json.loads(done.stdout), strict=True):
+        sides.add(computed["where"])
+        if computed["where"]:
+            with pytest.raises(ValueError, match="where the law holds"):
+                expected(case)
+            continue
+        wanted = expected(case)
+        assert computed["x"] == pytest.approx(wanted.x[0], rel=1e-12)
+        for name in ("depth", "velocity"):
+            ends = [getattr(wanted, f"{name}{end}")[0] for end in ("", "_low", "_high")]
+            assert computed[name] == pytest.approx(ends, rel=1e-10)
+    assert sides == {"", "below", "above"}
+
+
+def expected(case):
+    """The Estimate of the library."""
+    return estimate(*(case[name] for name in FIELDS[:5]), [case["time"]])
+
+
+def shown(tmp_path, **entered):
+    """What the page shows for what is entered in the form, in a browser that does not complain."""
+    events = "".join(
+        f'document.querySelector("[name={name}]").value = "{value}";'
+        f'document.querySelector("[name={name}]").dispatchEvent(new Event("input", {{bubbles: true}}));'
+        for name, value in entered.items()
+    )
+    html = f"<!DOCTYPE html><meta charset=utf-8><title>-</title>{calculator(SECTION, SCRIPT)}<script>{events}</script>"
+    (tmp_path / "page.html").write_text(html, encoding="utf-8")
+    return re.search(r"<output [^>]*>(.*?)</output>", opened(tmp_path / "page.html"))[1]
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
+def test_page_shows_what_the_command_computes(tmp_path):
+    text = shown(tmp_path, hurst="0.7", rms="2", force="20")
+    wanted = estimate(0.7, 2e-6, 0.01, 20.0, 1e9, [0.1])
+    numbers = re.match(r"Depth (\S+) \[(\S+), (\S+)\] µm, velocity (\S+) \[(\S+), (\S+)\] µm/s", text).groups()
+    names = [f"{name}{end}" for name in ("depth", "velocity") for end in ("", "_low", "_high")]
+    for number, name in zip(numbers, names, strict=True):
+        assert number_in(number)[0] == pytest.approx(1e6 * getattr(wanted, name)[0], rel=5e-3)
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
+@pytest.mark.parametrize(
+    ("entered", "text"),
+    [
+        ({"time": "1e6"}, "is above its range: no estimate."),
+        ({"force": ""}, "force F (N): a number above 0 is"),
+    ],
+)
+def test_page_says_what_it_cannot_estimate(tmp_path, entered, text):
+    assert text in shown(tmp_path, **entered)
+
+
+def test_every_field_has_a_label_and_a_default():
+    page = Page(SECTION)
+    assert [field["name"] for field in page.attributes("input")] == list(FIELDS)
+    assert len(page.attributes("label")) == len(FIELDS)
+    assert all(float(field["value"]) > 0 for field in page.attributes("input"))

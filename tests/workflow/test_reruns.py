@@ -13,6 +13,7 @@ from support.workflow import (
     copy_sources,
     jobs,
     plan,
+    read_settings,
     settings_file,
     snakemake,
 )
@@ -94,9 +95,13 @@ def test_a_further_exponent_reruns_only_what_depends_on_it(finished_once, tmp_pa
     assert "validate" not in planned
 
 
-def test_realizations_that_are_added_keep_the_curves_that_are_there(finished_once, tmp_path):
-    """A second batch of both Hurst exponents."""
-    planned = plan(finished_once, *TEST, settings_file(tmp_path, "more", discs={"realizations": 4}))
+@pytest.mark.parametrize("more", ["realizations", "a combination"])
+def test_what_is_added_keeps_the_curves_that_are_there(finished_once, tmp_path, more):
+    discs = {"realizations": 4}  # a second batch of both Hurst exponents
+    if more == "a combination":
+        known = read_settings("test")["discs"]["combinations"]
+        discs = {"combinations": [*known, known[0] | {"number": 10}]}
+    planned = plan(finished_once, *TEST, settings_file(tmp_path, "more", discs=discs))
     assert planned["generate_discs"] == planned["indent_surfaces"] == 2
     assert "reduce_lines" not in planned
 

@@ -20,8 +20,44 @@ from viscorough_study.run.stale_locks import REMOVED
 from viscorough_study.verdicts.claims import counted_verdicts
 
 OUTPUT = Path("results/run.log")
+PUBLISHED_COSTS = Path("resources/published/default_costs.csv")
 PASSED_ON = (REMOVED, "Compiling ")
-LOOK = {"bar_format": "{n_fmt} of {total_fmt}: {desc} |{bar}|", "dynamic_ncols": True, "leave": False}
+LOOK = {"bar_format": "{desc} |{bar}| {remaining} left", "smoothing": 0, "dynamic_ncols": True, "leave": False}
+
+
+class Progress:
+    """Progress of a run, from the lines that Snakemake prints, on standard error if that is a terminal.
+
+    seconds : pandas.Series, share of the run time per job of every rule [s] in an earlier run, for the time left; other
+        rules are assigned the mean
+    """
+
+    def __init__(self, seconds):
+        self.seconds, self.planned, self.done, self.bar = seconds, 0.0, "", None
+
+    def read(self, line):
+        """Update the progress by a line."""
+        if self.bar is None:
+            if match := re.fullmatch(r"total +(\d+)", line):
+                self.done = f"0 of {match[1]}"
+                silent = True if sys.stderr is None else None  # None: unless it is a terminal
+                self.bar = tqdm(total=self.planned, file=sys.stderr, disable=silent, **LOOK)
+            elif match := re.fullmatch(r"(\w+) +(\d+)", line):
+                self.planned += int(match[2]) * self._seconds_of(match[1])
+        elif match := re.fullmatch(r"Job \d+: (.*)", line):
+            self.bar.set_description_str(f"{self.done}: {match[1]}")
+        elif match := re.fullmatch(r"Finished jobid: \d+ \(Rule: (\w+)\)", line):
+            self.bar.update(self._seconds_of(match[1]))
+        elif match := re.match(r"\d+ of \d+(?= steps )", line):
+            self.done = match[0]
+
+    def close(self):
+        """Erase the line."""
+        if self.bar is not None:
+            self.bar.close()
+
+    def _seconds_of(self, rule):
+        return self.seconds.get(rule, self.seconds.mean())
 
 
 def run(command, output=OUTPUT):
@@ -30,25 +66,19 @@ def run(command, output=OUTPUT):
     Ctrl-C reaches the command itself, which then ends its jobs and unlocks its folder. SIGTERM, which reaches only this
     process, is passed on.
     """
+    costs = pd.read_csv(PUBLISHED_COSTS, index_col="rule")
+    progress = Progress(costs["share_s"] / costs["jobs"])
     output.parent.mkdir(parents=True, exist_ok=True)
     piped = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "encoding": "utf-8", "errors": "replace"}
-    with (
-        open(output, "w", encoding="utf-8") as file,
-        subprocess.Popen(command, **piped) as process,
-        tqdm(file=sys.stderr, disable=True if sys.stderr is None else None, **LOOK) as bar,  # None: unless a terminal
-    ):
+    with open(output, "w", encoding="utf-8") as file, subprocess.Popen(command, **piped) as process:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, lambda *_: process.terminate())
         for line in process.stdout:
             print(line, end="", file=file, flush=True)
+            progress.read(line.rstrip("\n"))
             if line.startswith(PASSED_ON):
                 _show(line)
-            elif match := re.match(r"total +(\d+)$", line):
-                bar.reset(int(match[1]))
-            elif match := re.match(r"Job \d+: (.*)", line):
-                bar.set_description_str(match[1])
-            elif line.startswith("Finished jobid"):
-                bar.update()
+    progress.close()
     code = 128 - process.returncode if process.returncode < 0 else process.returncode
     if code:
         _show("".join(f"{line}\n" for line in _errors(output)))

@@ -1,8 +1,9 @@
 """Tables of cases: the ensembles, batches and indenters of the settings, and the memory of their jobs.
 
 A case is a dictionary that describes one ensemble of surfaces, or several, for the jobs that compute them. The
-combinations of one Hurst exponent are batched side by side, so that a job has the same realizations of all of them.
-Grids from coarse to fine are batched in sequence, so that a job can hold many small discs. Names of cases are
+combinations of one Hurst exponent are batched side by side, so that a job has the same realizations of all of them;
+numbers 1 to 9 are one case, 10 to 19 the next, so that a tenth combination does not change the curves of the first
+nine. Grids from coarse to fine are batched in sequence, so that a job can hold many small discs. Names of cases are
 parts of file names, which contain no floating-point numbers; names of ensembles are in the tables. Cases of the same
 kind form a group; the curves of all cases evaluated together are brought to common abscissae in one pool.
 """
@@ -59,7 +60,9 @@ def _paper_discs(settings):
             for combination in discs["combinations"]
         ]
         base = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
-        cases[hurst_id(hurst)] = shared | base | {"ensembles": combinations}
+        for tens in sorted({ensemble["combination"]["number"] // 10 for ensemble in combinations}):
+            members = [ensemble for ensemble in combinations if ensemble["combination"]["number"] // 10 == tens]
+            cases[hurst_id(hurst) + (f"_{tens}0" if tens else "")] = shared | base | {"ensembles": members}
         for name, changed in _changes_of_variants(settings).items():
             ensemble = {
                 "name": f"{hurst_id(hurst)}_{name}",

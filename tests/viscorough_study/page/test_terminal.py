@@ -13,14 +13,22 @@ import xarray as xr
 
 from support.study import ROOT
 from viscorough_study.page import terminal
-from viscorough_study.page.terminal import summary
+from viscorough_study.page.terminal import Progress, summary
 from viscorough_study.run.stale_locks import REMOVED
 
 STARTED = """Building DAG of jobs...
+Provided cores: 2
+Job stats:
+job           count
+----------  -------
+all               1
+indent           30
 plot             10
 total            41
 
+Select jobs to execute...
 Job 3: Curves of discs
+Reason: Missing output files: a.nc
 Job 4: Figure 1
 """
 FINISHED = """Finished jobid: 3 (Rule: indent)
@@ -45,10 +53,23 @@ class Terminal(io.StringIO):
 def run(tmp_path, monkeypatch):
     """Runs a Python script, in place of Snakemake, with its progress; the exit code."""
     monkeypatch.chdir(tmp_path)
+    (tmp_path / terminal.PUBLISHED_COSTS).parent.mkdir(parents=True)
+    (tmp_path / terminal.PUBLISHED_COSTS).write_text("rule,jobs,share_s\nindent,3,30\nplot,1,1\n")
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
     yield lambda script: terminal.run([sys.executable, "-c", script])
     for number, handler in handlers.items():
         signal.signal(number, handler)
+
+
+def test_what_runs_how_many_of_how_many_and_their_share_of_the_time(monkeypatch):
+    monkeypatch.setattr("sys.stderr", Terminal())
+    progress = Progress(pd.Series({"indent": 10.0, "plot": 1.0}))
+    for line in STARTED.splitlines():
+        progress.read(line)
+    assert (progress.bar.desc, progress.bar.total) == ("0 of 41: Figure 1", 30 * 10 + 10 * 1 + 5.5)
+    for line in [*FINISHED.splitlines(), "Job 5: Curves of lines"]:
+        progress.read(line)
+    assert (progress.bar.desc, progress.bar.n) == ("1 of 41: Curves of lines", 10)
 
 
 def test_without_a_terminal_only_messages_are_shown(run, tmp_path, capfd):
@@ -62,7 +83,7 @@ def test_a_terminal_has_one_line_that_is_drawn_again(run, monkeypatch):
     monkeypatch.setattr("sys.stderr", shown := Terminal())
     assert run(f"print({STARTED + FINISHED + 'Job 5: Curves of lines'!r})") == 0
     *lines, last = shown.getvalue().split("\r")
-    assert any(re.fullmatch(r"1 of 41: Curves of lines \|.*\|", line.strip()) for line in lines)
+    assert any(re.fullmatch(r"1 of 41: Curves of lines \|.*\| [\d:]+ left", line.strip()) for line in lines)
     assert "\n" not in shown.getvalue()
     assert last.strip() == ""
 

@@ -60,6 +60,17 @@ def test_a_batch_has_the_same_realizations_of_all_combinations(settings):
     assert {(*ensemble["numbers"], ensemble["elements"]) for ensemble in batch} == {(2, 6, 257)}
 
 
+def test_a_tenth_combination_is_a_case_of_its_own(settings):
+    """So that it leaves the batches of the nine as they are, in whichever order the settings name them."""
+    nine = cases.disc_cases(settings)
+    combinations = settings["discs"]["combinations"]
+    combinations.insert(4, combinations[0] | {"number": 10})
+    ten = cases.disc_cases(settings)
+    assert {name: ten[name] for name in nine} == nine
+    assert set(ten) - set(nine) == {f"{cases.hurst_id(hurst)}_10" for hurst in settings["discs"]["hurst"]}
+    assert [ensemble["name"] for ensemble in ten["h01000_10"]["ensembles"]] == ["h01000_c10"]
+
+
 def test_surfaces_that_are_compared_differ_only_in_what_the_paper_leaves_open(settings):
     assert cases.surfaces_left_open(settings) == ["base"]  # without the control
     surfaces = cases.surfaces_left_open(merged(settings, read_settings("paper")))

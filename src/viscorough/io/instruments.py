@@ -84,7 +84,4 @@ def _holds_heights(channel: Any) -> bool:
     """Whether a channel holds heights, in a unit of length or in none."""
     if not channel.is_height_channel or not isinstance(channel.unit, str | None):
         return False
-    try:
-        return channel.unit is None or bool(units.length_unit(channel.unit))
-    except ValueError:
-        return False
+    return channel.unit is None or units.is_length(channel.unit)

@@ -54,19 +54,6 @@ def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
 
 
 @pytest.mark.parametrize(
-    ("positions", "unit", "spacing", "what"),
-    [
-        ([0, 1, 3], "um", "", "coordinate x is not uniform: its steps lie between 1 and 2"),
-        ([0, 0.5, 1], "1", "", "heights are in um, coordinates in no stated unit; --spacing is needed"),
-        ([0, 1, 2], "um", "--spacing 2", "--spacing 2 um contradicts the file, in which columns are 1 um apart"),
-    ],
-)
-def test_coordinates_that_contradict_are_refused(complaint, positions, unit, spacing, what):
-    line_file(("um", unit), positions)
-    assert what in complaint(f"reduce line.nc {spacing} -o out.nc")
-
-
-@pytest.mark.parametrize(
     ("units", "x", "options"),
     [
         (("um", "m"), [0, 2e-6, 4e-6], ""),

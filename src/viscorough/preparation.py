@@ -188,16 +188,13 @@ def _suspicious_values(heights: Array) -> Iterator[str]:
 
 def _spikes(heights: Array) -> Iterator[str]:
     """A text about single points that stand high above all their neighbours."""
-    middle = heights[1:-1, 1:-1]
-    highest = np.full(middle.shape, -np.inf, dtype=heights.dtype)
-    rows, columns = heights.shape
-    for row in range(3):
-        for column in range(3):
-            if (row, column) != (1, 1):
-                np.fmax(highest, heights[row : rows - 2 + row, column : columns - 2 + column], out=highest)
+    from scipy import ndimage
+
+    neighbours = np.array([[1, 1, 1], [1, 0, 1], [1, 1, 1]])
+    known = np.where(np.isnan(heights), -np.inf, heights)
     with np.errstate(invalid="ignore"):
-        above = np.subtract(middle, highest, out=highest)
-        steps = np.abs(np.diff(heights[:: max(1, rows // 256)], axis=1))
+        above = (heights - ndimage.maximum_filter(known, footprint=neighbours))[1:-1, 1:-1]
+        steps = np.abs(np.diff(heights[:: max(1, len(heights) // 256)], axis=1))
         usual, relief = np.nanmedian(steps) if np.isfinite(steps).any() else 0.0, np.nanstd(heights)
         spikes = np.isfinite(above) & (above > _SPIKE * usual) & (above > relief)
     count = int(np.count_nonzero(spikes))

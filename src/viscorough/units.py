@@ -153,6 +153,14 @@ def length_unit(text: str) -> str:
     return next((spelling for spelling, length in _METRES.items() if length == metres), f"{metres!r} m")
 
 
+def is_length(text: str) -> bool:
+    """Whether a text is a unit of length."""
+    try:
+        return bool(length_unit(text))
+    except ValueError:
+        return False
+
+
 def _rounded(number: float) -> float:
     """A factor without the rounding errors of its computation, so that a nanometre is exactly 1e-9 metres."""
     return float(f"{number:.14g}")

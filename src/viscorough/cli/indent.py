@@ -9,7 +9,6 @@ from typing import Any
 
 import click
 
-from viscorough import units
 from viscorough.cli import files, messages, options, surface_options
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
@@ -83,14 +82,9 @@ def indent(
     indenter = surface_options.read_indenter(surface, output)
     unit = indenter.length_unit
     modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
-    given: dict[str, Any] = {}
-    if depths is not None:
-        given["depths"] = depths
-    if forces is not None:
-        given["forces"] = units.forces_over_modulus(forces, modulus, unit, "--forces")
+    given: dict[str, Any] = {"depths": depths, "forces": forces, "shear_modulus": modulus}
     if until_force is not None:
-        given["until_force"] = units.forces_over_modulus(until_force, modulus, unit, "--until-force")
-        given["until_fraction"] = 1.0  # unless stated
+        given |= {"until_force": until_force, "until_fraction": 1.0}  # unless stated
     if until_fraction is not None:
         given["until_fraction"] = until_fraction
 
@@ -100,14 +94,14 @@ def indent(
 
     attributes, lines = surface.attributes(indenter) | elastic_constants, []
     with messages.progress_bar("viscorough indent", progress) as report:
-        how: dict[str, Any] = {"tolerance": tolerance, "progress": report, "threads": threads, **given}
+        how: dict[str, Any] = {"tolerance": tolerance, "progress": report, "threads": threads}
         if audit:
             result = sum_rules.audit(indenter, **how)
             curve, lines, attributes["audit"] = result.curve, str(result).splitlines(), str(result)
             if not result.agrees:
                 warnings.warn(lines[0], AccuracyWarning, stacklevel=2)
         else:
-            curve = indent(indenter, **how)
+            curve = indent(indenter, **given, **how)
     content, depth = curve_to_content(curve), with_unit(curve.depth[-1], unit, 6)
     if modulus is not None:
         content = with_normal_force(content, modulus, unit)

@@ -91,33 +91,19 @@ def curve_from_content(content: Content) -> LoadingCurve:
 
 
 def _length_unit(content: Content) -> str:
-    """Unit of the depth in a Content; "1" if it states none. Raises ValueError if the other units contradict it."""
-    length = _unit_of("depth", content)
+    """Unit of the depth in a Content; "1" if it states none. Raises ValueError if other units are not its powers."""
+    stated = {name: variable.attributes.get("units", units.UNKNOWN) for name, variable in content.variables.items()}
+    length = stated["depth"]
     if length != units.UNKNOWN:
-        units.metres(length)  # raises ValueError if it is not a length
+        units.metres(str(length))  # raises ValueError if it is not a length
     for name, (_, power) in OVER_LEVELS.items():
         needed = unit_power(length, power)
-        if name in content.variables and not _are_same(unit := _unit_of(name, content), needed):
-            raise ValueError(f"{name} is in {unit!r} and depth in {length!r}; {needed!r} is needed for {name}")
-    attribute = str(content.attributes.get("length_unit", units.UNKNOWN))
-    if attribute != units.UNKNOWN and not _are_same(attribute, length):
+        if stated.get(name, needed) != needed:
+            raise ValueError(f"{name} is in {stated[name]!r} and depth in {length!r}; {needed!r} is needed for {name}")
+    attribute = content.attributes.get("length_unit", length)
+    if attribute != length:
         raise ValueError(f"depth is in {length!r} and the attribute length_unit is {attribute!r}; one unit is needed")
-    return length
-
-
-def _are_same(unit: str, other: str) -> bool:
-    """Whether two units are the same, however they are spelled."""
-    with contextlib.suppress(ValueError):
-        return unit == other or units.factor(unit, other) == 1
-    return False
-
-
-def _unit_of(name: str, content: Content) -> str:
-    """Unit of a variable as the Content states it; "1" if it states none."""
-    unit = content.variables[name].attributes.get("units", units.UNKNOWN)
-    if not isinstance(unit, str):
-        raise ValueError(f"{name} has the units {unit!r}; text is needed")
-    return unit.strip() or units.UNKNOWN
+    return str(length)
 
 
 def _check_contact(curve: LoadingCurve) -> None:

@@ -18,10 +18,8 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     Every data variable needs `long_name`, and `units` unless it holds text. Adds the attributes Conventions, source
     ("viscorough <version>") and history, and compresses large numeric arrays; nothing depends on when or where the file
     is written. CF has no coordinate variables of text: labels x of a dimension x stand along a dimension x_index.
-    Raises ValueError for missing attributes and for a path that cannot be written, OSError if writing fails.
+    Raises ValueError for a path that cannot be written, OSError if writing fails.
     """
-    for name, variable in ds.data_vars.items():
-        netcdf.check_attributes(path, str(name), variable.dtype, variable.attrs)
     labels = {name: f"{name}_index" for name in ds.indexes if ds[name].dtype.kind not in "biuf"}
     ds = ds.reset_index(list(labels)).rename_dims(labels)
     encoding = {}

@@ -86,7 +86,7 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str) -> H
         elif re.match(r"(?i)(?:height|z|data|value)\W*(?:conversion|scale)?\W*factor", key):
             text = "heights are the numbers times a factor; without this line, and with --scale, they are read"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")
-        elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and _is_length(_unit_text(value)):
+        elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and units.is_length(_unit_text(value)):
             text = "of which lengths is not stated; 'XY units', 'Z units' are allowed"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")
     columns, of_columns = _columns(others, shape[1])
@@ -197,22 +197,18 @@ def _columns(lines: Sequence[str], count: int) -> tuple[tuple[str, ...] | None, 
         axes = tuple(match[1].lower() if match else "" for match in matches)
         if names is None and len(cells) == count and sorted(filter(None, axes)) == ["x", "y", "z"]:
             names, found = axes, {match[1].lower(): match[2] for match in matches if match and match[2] is not None}
-            if wrong := next((unit for unit in found.values() if not _is_length(unit)), None):
+            if wrong := next((unit for unit in found.values() if not units.is_length(unit)), None):
                 raise ValueError(f"heading {text[:60]!r}: {wrong!r} is no unit of length, such as um, nm or m")
             continue
         words = set(re.split(r"[\W\d_]+", text.lower()))
         if words & _DEGREES:
             raise ValueError(f"heading {text[:60]!r}: positions in degrees; lengths x and y are needed")
-        of_units = len(cells) == count > 1 and all(map(_is_length, cells))
-        if of_units or words >= {"x", "y", "z"} or any(map(_is_length, re.findall(r"[\[(]([^\W\d]\w*)[\])]", text))):
+        of_units = len(cells) == count > 1 and all(map(units.is_length, cells))
+        if (
+            of_units
+            or words >= {"x", "y", "z"}
+            or any(map(units.is_length, re.findall(r"[\[(]([^\W\d]\w*)[\])]", text)))
+        ):
             needed = "one heading, such as 'x [um], y [um], z [nm]', is allowed"
             raise ValueError(f"header {text[:60]!r}: which columns and units these are is not stated; {needed}")
     return names, found
-
-
-def _is_length(text: str) -> bool:
-    """Whether a text is a unit of length."""
-    try:
-        return bool(units.length_unit(text))
-    except ValueError:
-        return False

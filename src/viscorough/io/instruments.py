@@ -39,7 +39,7 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
                 size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
                 topography = chosen.topography(**size)
                 heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
-        except (MemoryError, _NoHeightsError):
+        except MemoryError:
             raise
         except Exception as error:  # each format raises other errors
             kind = "no known format" if type(error).__name__ == "CannotDetectFileFormat" else reason(error)[:200]
@@ -57,26 +57,22 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
     return Scan(heights.T, unit, (dx, dy), unit)
 
 
-class _NoHeightsError(ValueError):
-    """A file without the channel that was asked for."""
-
-
 def _choose(file: Any, wanted: str | None) -> Any:
     """The channel to read, and the names of the other channels of heights if none was asked for."""
     maps = [channel for channel in file.channels if channel.dim == 2]
     if not maps:
-        raise _NoHeightsError("it holds no map but line scans; a two-dimensional map is needed")
+        raise ValueError("it holds no map but line scans; a two-dimensional map is needed")
     names = ", ".join(repr(channel.channel_id) for channel in maps)
     if wanted is not None:
         matches = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
         if not matches:
-            raise _NoHeightsError(f"no map is called {wanted!r}; its maps are {names}")
+            raise ValueError(f"no map is called {wanted!r}; its maps are {names}")
         if not _holds_heights(matches[0]):
-            raise _NoHeightsError(f"the channel {matches[0].channel_id!r} holds no heights; its maps are {names}")
+            raise ValueError(f"the channel {matches[0].channel_id!r} holds no heights; its maps are {names}")
         return matches[0], []
     of_heights = [channel for channel in maps if _holds_heights(channel)]
     if not of_heights:
-        raise _NoHeightsError(f"none of its maps {names} holds heights")
+        raise ValueError(f"none of its maps {names} holds heights")
     return of_heights[0], [channel.channel_id for channel in of_heights[1:]]
 
 
@@ -84,7 +80,4 @@ def _holds_heights(channel: Any) -> bool:
     """Whether a channel holds heights, in a unit of length or in none."""
     if not channel.is_height_channel or not isinstance(channel.unit, str | None):
         return False
-    try:
-        return channel.unit is None or bool(units.length_unit(channel.unit))
-    except ValueError:
-        return False
+    return channel.unit is None or units.is_length(channel.unit)

@@ -58,22 +58,12 @@ def compression(size: int) -> dict[str, Any]:
     return {"zlib": True, "complevel": 4, "shuffle": True} if size >= COMPRESSED_FROM else {}
 
 
-def check_attributes(path: FilePath, name: str, dtype: np.dtype[Any], attributes: Mapping[str, Any]) -> None:
-    """Raise ValueError unless a variable has `long_name` and, if it holds numbers, `units`."""
-    needed = ("long_name", "units") if dtype.kind in "biufc" else ("long_name",)
-    present = {attribute for attribute, value in attributes.items() if isinstance(value, str) and value}
-    if missing := [attribute for attribute in needed if attribute not in present]:
-        raise ValueError(f"{path}: variable {name} lacks {' and '.join(missing)}; text is needed for both")
-
-
 def write(content: Content, path: FilePath) -> None:
     """Write a Content of numbers as CF-1.11 NetCDF, atomically; nan is the fill value.
 
-    Adds global_attributes and compresses large arrays. Raises ValueError for missing attributes (check_attributes) and
-    for a path that cannot be written, OSError if writing fails.
+    Every variable needs the attribute `long_name`, and `units` unless it holds text. Adds global_attributes and
+    compresses large arrays. Raises ValueError for a path that cannot be written, OSError if writing fails.
     """
-    for name, variable in content.variables.items():
-        check_attributes(path, name, np.asarray(variable.values).dtype, variable.attributes)
     with atomic_write(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
         file.setncatts(content.attributes | global_attributes())
         for name, (dimensions, values, attributes) in content.variables.items():

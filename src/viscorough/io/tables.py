@@ -26,15 +26,12 @@ def is_table(path: FilePath) -> bool:
 def write(content: Content, path: FilePath) -> None:
     """Write a Content, whose variables share one dimension, as CSV, atomically.
 
-    Raises ValueError for other contents, missing attributes and a path that cannot be written, OSError if writing
-    fails.
+    Raises ValueError for other contents and a path that cannot be written, OSError if writing fails.
     """
     columns = content.variables
     dimensions = {variable.dimensions for variable in columns.values()}
     if len(dimensions) != 1 or len(*dimensions) != 1:
         raise ValueError(f"{path}: what was computed is no table of one dimension; a NetCDF file (.nc) is needed")
-    for name, variable in columns.items():
-        netcdf.check_attributes(path, name, np.asarray(variable.values).dtype, variable.attributes)
     attributes = content.attributes | netcdf.global_attributes()
     lines = [f"# {name}: {_as_text(value)}" for name, value in attributes.items()]
     lines += [f"# column {name}: {_as_text(variable.attributes['long_name'])}" for name, variable in columns.items()]

@@ -1,15 +1,9 @@
 """The contract of the command line: contents of files, mistakes, warnings, interrupts."""
 
-import os
-import signal
-import subprocess
-import sys
 import textwrap
-import time
 import warnings
 
 import click
-import numpy as np
 import pytest
 
 import viscorough
@@ -61,30 +55,6 @@ def test_errors_in_the_code_are_not_hidden():
 
 
 # ---- real processes
-
-
-def test_interrupt_is_quiet_and_leaves_nothing(here):
-    """The whole curve of this map takes minutes; the interrupt comes while modules load or in the solver."""
-    np.save("heights.npy", np.random.default_rng(0).random((600, 600)))
-    script = textwrap.dedent("""
-        import sys
-        from viscorough import cli
-        from viscorough.io import heights
-        read = heights.read_heights
-        def announced(*arguments, **options):
-            print("reading", flush=True)
-            return read(*arguments, **options)
-        heights.read_heights = announced
-        sys.exit(cli.main(sys.argv[1:]))
-    """)
-    command = [sys.executable, "-c", script, *INDENT.split(), "--until-fraction", "1"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stdout.readline() == "reading\n"
-        time.sleep(0.5)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
-    assert (process.returncode, out, err) == (-signal.SIGINT, "", ""), "a shell reports 130"
-    assert os.listdir(here) == ["heights.npy"]
 
 
 def test_help_and_mistakes_do_not_wait_for_slow_imports():

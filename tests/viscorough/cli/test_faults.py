@@ -176,26 +176,3 @@ def test_file_that_cannot_be_opened_in_time_is_one_line(capsys, monkeypatch):
         files.check_opens("a.nc")
     assert codes == [2]
     assert capsys.readouterr().err.startswith("viscorough kinetics: a.nc: not opened within 0.05 s")
-
-
-HISTORY = "kinetics curve.nc --viscosity 1 -o out.nc --force-history pipe"
-MEDIUM = "kinetics curve.nc --force 1 -o out.nc --medium"
-READING = {
-    ".nc": [
-        "kinetics pipe.nc --force 1 --viscosity 1 -o out.nc",
-        "indent pipe.nc -o out.nc",
-        "plot pipe.nc -o out.png",
-    ],
-    ".csv": [f"{HISTORY}.csv", f"{MEDIUM} of_pipe.csv.yaml"],
-    ".npy": ["indent pipe.npy -o out.nc", "reduce pipe.npy -o out.nc", f"{HISTORY}.npy", f"{MEDIUM} of_pipe.npy.yaml"],
-    ".yaml": [f"{MEDIUM} pipe.yaml"],
-}
-
-
-@pytest.mark.parametrize("suffix", READING)
-def test_what_is_no_regular_file_is_refused(here, complaint, suffix):
-    """Opening a pipe would wait for somebody to write into it."""
-    os.mkfifo(f"pipe{suffix}")
-    (here / f"of_pipe{suffix}.yaml").write_text(f"{{kind: creep_table, file: pipe{suffix}}}")
-    for line in READING[suffix]:
-        assert f"pipe{suffix}: not readable (it is a pipe); a regular file is needed" in complaint(line)

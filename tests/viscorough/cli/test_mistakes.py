@@ -23,6 +23,7 @@ EXCLUDE, QUANTITY = (
     "is not a number above 0 and finite, plain or with a unit",
 )
 INCREASING, NO_UNIT = "each larger than the one before", "needs a plain number, since the unit of length is not known"
+PLOT_PIPE, OF_PIPE = "plot pipe.nc -o out.png", f"{KINETICS} --viscosity 1 --force-history pipe"
 MISTAKES = [
     ("", "Missing command"),
     ("indent heights.npy --spacing 1", "--output"),
@@ -104,6 +105,16 @@ MISTAKES = [
     (f"{INDENT} --channel height", "--channel height"),
     ("indent um.nc --channel y -o out.nc", "heights have the shape (9,)"),
     (f"{INDENT} --scale much", "--scale much"),
+    *[  # opening a pipe would wait for somebody to write into it
+        (line, f"pipe{suffix}: not readable (it is a pipe); a regular file is needed")
+        for suffix, lines in {
+            ".nc": ("kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "indent pipe.nc -o out.nc", PLOT_PIPE),
+            ".csv": (f"{OF_PIPE}.csv", f"{KINETICS} --force 1 --medium of_pipe.csv.yaml"),
+            ".npy": ("indent pipe.npy -o out.nc", "reduce pipe.npy -o out.nc", f"{OF_PIPE}.npy"),
+            ".yaml": (f"{KINETICS} --force 1 --medium pipe.yaml",),
+        }.items()
+        for line in lines
+    ],
 ]
 
 
@@ -124,5 +135,7 @@ def test_mistakes_are_one_line(here, complaint, line, what):
         (here / name).write_text("0,0\n1,0.2\n2,0.4\n")
     (here / "nothing.csv").write_text("0,0\n1,0\n")
     (here / "link.csv").symlink_to("force.csv")
-    os.mkfifo("pipe")
+    (here / "of_pipe.csv.yaml").write_text("{kind: creep_table, file: pipe.csv}")
+    for suffix in ("", ".nc", ".csv", ".npy", ".yaml"):
+        os.mkfifo(f"pipe{suffix}")
     assert what in complaint(line)

@@ -65,9 +65,10 @@ def test_every_kind_of_file_is_drawn_and_follows_the_cf_conventions(made, here, 
 
 
 @pytest.mark.parametrize(("suffix", "start"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")])
-def test_figures_are_reproducible_in_every_format(here, suffix, start):
+@pytest.mark.parametrize("file", ["march.nc", "heights.npy --spacing 1"])
+def test_figures_are_reproducible_in_every_format(here, suffix, start, file):
     for name in ("a", "b"):
-        assert run(f"plot march.nc -o {name}.{suffix}") == 0
+        assert run(f"plot {file} -o {name}.{suffix}") == 0
     content = (here / f"a.{suffix}").read_bytes()
     assert content == (here / f"b.{suffix}").read_bytes()
     assert content.startswith(start)
@@ -103,18 +104,7 @@ def test_lengths_are_drawn_in_readable_units():
     assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("$x$ (µm)", "$y$ (µm)", "height $z$ (nm)")
     np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 25, -25])
     assert axes.images[0].get_array().max() == pytest.approx(5)
-
-
-def test_maps_are_drawn_as_they_are_read(here, capsys):
-    """A matrix of text, whose first row is at the top, as imshow draws it."""
-    np.savetxt("scan.csv", np.arange(6.0).reshape(2, 3), delimiter=",")
-    assert run("plot scan.csv --spacing 0.5 --unit um -o scan.png") == 0
-    surface = viscorough.read_heights("scan.csv", 0.5, unit="um")
-    axes = viscorough.plot(surface).axes[0]
-    image = axes.images[0]
-    assert (image.origin, axes.get_title()) == ("upper", "heights")
-    np.testing.assert_allclose(image.get_extent(), [-750, 750, 500, -500])  # nm
-    np.testing.assert_allclose(image.get_array(), surface.heights)  # up to 5 um
+    assert (axes.images[0].origin, axes.get_title()) == ("upper", "heights")
 
 
 def test_results_are_drawn_from_python(here):

@@ -16,25 +16,14 @@ DISC = self_affine_disc(0.6, 17, rms=0.2, diameter=17.0, seed=3)
 def here(here):
     np.save("line.npy", LINE.heights)
     np.save("map.npy", DISC.heights)
-    np.save("text.npy", np.array(["a"]))
     return here
 
 
-def line_file(units, x):
-    """Write line.nc with the heights 0, 1 and 0.5, and positions where they are given."""
-    attributes = {"long_name": "length"}
-    heights = np.array([0.0, 1.0, 0.5])
-    variables = {"heights": netcdf.Variable(("x",), heights, attributes | {"units": units[0]})}
-    if x is not None:
-        variables["x"] = netcdf.Variable(("x",), np.array(x, dtype=float), attributes | {"units": units[1]})
-    netcdf.write(netcdf.Content(variables, {}), "line.nc")
-    return heights
-
-
 def test_line_of_a_file():
-    assert run("reduce line.npy --spacing 0.25 --until-fraction 0.5 -o curve.nc") == 0
+    assert run("reduce line.npy --spacing '250 nm' --unit um --until-fraction 0.5 -o curve.nc") == 0
     curve = load_curve("curve.nc")
-    np.testing.assert_array_equal(curve.force, mdr.reduce(LINE, until_fraction=0.5).force)
+    assert curve.length_unit == "um"
+    np.testing.assert_allclose(curve.force, mdr.reduce(LINE, until_fraction=0.5).force, rtol=1e-14)
     assert curve.contact_fraction[-2] < 0.5 <= curve.contact_fraction[-1]
 
 
@@ -51,34 +40,3 @@ def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
         np.testing.assert_array_equal(curve.depth, wanted.depth)
     assert run("reduce map.npy --spacing 1 --seed 7 -o one.nc") == 0
     assert run("kinetics one.nc --force 1 --viscosity 1 -o motion.nc") == 0
-
-
-@pytest.mark.parametrize(
-    ("positions", "unit", "spacing", "what"),
-    [
-        ([0, 1, 3], "um", "", "coordinate x is not uniform: its steps lie between 1 and 2"),
-        ([0, 0.5, 1], "1", "", "heights are in um, coordinates in no stated unit; --spacing is needed"),
-        ([0, 1, 2], "um", "--spacing 2", "--spacing 2 um contradicts the file, in which columns are 1 um apart"),
-    ],
-)
-def test_coordinates_that_contradict_are_refused(complaint, positions, unit, spacing, what):
-    line_file(("um", unit), positions)
-    assert what in complaint(f"reduce line.nc {spacing} -o out.nc")
-
-
-@pytest.mark.parametrize(
-    ("units", "x", "options"),
-    [
-        (("um", "m"), [0, 2e-6, 4e-6], ""),
-        (("um", "um"), [4, 2, 0], "--spacing 2"),
-        (("um", "1"), [0, 1, 2], "--spacing '2e-3 mm'"),
-        (("um", None), None, "--spacing 2"),
-        (("1", None), None, "--spacing '2 um' --unit um"),
-    ],
-)
-def test_spacing_of_a_line_is_in_the_unit_of_its_heights(units, x, options):
-    heights = line_file(units, x)
-    assert run(f"reduce line.nc {options} -o curve.nc") == 0
-    curve = load_curve("curve.nc")
-    assert curve.length_unit == "um"
-    np.testing.assert_allclose(curve.force, mdr.reduce(Indenter(heights, 2.0)).force, rtol=1e-14)

@@ -78,21 +78,6 @@ def test_stacked_curves_survive_files_exactly(tmp_path):
         stack_curves([*curves, random_curve(length_unit="um")])
 
 
-@pytest.mark.parametrize(
-    ("depth", "force", "stiffness"),
-    [
-        *[("um", power, "um") for power in ("um2", "um^2", "um**2", "µm2", "1e-12 m2", " um2 ")],
-        ("(1e-6 m)", "um2", "um"),
-        ("1", None, "1"),
-    ],
-)
-def test_units_agree_however_they_are_spelled(depth, force, stiffness):
-    content = units(depth=depth, force=force, stiffness=stiffness)(curve_to_content(random_curve()))
-    assert_same_curve(curve_from_content(content), random_curve(length_unit=depth))
-    same = content.with_attributes(length_unit="µm" if depth == "um" else depth)
-    assert curve_from_content(same).length_unit == depth
-
-
 WHOLE, FROM_0 = "a whole number.* is needed", "a number from 0 on.* is needed"
 ALONE = [
     (lambda content: Content({"depth": content.variables["depth"]}, {}), r"no numbers force\(level\)"),
@@ -118,12 +103,12 @@ ALSO_STACKED = [
     (entry("stiffness", 3, 1e-3), "stiffness must not decrease"),
     (values("force", lambda force: 1e6 * force), "force must rise with the depth"),
     (values("force", lambda force: 1e-6 * force), "force must rise with the depth"),
-    *[(units(force=unit), f"force is in '{unit}' and depth in 'um'") for unit in ("nm2", "um", "1", "furlongs of it")],
+    *[(units(force=unit), f"force is in '{unit}' and depth in 'um'") for unit in ("nm2", "um", "1", "µm2")],
     (units(force=None), "force is in '1' and depth in 'um'; 'um2' is needed for force"),
     (units(depth="N", force="N2", stiffness="N"), "'N': not a unit of length"),
     (units(depth="1", force="1"), "stiffness is in 'um' and depth in '1'"),
     (units(contact_fraction="percent"), "contact_fraction is in 'percent'"),
-    (units(contact_count=3.0), "contact_count has the units 3.0; text is needed"),
+    (units(contact_count=3.0), "contact_count is in 3.0"),
 ]
 
 

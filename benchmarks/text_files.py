@@ -213,7 +213,7 @@ def encoded(draft, lines):
     """The bytes of a text file of these lines."""
     end = draft.pick(LINE_ENDS, {"CR CR LF": "\r\r\n"}, odd=0.03)
     text = end.join(lines) + draft.pick({"": end, "no final line end": "", "blank lines at the end": 3 * end})
-    encoding = "utf-8" if draft.chance(0.6) else draft.pick(ENCODINGS)
+    encoding = "utf-8" if draft.chance(0.6) else draft.pick(ENCODINGS, ["utf-16-le", "utf-16-be"], odd=0.02)
     try:
         return text.encode(encoding)
     except UnicodeEncodeError:

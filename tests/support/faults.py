@@ -17,10 +17,13 @@ DAMAGES = {
 
 
 def no_privileges():
-    """Prefix of a command that makes file permissions apply to it, as they do not to root; skips a test without one."""
-    if os.geteuid():
-        return []
-    unshare = ["unshare", "--user"]
+    """Prefix of a command that makes file permissions apply to it, which they do not for root."""
+    return [] if os.geteuid() else namespace("--user")
+
+
+def namespace(*options):
+    """Prefix of a command that runs it in its own namespaces; skips the test if the system has none."""
+    unshare = ["unshare", *options]
     if not shutil.which("unshare") or subprocess.run([*unshare, "true"], capture_output=True, check=False).returncode:
         pytest.skip("needs user namespaces")
     return unshare

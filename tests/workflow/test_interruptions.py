@@ -74,3 +74,4 @@ def test_a_run_that_ends_while_it_makes_its_second_batch_goes_on(folder, signal_
     assert done.items() <= batches(folder).items(), "what was made is kept"
     with xr.open_dataset(folder / POOL) as pool:
         assert pool.sizes["realization"] == 40
+    assert not list((folder / "results").rglob("*.part"))

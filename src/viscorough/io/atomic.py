@@ -4,18 +4,20 @@ Also what files, read or written, must be.
 """
 
 import contextlib
+import functools
 import glob
 import os
+import platform
 import stat
 import sys
-import time
 import uuid
 from collections.abc import Iterator
+from hashlib import sha256
 from pathlib import Path
 
-from viscorough.types import FilePath
+import psutil
 
-_ABANDONED = 86_400  # seconds after which no process still writes a temporary file
+from viscorough.types import FilePath
 
 
 def reason(error: BaseException) -> str:
@@ -88,15 +90,16 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
     """Context that yields a temporary path beside `path`; the file written there replaces `path` on success.
 
     A file that is replaced keeps its permissions. On an error the temporary file is removed and `path` is not changed.
-    Temporary files that killed processes left for the same path are removed, too, once they are a day old. Raises what
-    check_output raises, and OSError if writing fails.
+    Temporary files that killed processes left for the same path are removed, too, if this process can tell that they
+    are not alive. Raises what check_output raises, and OSError if writing fails.
     """
     target = check_output(path)
-    stem = f".{os.fsencode(target.name)[:60].decode(errors='ignore')}"
-    temporary = target.with_name(f"{stem}.{uuid.uuid4().hex}.part")
-    for leftover in target.parent.glob(f"{glob.escape(stem)}.{'?' * 32}.part"):
-        with contextlib.suppress(OSError):  # somebody else removed it
-            if time.time() - leftover.stat().st_mtime > _ABANDONED:
+    stem = f".{os.fsencode(target.name)[:60].decode(errors='ignore')}.{_place()}"
+    temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
+    for leftover in target.parent.glob(f"{glob.escape(stem)}.*.part"):
+        process = leftover.name.removeprefix(stem).split(".")[1]
+        with contextlib.suppress(OSError, OverflowError):  # somebody else removed it; no number of a process
+            if process.isdecimal() and not psutil.pid_exists(int(process)):
                 leftover.unlink()
     try:
         yield temporary
@@ -122,3 +125,16 @@ def _error_of_plain_writing(path: FilePath) -> OSError | None:
     except OSError as error:
         return error
     return None
+
+
+@functools.cache
+def _place() -> str:
+    """A name for where the numbers of processes are those that this process sees: a running system or a container.
+
+    Systems that share a disk, or containers, may have one host name, so the name holds those of the system's start and
+    of the namespace of process numbers where the system (Linux) tells them.
+    """
+    identity = [platform.node()]
+    with contextlib.suppress(OSError):
+        identity += [Path("/proc/sys/kernel/random/boot_id").read_text(), os.readlink("/proc/self/ns/pid")]
+    return sha256("".join(identity).encode(errors="surrogateescape")).hexdigest()[:12]

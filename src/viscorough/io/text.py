@@ -72,7 +72,17 @@ def read_text(path: FilePath) -> Scan:
 def is_binary(path: FilePath) -> bool:
     """Whether a file cannot be text. Raises a one-line ValueError if it cannot be read."""
     start = _content(path, 4096)
-    return b"\x00" in start and not start.startswith(_UTF16)
+    return b"\x00" in start and _utf16(start) is None
+
+
+def _utf16(start: bytes) -> str | None:
+    """The encoding of UTF-16 text, with or without a byte order mark; None for other text."""
+    if start.startswith(_UTF16):
+        return "utf-16"
+    places = np.flatnonzero(np.frombuffer(start, np.uint8) == 0) % 2
+    if not places.size or 2 * places.size < 0.9 * (len(start) // 2 * 2) or np.ptp(places):
+        return None
+    return "utf-16-le" if places[0] else "utf-16-be"
 
 
 def _content(path: FilePath, size: int = -1) -> bytes:
@@ -84,8 +94,8 @@ def _content(path: FilePath, size: int = -1) -> bytes:
 def _decoded(path: FilePath) -> str:
     """The text of a file, in the encodings that instruments use, with \\n at the end of lines and ASCII minus signs."""
     content = _content(path)
-    if content.startswith(_UTF16):
-        text = content.decode("utf-16", errors="replace")
+    if encoding := _utf16(content[:4096]):
+        text = content.decode(encoding, errors="replace")
     else:
         try:
             text = content.decode("utf-8-sig")

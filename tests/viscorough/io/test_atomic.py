@@ -2,10 +2,14 @@
 
 import os
 import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
 from support.contract import refused
+from support.faults import namespace
 from viscorough.io.atomic import atomic_write, check_output, check_readable
 
 
@@ -41,16 +45,53 @@ def test_failed_writing_is_one_line(tmp_path, error):
     assert os.listdir(tmp_path) == []
 
 
-def test_leftovers_of_killed_processes_are_removed_a_day_later(tmp_path):
-    """They lie beside the target, else replacing would not be atomic; a recent one may belong to a live process."""
-    old, recent = (tmp_path / f".a.csv.{letter * 32}.part" for letter in "ab")
-    for file in (old, recent):
-        file.write_text("half")
-    os.utime(old, (0, 0))
+WRITE_UNTIL_TOLD = """
+import sys
+from viscorough.io.atomic import atomic_write
+with atomic_write(sys.argv[1]) as temporary:
+    temporary.write_text(sys.argv[2])
+    print(temporary, flush=True)
+    sys.stdin.readline()
+"""
+
+
+def writing(path, text, *prefix):
+    """A process that writes a file, and waits before it is complete; and the temporary file."""
+    command = [*prefix, sys.executable, "-c", WRITE_UNTIL_TOLD, str(path), text]
+    writer = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    return writer, Path(writer.stdout.readline().strip())
+
+
+def test_leftovers_of_killed_processes_are_removed(tmp_path):
+    """The temporary file lies beside the target, else replacing would not be atomic; that of a live process stays."""
+    for _ in range(2):
+        writer, leftover = writing(tmp_path / "a.csv", "half")
+        with writer:
+            writer.kill()
+        assert list(tmp_path.iterdir()) == [leftover], "the one of the last process only"
+    _, place, _, _ = leftover.name.removeprefix(".a.csv").split(".", 3)
+    running = tmp_path / f".a.csv.{place}.{os.getpid()}.1234abcd.part"
+    running.write_text("of a process that is alive")
+    (tmp_path / f".a.csv.{place}.{10**30}.1234abcd.part").write_text("of a number that no process has")
     with atomic_write(tmp_path / "a.csv") as temporary:
         temporary.write_text("complete")
-        assert (temporary.parent, len(temporary.name)) == (tmp_path, len(recent.name))
-    assert sorted(tmp_path.iterdir()) == [recent, tmp_path / "a.csv"]
+    assert sorted(path.name for path in tmp_path.iterdir() if str(10**30) not in path.name) == [running.name, "a.csv"]
+    assert (tmp_path / "a.csv").read_text() == "complete"
+
+
+def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
+    """There the numbers of processes are others: that of the writer does not exist here, or is that of another."""
+    container = namespace("--user", "--map-root-user", "--pid", "--fork", "--mount-proc")
+    writer, part = writing(tmp_path / "a.csv", "of the container", *container)
+    with writer:
+        assert int(part.name.split(".")[-3]) < 10, "the first processes of the container"
+        with atomic_write(tmp_path / "a.csv") as temporary:
+            temporary.write_text("ours")
+        assert part.exists()
+        writer.communicate("go on\n", timeout=60)
+    assert writer.returncode == 0
+    assert (tmp_path / "a.csv").read_text() == "of the container"
+    assert os.listdir(tmp_path) == ["a.csv"]
 
 
 @pytest.mark.parametrize("mode", [None, 0o600, 0o444])

@@ -60,6 +60,12 @@ def test_headers(tmp_path, header, unit, spacing):
     assert indenter.length_unit == unit
 
 
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_utf_16_without_a_mark(tmp_path, encoding):
+    (tmp_path / "a.txt").write_text("1\t2\t3\n4\t5\t6\n", encoding=encoding)
+    np.testing.assert_array_equal(read_text(tmp_path / "a.txt").heights, MATRIX)
+
+
 def test_points_in_any_order_with_gaps(tmp_path):
     """Positions rounded to a hundredth of their distance, one column and one more point missing."""
     random = np.random.default_rng(3)

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from viscorough.contact_maps import Contact
 from viscorough.io.curves import OVER_LEVELS
@@ -32,6 +33,8 @@ NUMBERS = {
     "largest_pressure": ("largest pressure over shear modulus", 0),
     "residual": OVER_LEVELS["residual"],
 }
+# Tolerance from which on maps are stored in single precision, as the solver has them, and the range of their numbers.
+_SINGLE_FROM, _SINGLE_RANGE = 1e-4, (1e-25, 1e30)
 
 
 def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = None) -> Content:
@@ -54,9 +57,9 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     variables |= centred_axes(first.gap.shape, {"y": first.row_spacing, "x": first.spacing}, unit)
     if heights is not None:
         variables["heights"] = Variable(("y", "x"), heights, {"long_name": "height", "units": unit})
+    kinds = dict.fromkeys(MAPS, _kind_of_maps(contacts)) | {"contact": np.int8}
     for name, (text, power) in MAPS.items():
-        kind = np.int8 if name == "contact" else np.float64
-        maps = [getattr(contact, name).astype(kind) for contact in contacts]
+        maps = [getattr(contact, name).astype(kinds[name]) for contact in contacts]
         add(name, ("y", "x"), maps, text, unit_power(unit, power))
     flags = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "apart in_contact"}
     variables["contact"].attributes.update(flags)
@@ -77,3 +80,12 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     add("patch_area", ("patch",), list(padded), "area of a patch", unit_power(unit, 2))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
+
+
+def _kind_of_maps(contacts: Sequence[Contact]) -> DTypeLike:
+    """Type of the numbers in the maps of pressure and gap."""
+    least, largest = _SINGLE_RANGE
+    small = min(min(contact.depth, contact.mean_pressure) for contact in contacts)
+    large = max(max(contact.largest_pressure, np.nanmax(contact.gap)) for contact in contacts)
+    fits = contacts[0].tolerance >= _SINGLE_FROM and small > least and large < largest
+    return np.float32 if fits else np.float64

@@ -106,3 +106,11 @@ def test_kinetics_need_an_incompressible_half_space(complaint):
     assert "curve.nc: the curve is that of a half-space with Poisson ratio 0.3" in complaint(kinetics)
     assert run(f"{command} --poisson 0.5") == 0
     assert run(kinetics) == 0
+
+
+def test_numbers_beyond_single_precision_are_kept(here):
+    """Heights of 1e100: the same contact as that of heights of 1, scaled."""
+    np.save("huge.npy", 1e100 * np.load("heights.npy"))
+    usual, huge = values(contact("--depth 0.5")), values(contact("--depth 0.5e100", heights="huge.npy"))
+    for name in ("pressure", "gap", "force"):
+        np.testing.assert_allclose(1e-100 * huge[name], usual[name], rtol=1e-5, atol=1e-6)

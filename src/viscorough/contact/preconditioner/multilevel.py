@@ -146,7 +146,6 @@ def _prolong(places, rows, width, weights, blocks, values, loads, work):
 class Preconditioner:
     """M ≈ K⁻¹ for one contact set after another, on a flat grid of the given height and width, border included.
 
-    kind : "multilevel", "sparse" (without the coarse correction) or "none" (M = 1)
     aspect : dy/dx of the elements
     precision : floating-point type in which M is applied; see SparseFactor
     threads : on which it computes
@@ -157,26 +156,22 @@ class Preconditioner:
         self,
         height: int,
         width: int,
-        kind: str = "multilevel",
         *,
         aspect: float = 1.0,
         precision: type[np.floating[Any]] = np.float64,
         threads: int = 1,
     ) -> None:
         self.stencil = load_redistribution_stencil(aspect)
-        self._kind, self._precision = kind, precision
+        self._precision = precision
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
         self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
         blocks = [n + 2 * REACH for n in self._factor.squares.shape]
-        grid = sides, aspect, *blocks, threads
-        self._coarser = _coarse_level(*grid) if kind == "multilevel" else _NoCorrection(*blocks)
+        self._coarser = _coarse_level(sides, aspect, blocks[0], blocks[1], threads)
         self._changed, self._scale = 0, np.zeros(blocks)
         self._squares, self._loads = np.zeros((2, *blocks))
 
     def apply(self, residual: Array) -> Array:
         """M r of a residual r, both flat fields, of which only the set is defined; valid until the next call."""
-        if self._kind == "none":
-            return residual
         if residual.dtype != self._precision:
             residual = residual.astype(self._precision)
         loads, interior = self._loads, self._loads[REACH:-REACH, REACH:-REACH]
@@ -192,8 +187,6 @@ class Preconditioner:
 
         inside : whether an element is in the set, flat field; count : elements in it
         """
-        if self._kind == "none":
-            return
         changed = self._factor.update(inside)
         if not changed:
             return
@@ -266,22 +259,9 @@ class _FewBlocks:
         return solution[0]
 
 
-class _NoCorrection:
-    """Replaces the coarse levels by a unit matrix, so that nothing is corrected."""
-
-    def __init__(self, height: int, width: int) -> None:
-        self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
-
-    def prepare(self) -> None:
-        self.places = np.flatnonzero(self.squares)
-
-    def apply(self, residual: Array) -> Array:
-        return residual[self.places]
-
-
 def _coarse_level(
     sides: tuple[int, int], aspect: float, height: int, width: int, threads: int
-) -> _ManyBlocks | _FewBlocks | _NoCorrection:
+) -> _ManyBlocks | _FewBlocks:
     """The grid level of blocks of sides[0] rows and sides[1] columns, on a flat grid of given height and width."""
     few = max(height, width) - 2 * REACH <= _DENSE
     grid = sides, aspect, height, width

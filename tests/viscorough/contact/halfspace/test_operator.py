@@ -28,7 +28,7 @@ def test_coefficients_of_rectangles_are_accurate_at_every_distance(exponent):
     np.testing.assert_allclose(influence_coefficient(column, row, 1 / aspect), computed, rtol=1e-11)
 
 
-# One row and few rows, of lengths that can be folded and that cannot, and many rows.
+# One row, few rows and many rows.
 SHAPES = [(1, 1), (1, 2), (1, 7), (1, 150), (2, 1), (2, 2), (2, 40), (3, 31), (4, 9), (5, 1), (9, 9), (12, 31)]
 
 

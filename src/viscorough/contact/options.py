@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-PRECISIONS = ("single", "double")
-WARM_STARTS = ("tangent", "pressure")
 # The first set is without elements that touch in this last part of a step from the unloaded state, and less of smaller
 # steps: the load of those that touch before bends the surface away from them.
 LATE = 0.5
@@ -60,7 +58,7 @@ class SolverOptions:
     padding: bool = True
 
     def __post_init__(self) -> None:
-        allowed = {"precision": PRECISIONS, "warm_start": WARM_STARTS}
+        allowed = {"precision": ("single", "double"), "warm_start": ("tangent", "pressure")}
         for name, values in allowed.items():
             if getattr(self, name) not in values:
                 raise ValueError(f"{name}: must be one of {', '.join(values)}, not {getattr(self, name)!r}")

@@ -222,7 +222,7 @@ class _LoadingPath:
                 self._ahead.append(self._advance(ratio))
             step = self._ahead[-1].reduced_depth / self._contact.reduced_depth
             excess = self._control.excess(self._contact, self._ahead[-1])
-            if self._control.is_too_long(step, excess):
+            if excess > 1 and step > self._control.min_ratio:
                 divided = division(Level.of(self._contact), Level.of(self._ahead[-1]))
                 self._ahead.keep(self._solver.advance_reduced(self._contact, divided))
                 continue

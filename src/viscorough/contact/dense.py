@@ -125,21 +125,14 @@ def follow_events(
     complete = np.append(np.diff(depth) > ROUNDING * depth[1:], members.size == elements.count)
     complete[0] = False
     events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
-    if events.depth.size:
-        contact = _last_contact(elements, contact.units, events, members, factor)
-    return events, contact
-
-
-def _last_contact(
-    elements: Elements, units: Units, events: ContactEvents, members: Integers, factor: Array
-) -> ContactState:
-    """The ContactState at the last event, solved again from the members and their Cholesky factor."""
-    count, depth = events.count[-1], events.depth[-1]
-    members, factor = members[:count], factor[:count, :count]
-    solution = np.stack([depth - elements.initial_gap[members], np.ones(count)])
-    solve_factored(factor, solution)
-    order = np.argsort(members)
-    return _exact_contact(units, depth, members[order], *solution[:, order])
+    if events.depth.size == 0:
+        return events, contact
+    # The contact at the last event is solved again from the members and their Cholesky factor.
+    last, last_depth = events.count[-1], events.depth[-1]
+    solution = np.stack([last_depth - elements.initial_gap[members[:last]], np.ones(last)])
+    solve_factored(factor[:last, :last], solution)
+    order = np.argsort(members[:last])
+    return events, _exact_contact(contact.units, last_depth, members[order], *solution[:, order])
 
 
 def _deflections_at(elements: Elements, *loads_and_targets: Array | Integers) -> tuple[Array, Array]:

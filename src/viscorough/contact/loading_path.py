@@ -8,6 +8,9 @@ is straight, so that interpolation is exact. Later, levels are placed where inte
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from itertools import accumulate, islice
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -21,7 +24,7 @@ from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
 from viscorough.indenter import Indenter, positive
 from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Progress
+from viscorough.types import Progress
 
 # The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
 # until their ratio is the last number.
@@ -120,13 +123,14 @@ def indent(
         depths = np.atleast_1d(units.numbers(depths, unit, unit, "depths"))
         depths = increasing("indent: depths", depths, above_zero=True)
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1], whole=False)
-        levels = _levels_at_depths(solver, depths, progress)
+        contacts = accumulate(depths, solver.advance, initial=solver.unloaded_state())
+        levels = _levels(islice(contacts, 1, None), len(depths), progress)
     elif forces is not None:
         forces = np.atleast_1d(units.forces_over_modulus(forces, shear_modulus, unit, "forces"))
         forces = increasing("indent: forces", forces, above_zero=True)
         # The correction to the force takes the other half of the tolerance.
         solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False)
-        levels = _levels_at_forces(solver, forces, progress)
+        levels = _levels(map(ForceSearch(solver).contact_at, forces), len(forces), progress)
     else:
         solver = ContactSolver(indenter, tolerance, options, threads)
         levels = _LoadingPath(solver, until_fraction, until_force, progress).levels_from(start_fraction)
@@ -147,20 +151,12 @@ def indent(
     )
 
 
-def _levels_at_depths(solver: ContactSolver, depths: Array, progress: Progress) -> list[Level]:
-    levels, contact = [], solver.unloaded_state()
-    for depth in depths:
-        contact = solver.advance(contact, depth)
+def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:
+    """The levels of so many contacts, which are solved one after the other."""
+    levels = []
+    for contact in contacts:
         levels.append(Level.of(contact))
-        progress(len(levels) / len(depths))
-    return levels
-
-
-def _levels_at_forces(solver: ContactSolver, forces: Array, progress: Progress) -> list[Level]:
-    levels, search = [], ForceSearch(solver)
-    for force in forces:
-        levels.append(Level.of(search.contact_at(force)))
-        progress(len(levels) / len(forces))
+        progress(len(levels) / number)
     return levels
 
 
@@ -226,7 +222,7 @@ class _LoadingPath:
                 self._ahead.append(self._advance(ratio))
             step = self._ahead[-1].reduced_depth / self._contact.reduced_depth
             excess = self._control.excess(self._contact, self._ahead[-1])
-            if self._control.is_too_long(step, excess):
+            if excess > 1 and step > self._control.min_ratio:
                 divided = division(Level.of(self._contact), Level.of(self._ahead[-1]))
                 self._ahead.keep(self._solver.advance_reduced(self._contact, divided))
                 continue

@@ -2,9 +2,6 @@
 
 from dataclasses import dataclass
 
-PRECISIONS = ("single", "double")
-PRECONDITIONERS = ("multilevel", "sparse", "none")
-WARM_STARTS = ("tangent", "pressure")
 # The first set is without elements that touch in this last part of a step from the unloaded state, and less of smaller
 # steps: the load of those that touch before bends the surface away from them.
 LATE = 0.5
@@ -25,13 +22,6 @@ class SolverOptions:
     operator_rounding : float
         Bound on the rounding error of one application of the half-space operator, over the largest deflection and the
         machine precision; 0: rounding is ignored.
-    preconditioner : str
-        "multilevel": sparse approximate inverse with a multilevel coarse correction; "sparse": without the correction;
-        "none".
-    release_step : float
-        Length of the first step of a level in which elements leave the contact, in units of the preconditioned
-        residual; later ones are a tenth longer. 0 for the weaker preconditioners, for which no fixed length is
-        suitable: elements then leave at steps of conjugate gradients.
     warm_start : str
         "tangent": the iterations of a level start from P + Δu q of the level before; "pressure": from its P.
     max_iterations : int
@@ -61,8 +51,6 @@ class SolverOptions:
     precision: str = "single"
     exact_gap_below: float = 1e-4
     operator_rounding: float = 5.0
-    preconditioner: str = "multilevel"
-    release_step: float = 1.0
     warm_start: str = "tangent"
     max_iterations: int = 2000
     dense_contacts: int = 400
@@ -70,11 +58,11 @@ class SolverOptions:
     padding: bool = True
 
     def __post_init__(self) -> None:
-        allowed = {"precision": PRECISIONS, "preconditioner": PRECONDITIONERS, "warm_start": WARM_STARTS}
+        allowed = {"precision": ("single", "double"), "warm_start": ("tangent", "pressure")}
         for name, values in allowed.items():
             if getattr(self, name) not in values:
                 raise ValueError(f"{name}: must be one of {', '.join(values)}, not {getattr(self, name)!r}")
-        for name in ("exact_gap_below", "operator_rounding", "release_step", "dense_contacts", "dense_interactions"):
+        for name in ("exact_gap_below", "operator_rounding", "dense_contacts", "dense_interactions"):
             if not getattr(self, name) >= 0:
                 raise ValueError(f"{name}: must not be negative, not {getattr(self, name)!r}")
         if self.max_iterations < 1:

@@ -102,10 +102,6 @@ class StepControl:
         is_smooth = _predicted_error(before, after, self._threads) <= _PREDICTED_ERROR * self._accuracy
         return bound / _RELAXED_BOUND if is_smooth else bound
 
-    def is_too_long(self, ratio: float, excess: float) -> bool:
-        """Whether a step with this ratio of depths is to be divided."""
-        return excess > 1 and ratio > self.min_ratio
-
     def next_ratio(self, ratio: float, excess: float) -> float:
         """Ratio of the step after one with this ratio."""
         change = (_AIM / max(excess, _TINY)) ** (1 / _ORDER)
@@ -165,9 +161,10 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
     as for the first element to join, and their sum as the difference of the two tangent sums.
     """
     share = _POINTS[1::2]
-    count, weight, rise_by_weight, above_tangent = _predicted_touches(before, after, share, threads)
-    if count < _PREDICTED_COUNT:
+    sums = _predicted_touches(before, after, share, threads)
+    if sums is None:
         return np.inf
+    weight, rise_by_weight, above_tangent = sums[0], sums[1], sums[2:]
     width = after.reduced_depth - before.reduced_depth
     added = (after.tangent_sum - before.tangent_sum) / weight
     rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum
@@ -181,9 +178,7 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
     return np.abs(interpolated / depth - 1).max()
 
 
-def _predicted_touches(
-    before: ContactState, after: ContactState, share: Array, threads: int
-) -> tuple[int, float, float, Array]:
+def _predicted_touches(before: ContactState, after: ContactState, share: Array, threads: int) -> Array | None:
     """Sums over the elements that join between two contacts, of functions of where they touch, from 0 to 1.
 
     The gap e of an element outside the contact is convex in the depth: it touches no earlier than at u₀ − e/e_q, with
@@ -192,18 +187,17 @@ def _predicted_touches(
 
     share : shares s of the interval
 
-    Returns the number of elements, 0 where touches cannot be predicted, Σw, Σw (1 − touch) and Σw max(s − touch, 0).
+    Returns Σw, Σw (1 − touch) and, for every s, Σw max(s − touch, 0); None where touches cannot be predicted.
     """
     if before.fields is None or after.fields is None:  # the one after may have been solved from an earlier contact
-        return 0, 0.0, 0.0, np.zeros(share.size)
+        return None
     place, pressure, tangent = _new_elements(before.fields, after.fields, threads)
-    if not place.all():  # place 0 is outside the grid of the contact before
-        return 0, 0.0, 0.0, np.zeros(share.size)
+    if place.size < _PREDICTED_COUNT or not place.all():  # place 0 is outside the grid of the contact before
+        return None
     fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
     width = after.reduced_depth - before.reduced_depth
     sums = GridLoops(threads).each(kernels.touch_sums, (*fields, width, share), place, pressure, tangent)
-    weight, rise, *above_tangent = sum(sums)
-    return place.size, weight, rise, np.array(above_tangent)
+    return sum(sums)
 
 
 def _new_elements(before: GridFields, after: GridFields, threads: int) -> tuple[Integers, Array, Array]:

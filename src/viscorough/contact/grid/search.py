@@ -112,7 +112,7 @@ class ContactSearch:
         self._loops.fill(self.initial_gap, _OUTSIDE)
         self.residual = np.zeros(self.initial_gap.size, dtype=np.float32)
         self._preconditioner = Preconditioner(
-            rows + 2 * REACH, self._width, options.preconditioner, aspect=aspect, precision=np.float32, threads=threads
+            rows + 2 * REACH, self._width, aspect=aspect, precision=np.float32, threads=threads
         )
 
     @property
@@ -164,11 +164,11 @@ class ContactSearch:
                 depth = force.adjust_depth(search, pressure, change, depth)
                 limit = _SEARCH_SHARE * self._tolerance * depth
             search.update_direction()
-            release_step = self._release_step(releases)
-            if iteration == 0 and release_step > 0 and self._exclude(search, pressure, contact_set):
+            if iteration == 0 and self._exclude(search, pressure, contact_set):
                 continue
+            release_step = (_LATER_STEPS if releases else 1.0) * 0.5 ** (releases // _HALVE_STEP_EVERY)
             changed = search.step_causes_tension(release_step, pressure)
-            recomputes = release_step > 0 and self._must_recompute(change, largest, limit, depth)
+            recomputes = self._must_recompute(change, largest, limit, depth)
             change.rounding += self._rounding * largest + self.field_rounding * depth
             if changed or recomputes:
                 search.step_and_release(release_step, pressure, self._width)
@@ -226,13 +226,9 @@ class ContactSearch:
         """A flat field of zeros; its memory is allocated by the loop that fills it, on the threads of that loop."""
         return np.zeros(self.initial_gap.size, dtype or self.precision)
 
-    def _release_step(self, releases: int) -> float:
-        later = _LATER_STEPS if releases else 1.0
-        return self._options.release_step * later * 0.5 ** (releases // _HALVE_STEP_EVERY)
-
     def _search(self, contact_set: ContactSet, last: ConjugateGradients | None = None) -> ConjugateGradients:
-        """Conjugate gradients on a set: the last search continued, or a new one if steps have no fixed length."""
-        if last is None or self._options.release_step == 0:
+        """Conjugate gradients on a set: the last search continued, or a new one."""
+        if last is None:
             return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         last.change_set(contact_set)
         return last

@@ -22,67 +22,36 @@ def influence_coefficient(row: Array | Integers, column: Array | Integers, aspec
     row, column : distances in rows and columns, broadcast
     aspect : dy/dx
 
-    Returns K [1] of the broadcast shape.
+    Returns K [1] of the broadcast shape, taken from a table of all different distances.
     """
-    height, width, *parts = _sides_and_parts(aspect)
-    x, y = np.broadcast_arrays(row * height, column * width)
-    return _potentials(x.astype(float).ravel(), y.astype(float).ravel(), *parts).reshape(x.shape)
+    rows, row_at = np.unique(abs(row), return_inverse=True)
+    columns, column_at = np.unique(abs(column), return_inverse=True)
+    return influence_table(rows, columns, aspect)[row_at, column_at]
 
 
 def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
-    """K of `influence_coefficient` at all pairs of distances in rows and columns, in a small part of the time.
+    """K of `influence_coefficient` at all pairs of distances in rows and columns.
 
     row, column : distances, arrays of shapes (m,) and (n,)
     aspect : dy/dx
 
     Returns K [1] of shape (m, n).
     """
-    height, width, *parts = _sides_and_parts(aspect)
-    return _fill_table(abs(row) * height, abs(column) * width, *parts)
-
-
-def _sides_and_parts(aspect: float) -> tuple[float, ...]:
-    """dy and dx in units of d, the sides of the parts into which elements are divided from far, and their numbers.
-
-    From far, a long rectangle is the sum of parts that are at most twice as long as wide.
-    """
     height, width = np.sqrt(aspect), np.sqrt(1 / aspect)
+    # From far, a long rectangle is the sum of parts that are at most twice as long as wide.
     parts = np.ceil(max(aspect / 2, 1.0)), np.ceil(max(1 / aspect / 2, 1.0))
-    return height, width, height / parts[0], width / parts[1], *parts
-
-
-@njit
-def _potentials(x, y, part_length, part_width, parts_x, parts_y):
-    """`_potential` at pairs of x and y, shape (n,)."""
-    potentials = np.empty(x.size)
-    for i in range(x.size):
-        potentials[i] = _potential(x[i], y[i], part_length, part_width, parts_x, parts_y)
-    return potentials
-
-
-@njit
-def _potential(x, y, part_length, part_width, parts_x, parts_y):
-    """∫∫ dA/r at (x, y) from the centre of a rectangle of area 1.
-
-    part_length, part_width : sides along x and y of the equal parts into which it is divided from far
-    parts_x, parts_y : number of parts along x and y
-    """
-    x, y = abs(x), abs(y)
-    if max(x, y) <= _FAR * max(part_length, part_width):
-        return _closed_form(x, y, parts_x * part_length, parts_y * part_width)
-    total = 0.0
-    for i in range(parts_x):
-        for j in range(parts_y):
-            x_i, y_j = x + (i - 0.5 * (parts_x - 1)) * part_length, y + (j - 0.5 * (parts_y - 1)) * part_width
-            total += _mean_inverse_distance(x_i, y_j, part_length, part_width)
-    return total / (parts_x * parts_y)
+    return _fill_table(abs(row) * height, abs(column) * width, height / parts[0], width / parts[1], *parts)
 
 
 @njit
 def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
-    """`_potential` at all pairs of x ≥ 0 and y ≥ 0: the series everywhere, then the closed form where it is needed.
+    """∫∫ dA/r at all pairs of x ≥ 0 and y ≥ 0 from the centre of a rectangle of area 1.
 
-    Without a branch, the loop over the series acts on as many numbers at once as a register of the processor holds.
+    The series is used everywhere, then the closed form where it is needed: without a branch, the loop over the series
+    acts on as many numbers at once as a register of the processor holds.
+
+    part_length, part_width : sides along x and y of the equal parts into which it is divided from far
+    parts_x, parts_y : number of parts along x and y
     """
     table = np.zeros((x.size, y.size))
     far = _FAR * max(part_length, part_width)

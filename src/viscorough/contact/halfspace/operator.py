@@ -15,8 +15,6 @@ from viscorough.types import Array, Complex
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
 # that.
 _ROW_PADDING = 16
-# Fewer rows than this are folded before they are transformed.
-_FOLDED_BELOW = 4
 # Elements up to which the spectrum of a grid is kept for further ones with transforms of the same lengths: the boxes
 # of an ensemble of indenters have few of these.
 _KEPT = 1 << 20
@@ -89,22 +87,13 @@ def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array]
 class _RowTransforms:
     """Real transforms of rows padded with zeros, and their inverses without a factor, on so many threads.
 
-    The library transforms many rows at once, in the lanes of the processor's registers, but a single row number by
-    number. Few rows of length A B are therefore folded: with n = B a + b and frequencies k + A l, transforms over a, of
-    columns b side by side, are multiplied by exp(−2πi b k/(A B)) and transformed over b.
-
     Rows that are many are transformed block by block, and padded only there.
 
-    frequency : of every entry of a transformed row, shape (A/2 + 1, B), with B = 1 for rows that are not folded
     width : of rows as `forward` takes them; what lies beyond the columns of the grid must be zero
     """
 
     def __init__(self, rows: int, columns: int, length: int, precision: DTypeLike, threads: int) -> None:
-        folds = 1 if rows >= _FOLDED_BELOW else max(n for n in range(1, int(length**0.5) + 1) if length % n == 0)
-        self._shape, self._folded, self._threads = (length // folds, folds), folds > 1, threads
-        first, second = np.arange(length // folds // 2 + 1)[:, None], np.arange(folds)
-        self.frequency = first + length // folds * second
-        self._twiddles = np.exp(-2j * np.pi / length * first * second).astype(np.result_type(precision, np.complex64))
+        self._length, self._threads = length, threads
         self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
         is_one = self._block >= rows
         self.width = (length if is_one else columns) + _ROW_PADDING
@@ -115,10 +104,7 @@ class _RowTransforms:
     def forward(self, data: Array, out: Complex) -> None:
         """Transform the rows of `data`."""
         if self._buffers is None:
-            ducc0.fft.r2c(self._fold(data), axes=[1], out=out)
-            if self._folded:
-                out *= self._twiddles
-                ducc0.fft.c2c(out, axes=[2], out=out)
+            ducc0.fft.r2c(data[:, : self._length], axes=[1], out=out)
             return
 
         buffers = self._buffers
@@ -126,16 +112,13 @@ class _RowTransforms:
         def transform(start: int, stop: int) -> None:
             with buffers.one() as (padded, _):
                 padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
-                ducc0.fft.r2c(self._fold(padded[: stop - start]), axes=[1], out=out[start:stop])
+                ducc0.fft.r2c(padded[: stop - start, : self._length], axes=[1], out=out[start:stop])
 
         run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
 
     def backward(self, data: Complex, out: Array) -> None:
         """The inverse of `forward`, which overwrites `data`; the columns of `out` beyond the grid are undefined."""
         if self._buffers is None:
-            if self._folded:
-                ducc0.fft.c2c(data, axes=[2], forward=False, out=data)
-                data *= self._twiddles.conj()
             self._inverse(data, out)
             return
 
@@ -149,11 +132,7 @@ class _RowTransforms:
         run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
 
     def _inverse(self, data: Complex, out: Array) -> None:
-        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._shape[0], out=self._fold(out))
-
-    def _fold(self, data: Array) -> Array:
-        length, folds = self._shape
-        return data[:, : length * folds].reshape(len(data), length, folds)
+        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._length, out=out[:, : self._length])
 
 
 class Halfspace:
@@ -199,13 +178,10 @@ class Halfspace:
         if spectrum is None:
             spectrum = spectrum_of_grid(rows, columns, aspect=aspect, padding=padding, threads=threads)
         self._rows = _RowTransforms(rows, columns, length, precision, threads)
-        frequency = self._rows.frequency
-        if frequency.shape[1] > 1:
-            spectrum = spectrum[:, np.minimum(frequency, length - frequency).ravel()]
         self._columns = ColumnConvolution(rows, spectrum, precision, threads) if rows > 1 else None
-        self._spectrum = spectrum.reshape(frequency.shape).astype(precision) if rows == 1 else None
+        self._spectrum = spectrum.astype(precision) if rows == 1 else None
         self.load = np.zeros((rows, self._rows.width), dtype=precision)
-        self._transformed = np.empty((rows, *frequency.shape), dtype=np.result_type(precision, np.complex64))
+        self._transformed = np.empty((rows, length // 2 + 1), dtype=np.result_type(precision, np.complex64))
         self._deflection = np.empty_like(self.load)
         self.count = 0
 
@@ -214,7 +190,7 @@ class Halfspace:
         data = self._transformed
         self._rows.forward(self.load, data)
         if self._columns:
-            self._columns.apply(data.reshape(len(data), -1))
+            self._columns.apply(data)
         else:  # a single row has nothing to convolve along its columns
             data *= self._spectrum
         self._rows.backward(data, self._deflection)

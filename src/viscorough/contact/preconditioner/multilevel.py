@@ -146,7 +146,6 @@ def _prolong(places, rows, width, weights, blocks, values, loads, work):
 class Preconditioner:
     """M ≈ K⁻¹ for one contact set after another, on a flat grid of the given height and width, border included.
 
-    kind : "multilevel", "sparse" (without the coarse correction) or "none" (M = 1)
     aspect : dy/dx of the elements
     precision : floating-point type in which M is applied; see SparseFactor
     threads : on which it computes
@@ -157,26 +156,22 @@ class Preconditioner:
         self,
         height: int,
         width: int,
-        kind: str = "multilevel",
         *,
         aspect: float = 1.0,
         precision: type[np.floating[Any]] = np.float64,
         threads: int = 1,
     ) -> None:
         self.stencil = load_redistribution_stencil(aspect)
-        self._kind, self._precision = kind, precision
+        self._precision = precision
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
         self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
         blocks = [n + 2 * REACH for n in self._factor.squares.shape]
-        grid = sides, aspect, *blocks, threads
-        self._coarser = _coarse_level(*grid) if kind == "multilevel" else _NoCorrection(*blocks)
+        self._coarser = _coarse_level(sides, aspect, blocks[0], blocks[1], threads)
         self._changed, self._scale = 0, np.zeros(blocks)
         self._squares, self._loads = np.zeros((2, *blocks))
 
     def apply(self, residual: Array) -> Array:
         """M r of a residual r, both flat fields, of which only the set is defined; valid until the next call."""
-        if self._kind == "none":
-            return residual
         if residual.dtype != self._precision:
             residual = residual.astype(self._precision)
         loads, interior = self._loads, self._loads[REACH:-REACH, REACH:-REACH]
@@ -192,8 +187,6 @@ class Preconditioner:
 
         inside : whether an element is in the set, flat field; count : elements in it
         """
-        if self._kind == "none":
-            return
         changed = self._factor.update(inside)
         if not changed:
             return
@@ -216,7 +209,7 @@ class _ManyBlocks:
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        self._blocks, blocks = _block_of_places(height, width, (_RATIO, _RATIO))
+        self._blocks, blocks = _block_of_places(height, width)
         self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, blocks[0], blocks[1], threads)
         self.places = np.empty(0, dtype=int)
 
@@ -266,32 +259,19 @@ class _FewBlocks:
         return solution[0]
 
 
-class _NoCorrection:
-    """Replaces the coarse levels by a unit matrix, so that nothing is corrected."""
-
-    def __init__(self, height: int, width: int) -> None:
-        self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
-
-    def prepare(self) -> None:
-        self.places = np.flatnonzero(self.squares)
-
-    def apply(self, residual: Array) -> Array:
-        return residual[self.places]
-
-
 def _coarse_level(
     sides: tuple[int, int], aspect: float, height: int, width: int, threads: int
-) -> _ManyBlocks | _FewBlocks | _NoCorrection:
+) -> _ManyBlocks | _FewBlocks:
     """The grid level of blocks of sides[0] rows and sides[1] columns, on a flat grid of given height and width."""
     few = max(height, width) - 2 * REACH <= _DENSE
     grid = sides, aspect, height, width
     return _FewBlocks(*grid) if few else _ManyBlocks(*grid, threads)
 
 
-def _block_of_places(height: int, width: int, sides: tuple[int, int]) -> tuple[Integers, list[int]]:
+def _block_of_places(height: int, width: int) -> tuple[Integers, list[int]]:
     """Place of the block of every place of a flat grid, and height and width of the grid of blocks; with borders."""
-    row, column = ((np.arange(n) - REACH) // side + REACH for n, side in ((height, sides[0]), (width, sides[1])))
-    blocks = [-(-(n - 2 * REACH) // side) + 2 * REACH for n, side in ((height, sides[0]), (width, sides[1]))]
+    row, column = ((np.arange(n) - REACH) // _RATIO + REACH for n in (height, width))
+    blocks = [-(-(n - 2 * REACH) // _RATIO) + 2 * REACH for n in (height, width)]
     return (row[:, None] * blocks[1] + column).ravel().astype(np.int32), blocks
 
 

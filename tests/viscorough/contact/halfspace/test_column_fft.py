@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
+from viscorough.contact.halfspace.column_fft import ColumnConvolution
 
 
 @pytest.mark.parametrize("precision", [np.float32, np.float64])
@@ -22,9 +22,3 @@ def test_convolution_is_that_of_library_transforms(length, columns, precision):
         convolved = data.astype(np.result_type(precision, np.complex64))
         convolution.apply(convolved)
         np.testing.assert_allclose(convolved, expected, rtol=0, atol=5 * np.finfo(precision).eps * abs(expected).max())
-
-
-def test_good_lengths_are_the_next_ones():
-    products = sorted(2**a * 3**b for a in range(2, 14) for b in range(9))
-    for least in (0, 1, 4, 5, 12, 13, 97, 128, 129, 400, 1025, 4000):
-        assert good_length(least) == min(product for product in products if product >= least)

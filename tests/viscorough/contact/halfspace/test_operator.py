@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import dblquad
 
 from support.influence import influence_matrix
-from viscorough.contact.halfspace.influence import influence_coefficient, influence_table
+from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.options import SolverOptions
 
@@ -29,21 +28,7 @@ def test_coefficients_of_rectangles_are_accurate_at_every_distance(exponent):
     np.testing.assert_allclose(influence_coefficient(column, row, 1 / aspect), computed, rtol=1e-11)
 
 
-@pytest.mark.parametrize(("x", "y"), [(1, 0), (2, 1), (11, 0), (29, 30), (31, 4)])
-def test_coefficient_is_the_potential_of_a_square(x, y):
-    exact, _ = dblquad(lambda b, a: 1 / np.hypot(a, b), x - 0.5, x + 0.5, y - 0.5, y + 0.5, epsabs=0, epsrel=1e-12)
-    assert influence_coefficient(float(x), float(y)) == pytest.approx(exact, rel=2e-11)
-
-
-@pytest.mark.parametrize("aspect", [0.2, 1.0])
-def test_table_of_coefficients(aspect):
-    """Also of distances to periodic images, which do not increase."""
-    row, column = np.minimum(np.arange(90.0), abs(np.arange(90.0) - 60)), np.arange(-3.0, 150)
-    expected = influence_coefficient(row[:, None], column, aspect)
-    np.testing.assert_allclose(influence_table(row, column, aspect), expected, rtol=1e-14)
-
-
-# One row and few rows, of lengths that can be folded and that cannot, and many rows.
+# One row, few rows and many rows.
 SHAPES = [(1, 1), (1, 2), (1, 7), (1, 150), (2, 1), (2, 2), (2, 40), (3, 31), (4, 9), (5, 1), (9, 9), (12, 31)]
 
 

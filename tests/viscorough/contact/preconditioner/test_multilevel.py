@@ -20,9 +20,9 @@ def influence(places, width=WIDTH, aspect=1.0):
     return influence_matrix(*np.divmod(places.astype(float), width), aspect)
 
 
-def approximate_inverse(inside, kind="multilevel", aspect=1.0, precision=np.float64, before=()):
+def approximate_inverse(inside, aspect=1.0, precision=np.float64, before=()):
     """The places of a set, and M on it as a matrix, column by column; prepared for other sets before."""
-    preconditioner = Preconditioner(*inside.shape, kind, aspect=aspect, precision=precision)
+    preconditioner = Preconditioner(*inside.shape, aspect=aspect, precision=precision)
     for of_set in (*before, inside):
         preconditioner.prepare(of_set.ravel(), np.count_nonzero(of_set))
     places, columns = np.flatnonzero(inside), []
@@ -50,8 +50,12 @@ def assert_close_to_the_inverse(inside, largest=1.4, aspect=1.0, precision=np.fl
 def test_sparse_part_is_exact_for_sets_within_reach(present, aspect):
     inside = np.zeros((WIDTH, WIDTH), dtype=bool)
     inside[7:10, 11:14] = (present >> np.arange(9) & 1).reshape(3, 3)
-    places, inverse = approximate_inverse(inside, "sparse", aspect)
-    np.testing.assert_allclose(inverse, np.linalg.inv(influence(places, aspect=aspect)), atol=1e-13)
+    factor, places, columns = SparseFactor(*inside.shape, (8, 8), aspect, np.float64), np.flatnonzero(inside), []
+    factor.update(inside.ravel())
+    for place in places:
+        no_correction = 0 * factor.restrict((np.arange(inside.size) == place) * 1.0)
+        columns.append(factor.prolong(no_correction)[places])
+    np.testing.assert_allclose(columns, np.linalg.inv(influence(places, aspect=aspect)), atol=1e-13)
 
 
 def sets():
@@ -76,62 +80,41 @@ def sets():
 
 # Sets of rectangular elements: those with the smallest and the largest eigenvalues among all sets above.
 RECTANGLES = [("scattered", 2.0), ("lattice", 0.2), ("lattice", 5.0), ("square", 5.0), ("hills with holes", 5.0)]
-CASES = [(name, 1.0) for name, _ in sets()] + RECTANGLES
+CASES = [(*case, np.float64) for case in [(name, 1.0) for name, _ in sets()] + RECTANGLES]
+ROUNDED_TO_BYTES = [("scattered", 1.0), ("square", 5.0), ("lattice", 5.0), ("strip", 1.0)]
+CASES += [(*case, np.float32) for case in ROUNDED_TO_BYTES]
 
 
-@pytest.mark.parametrize(("name", "aspect"), CASES, ids=[f"{name}, {aspect:g}" for name, aspect in CASES])
-def test_symmetric_and_close_to_the_inverse_for_any_set(name, aspect):
-    assert_close_to_the_inverse(np.pad(dict(sets())[name], REACH), 1.4 if aspect in (1, 2) else 1.6, aspect)
-
-
-@pytest.mark.parametrize(("name", "aspect"), [("scattered", 1.0), ("square", 5.0), ("lattice", 5.0), ("strip", 1.0)])
-def test_rounded_to_bytes_it_is_as_close(name, aspect):
+@pytest.mark.parametrize(("name", "aspect", "precision"), CASES)
+def test_symmetric_and_close_to_the_inverse_for_any_set(name, aspect, precision):
     inside = np.pad(dict(sets())[name], REACH)
-    assert_close_to_the_inverse(inside, 1.4 if aspect == 1 else 1.6, aspect, np.float32)
+    assert_close_to_the_inverse(inside, 1.4 if aspect in (1, 2) else 1.6, aspect, precision)
 
 
 @pytest.mark.parametrize("precision", [np.float64, np.float32])
-@pytest.mark.parametrize("share", [0.001, 0.3])
-def test_the_sparse_part_follows_the_set(share, precision):
-    """Where few elements join and leave, only their rows are renewed; where many do, all are."""
-    row, column = np.mgrid[:70, :70]
-    random = np.random.default_rng(3).random((2, *row.shape))
-    former = np.pad(np.hypot(row - 33, column - 35) < 30, REACH) & np.pad(random[0] < 0.8, REACH)
-    inside = former ^ np.pad(random[1] < share, REACH)
-    assert 0 < np.count_nonzero(inside != former) < inside.size
-    followed, renewed = (SparseFactor(*inside.shape, (8, 8), 1.0, precision) for _ in range(2))
-    followed.update(former.ravel())
-    assert followed.update(inside.ravel()) == np.count_nonzero(inside != former)
-    renewed.update(inside.ravel())
-    residual = np.random.default_rng(4).random(inside.size).astype(precision)
-    np.testing.assert_array_equal(followed.restrict(residual), renewed.restrict(residual))
-    np.testing.assert_array_equal(followed.squares, renewed.squares)
-    loads = np.random.default_rng(5).random(followed.squares.shape)
-    on_set = inside.ravel()
-    np.testing.assert_array_equal(followed.prolong(loads)[on_set], renewed.prolong(loads)[on_set])
-
-
-def test_threads_do_not_change_a_bit():
-    """Neither in the sparse part, whether it is rebuilt or updated, nor in the whole.
+def test_it_follows_the_set_on_any_number_of_threads(precision):
+    """Where few elements join and leave, only their rows of G are renewed; where many do, all are.
 
     Between parts of the grid, elements that join change rows of G of the next part; in the first part all are renewed.
     """
     row, random = np.arange(600)[:, None], np.random.default_rng(9).random((600, 600))
     former = np.pad(random < 0.6, REACH)
     inside = former ^ np.pad((random < 0.001) | (row < 250) & (random > 0.8), REACH)
-    residual = np.random.default_rng(4).random(inside.size).astype(np.float32)
-    followed, renewed = (SparseFactor(*inside.shape, (8, 8), 1.0, np.float32, threads) for threads in (3, 1))
+    on_set, residual = inside.ravel(), np.random.default_rng(4).random(inside.size).astype(precision)
+    followed, renewed = (SparseFactor(*inside.shape, (8, 8), 1.0, precision, threads) for threads in (3, 1))
     followed.update(former.ravel())
-    followed.update(inside.ravel())
-    renewed.update(inside.ravel())
+    assert followed.update(on_set) == np.count_nonzero(inside != former)
+    renewed.update(on_set)
     np.testing.assert_array_equal(followed.restrict(residual), renewed.restrict(residual))
     np.testing.assert_array_equal(followed.squares, renewed.squares)
+    loads = np.random.default_rng(5).random(followed.squares.shape)
+    np.testing.assert_array_equal(followed.prolong(loads)[on_set], renewed.prolong(loads)[on_set])
 
     results = []
     for threads in (1, 3):
-        preconditioner = Preconditioner(*inside.shape, precision=np.float32, threads=threads)
-        preconditioner.prepare(inside.ravel(), np.count_nonzero(inside))
-        results.append(preconditioner.apply(residual)[inside.ravel()])
+        preconditioner = Preconditioner(*inside.shape, precision=precision, threads=threads)
+        preconditioner.prepare(on_set, np.count_nonzero(inside))
+        results.append(preconditioner.apply(residual)[on_set])
     np.testing.assert_array_equal(*results)
 
 

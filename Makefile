@@ -33,7 +33,7 @@ help:
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
 	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
 	@echo "make chaos       a small reproduction killed 60 times, its results compared with those of an undisturbed run"
-	@echo "make test-slurm  the workflow through Slurm on this machine, with and without lost jobs; Debian, as root"
+	@echo "make test-slurm  the workflow through Slurm on this machine, while jobs are lost; Debian, as root"
 	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"

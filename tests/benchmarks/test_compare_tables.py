@@ -12,13 +12,13 @@ from click.testing import CliRunner
 def runs(tmp_path):
     """Two runs with the same numbers, whose measured times differ."""
     for name, seconds in (("old", 1.0), ("new", 2.0)):
-        for folder in ("tables", "curves/discs/h04000_c1", "surfaces"):
-            (tmp_path / name / folder).mkdir(parents=True)
+        (tmp_path / name / "tables").mkdir(parents=True)
+        (tmp_path / name / "surfaces").mkdir()
         claims = pd.DataFrame({"claim": ["beta"], "value": [0.3], "note": [np.nan]})
         claims.to_csv(tmp_path / name / "tables/claims.csv", index=False)
         pd.DataFrame({"wall_s": [seconds]}).to_csv(tmp_path / name / "tables/methods.csv", index=False)
-        curves = xr.Dataset({"force": (("realization", "level"), np.ones((2, 3)))})
-        curves.to_netcdf(tmp_path / name / "curves/discs/h04000_c1/0000-0001.nc")
+        heights = xr.Dataset({"heights": (("y", "x"), [[1.0, 2.0]])})
+        heights.to_netcdf(tmp_path / name / "surfaces/examples.nc", group="ensemble_1")
     return tmp_path / "old", tmp_path / "new"
 
 
@@ -31,15 +31,11 @@ def compared(runs, *options):
 @pytest.mark.parametrize(
     ("column", "change", "message"),
     [
-        (
-            "value",
-            lambda value: value * (1 + 1e-11),
-            "Not equal to tolerance rtol=1e-12, atol=0 Mismatched elements: 1 / 1 (100%)",
-        ),
-        ("value", lambda value: value * np.nan, "Not equal to tolerance rtol=1e-12, atol=0 nan location mismatch"),
-        ("claim", lambda value: value + "x", "Arrays are not equal Mismatched elements: 1 / 1 (100%)"),
+        ("value", lambda value: value * (1 + 1e-11), "Series values are different (100.0 %)"),
+        ("value", lambda value: value * np.nan, "Series values are different (100.0 %)"),
+        ("claim", lambda value: value + "x", "Series values are different (100.0 %)"),
         ("more", lambda value: 1, "only in NEW"),
-        ("value", lambda value: value * (1 + 1e-14), None),
+        ("value", lambda value: value * (1 + 1e-14), ""),
     ],
 )
 def test_a_difference_in_a_table(runs, column, change, message):
@@ -47,13 +43,13 @@ def test_a_difference_in_a_table(runs, column, change, message):
     content = pd.read_csv(path)
     content.assign(**{column: change(content.get(column))}).to_csv(path, index=False)
     code, output = compared(runs)
-    assert code == (message is not None)
-    assert message is None or f"DIFFERENCE: tables/claims.csv, {column}: {message}" in output
+    assert code == bool(message)
+    assert message in output
+    assert (f"DIFFERENCE: tables/claims.csv, {column}: " in output) == bool(message)
     assert compared(runs, "--allow", f"*claims.csv, {column}")[0] == 0
 
 
 def test_values_in_groups_are_compared(runs):
-    for run, last in zip(runs, (2.0, 3.0), strict=True):
-        heights = xr.Dataset({"heights": ("x", [1.0, last])})
-        heights.to_netcdf(run / "surfaces/examples.nc", group="ensemble_1")
+    heights = xr.Dataset({"heights": (("y", "x"), [[1.0, 3.0]])})
+    heights.to_netcdf(runs[1] / "surfaces/examples.nc", group="ensemble_1")
     assert "DIFFERENCE: surfaces/examples.nc, ensemble_1/heights: " in compared(runs)[1]

@@ -136,8 +136,6 @@ QUOTED = {
         "at H = 0.4 and 0.1 it is {:.2f} and {:.2f} larger": above_expected,
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().max(),
         "F/({:.2f} h)": lambda: plateau()["u0"].mean(),
-        "within 5 % from X = {:.1g} to {:.0f} at every H": lambda: [LAW["x_low"].max(), LAW["x_high"].min()],
-        "and from {:.1g} to {:.0f} but for H = 1": lambda: [LAW["x_low"].drop(1).max(), LAW["x_high"].drop(1).min()],
         "take {:.0f} to {:.0f}": lambda: [other_times().min(), 10 * round(other_times().max() / 10)],
         "surfaces, in {:.0f} minutes": minutes_of_paper,
     },

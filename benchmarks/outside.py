@@ -7,16 +7,14 @@ and the tolerance is twice the standard deviation between ours; other tolerances
 deviation is above its tolerance stays in the table, where `met` is 0.
 """
 
-from pathlib import Path
-
 import click
 import numpy as np
 import pandas as pd
+from measuring import output_option, save_table
 from scipy.signal import resample
 
 from viscorough import Indenter, contact_at
 from viscorough.contact_maps import EXCESS_PER_CHANGE
-from viscorough.io.atomic import atomic_write
 from viscorough.surfaces import self_affine_square
 from viscorough_study.comparisons.periodic_control import mean_separations, periodic_contact
 
@@ -90,13 +88,11 @@ def comparison(free=24, periodic=4):
 
 
 @click.command(help=__doc__.splitlines()[0])
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="Table to write, CSV.")
+@output_option
 def main(output):
     table = comparison()
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(output) as temporary:
-        table.to_csv(temporary, index=False, lineterminator="\n")
     click.echo(table.drop(columns=["reason", "source"]).to_string(index=False))
+    save_table(table, output)
 
 
 if __name__ == "__main__":

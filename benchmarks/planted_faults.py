@@ -48,10 +48,10 @@ def problems(fault):
     count = file.read_text(encoding="utf-8").count(fault.old) if file.is_file() else 0
     if count != 1:
         lines.append(f"{fault.name}: the old text occurs {count} times in {fault.file}; it must occur once")
-    if not isinstance(fault.new, str):
-        lines.append(f"{fault.name}: the new text is {fault.new!r}, not text; quotes are needed")
-    if fault.old == fault.new:
-        lines.append(f"{fault.name}: the new text is the old one")
+    if not isinstance(fault.new, str) or fault.new == fault.old:
+        lines.append(
+            f"{fault.name}: the new text is {fault.new!r}; it must be another text, in quotes if it is a number"
+        )
     for test in fault.tests:
         path, *names = test.split("[")[0].split("::")
         text = (ROOT / path).read_text(encoding="utf-8") if (ROOT / path).is_file() else ""

@@ -243,18 +243,16 @@ def published_results(records):
     """
     text = []
     for command, names in PUBLISHED.items():
-        files = [name.split("/")[-1] for name in names if name.split("/")[-1] in records]
-        if not files:
-            continue
-        first = records[files[0]]
-        origin = f"`{first['command']}`, {first['date']}, commit {first['commit']}, {first['processor']}, "
-        text += [f"## make {command}", "", textwrap.fill(f"{origin}{first['cores']} cores.", 120), ""]
-        for file in files:
-            if file.endswith(".png"):
-                name = file.removesuffix(".png").replace("_", " ")
-                text += [f"![{name}](results/{file})", ""]
-        others = [f"[{file}](results/{file})" for file in files if not file.endswith(".png")]
-        text += ["Files:", *(f"- {link}" for link in others), ""]
+        files = [file for file in (Path(name) for name in names) if file.name in records]
+        pictures = [
+            f"![{file.stem.replace('_', ' ')}](results/{file.name})\n" for file in files if file.suffix == ".png"
+        ]
+        links = [f"- [{file.name}](results/{file.name})" for file in files if file.suffix != ".png"]
+        if files:
+            origin = "`{command}`, {date}, commit {commit}, {processor}, {cores} cores.\n".format(
+                **records[files[0].name]
+            )
+            text += [f"## make {command}\n", origin, *pictures, "Files:", *links, ""]
     return "\n".join(text)
 
 

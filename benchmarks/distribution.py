@@ -44,7 +44,7 @@ def scripts():
 
 
 def run_all(wheel, folder):
-    """Install the wheel in a new environment in a folder, and run every script there; yields their names."""
+    """Install the wheel in a new environment in a folder, and run every script there."""
     pins = re.findall(r"^[^\s#]+==[^\s;\\]+(?: ;[^\\]*)?", (ROOT / "requirements.lock").read_text("utf-8"), re.M)
     (folder / "constraints.txt").write_text("\n".join(pins), encoding="utf-8")
     venv.create(folder / "environment", with_pip=True)
@@ -59,7 +59,7 @@ def run_all(wheel, folder):
         subprocess.run([python, f"{name}.py"], cwd=place, env=clean | {"MPLBACKEND": "agg"}, check=True)
         if not list(place.glob("*.png")):
             raise click.ClickException(f"{name}: made no figure")
-        yield name
+        click.echo(f"{name} runs from the wheel")
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -70,8 +70,7 @@ def main(output):
     sdist, wheel = build(output)
     click.echo(f"{sdist.name}, {wheel.name} of {wheel.stat().st_size} bytes")
     with TemporaryDirectory() as folder:
-        for name in run_all(wheel.resolve(), Path(folder)):
-            click.echo(f"{name} runs from the wheel")
+        run_all(wheel.resolve(), Path(folder))
 
 
 if __name__ == "__main__":

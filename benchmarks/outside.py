@@ -18,7 +18,6 @@ from viscorough.contact_maps import EXCESS_PER_CHANGE
 from viscorough.surfaces import self_affine_square
 from viscorough_study.comparisons.periodic_control import mean_separations, periodic_contact
 
-COLUMNS = ["half_space", "quantity", "published", "ours", "deviation", "tolerance", "met", "reason", "source"]
 # A free square, H = 0.8, waves 1 to 32 of the side, p/(E* h') = 0.30: raw and corrected contact fraction.
 FREE_WAVES = 32
 GRIDS, RAW, CORRECTED = (128, 256, 512), (0.4692, 0.4592, 0.4544), (0.4438, 0.4463, 0.4479)
@@ -79,12 +78,12 @@ def periodic_squares(surfaces, points=512):
 
 
 def comparison(free=24, periodic=4):
-    """The table of comparisons, a pandas.DataFrame with the columns of `COLUMNS`, of so many surfaces."""
+    """The table of comparisons, a pandas.DataFrame, of so many surfaces."""
     names = ["half_space", "quantity", "published", "ours", "tolerance", "reason", "source"]
     table = pd.DataFrame([*free_squares(free), *periodic_squares(periodic)], columns=names)
-    table["deviation"] = table["ours"] - table["published"]
-    table["met"] = (table["deviation"].abs() <= table["tolerance"]).astype(int)
-    return table[COLUMNS]
+    table.insert(4, "deviation", table["ours"] - table["published"])
+    table.insert(6, "met", (table["deviation"].abs() <= table["tolerance"]).astype(int))
+    return table
 
 
 @click.command(help=__doc__.splitlines()[0])

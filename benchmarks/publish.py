@@ -76,6 +76,7 @@ KEPT = {
     },
     "seeds": {"seeds.csv": "docs/seeds.csv"},
 }
+CLAIMS = read_paper(ROOT / "resources/paper", "claims")
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 
 
@@ -92,14 +93,14 @@ def verdicts():
         f"also with {len(seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)), the verdicts are the same, "
         f"but for: {'; '.join(differ) or 'none'}."
     )
-    return markdown(table, read_claims()) + "\n" + paragraph(text)
+    return markdown(table, CLAIMS) + "\n" + paragraph(text)
 
 
 def verdict_lines():
     """The verdicts on physics without numbers: titles of claims, one line for each verdict."""
-    claims, full = read_claims(), overall(published_claims())
-    physics = [name for name in full if claims[name]["kind"] == "physics"]
-    titles = {verdict: [claims[name]["title"] for name in physics if full[name] == verdict] for verdict in VERDICTS}
+    full = overall(published_claims())
+    physics = [name for name in full if CLAIMS[name]["kind"] == "physics"]
+    titles = {verdict: [CLAIMS[name]["title"] for name in physics if full[name] == verdict] for verdict in VERDICTS}
     rows = [f"| {verdict} | {'; '.join(members)} |" for verdict, members in titles.items() if members]
     return markdown_table("| verdict | claims on physics |", rows)
 
@@ -115,10 +116,6 @@ def time_sentence():
 
 def published_claims(name="docs/claims.csv"):
     return pd.read_csv(ROOT / name, keep_default_na=False, na_values=[""]).fillna({"convention": ""})
-
-
-def read_claims():
-    return read_paper(ROOT / "resources/paper", "claims")
 
 
 def paragraph(text):

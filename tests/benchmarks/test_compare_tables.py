@@ -29,23 +29,22 @@ def compared(runs, *options):
 
 
 @pytest.mark.parametrize(
-    ("column", "change", "message"),
+    ("column", "change", "differs"),
     [
-        ("value", lambda value: value * (1 + 1e-11), "Series values are different (100.0 %)"),
-        ("value", lambda value: value * np.nan, "Series values are different (100.0 %)"),
-        ("claim", lambda value: value + "x", "Series values are different (100.0 %)"),
-        ("more", lambda value: 1, "only in NEW"),
-        ("value", lambda value: value * (1 + 1e-14), ""),
+        ("value", lambda value: value * (1 + 1e-11), True),
+        ("value", lambda value: value * np.nan, True),
+        ("claim", lambda value: value + "x", True),
+        ("more", lambda value: 1, True),
+        ("value", lambda value: value * (1 + 1e-14), False),
     ],
 )
-def test_a_difference_in_a_table(runs, column, change, message):
+def test_a_difference_in_a_table(runs, column, change, differs):
     path = runs[1] / "tables/claims.csv"
     content = pd.read_csv(path)
     content.assign(**{column: change(content.get(column))}).to_csv(path, index=False)
     code, output = compared(runs)
-    assert code == bool(message)
-    assert message in output
-    assert (f"DIFFERENCE: tables/claims.csv, {column}: " in output) == bool(message)
+    assert code == differs
+    assert (f"DIFFERENCE: tables/claims.csv, {column}: " in output) == differs
     assert compared(runs, "--allow", f"*claims.csv, {column}")[0] == 0
 
 

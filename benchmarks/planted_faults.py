@@ -87,8 +87,8 @@ def outcome(fault, clean, folder):
     plant(fault, folder)
     code, summary, seconds = run_tests(fault.tests, folder)
     shutil.rmtree(folder)
-    report = {"name": fault.name, "verdict": VERDICTS.get(code, "tests did not run"), "seconds": round(seconds, 1)}
-    return report | {"pytest": summary, "file": fault.file, "why": fault.why}
+    verdict = VERDICTS.get(code, "tests did not run")
+    return {"name": fault.name, "verdict": verdict, "seconds": round(seconds, 1), "pytest": summary}
 
 
 @click.command(help=__doc__.splitlines()[0])

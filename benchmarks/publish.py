@@ -109,9 +109,8 @@ def time_sentence():
     """Sentence on the time of the default run and that of the paper, with machine and date."""
     costs = pd.read_csv(ROOT / DEFAULT_COSTS)
     weeks = read_paper(ROOT / "resources/paper", "numbers")["boundary_elements"]["computing_time"]["value"]
-    text = f"**{weeks.capitalize()} in the paper, {duration_text(costs['share_s'].sum())} here**: "
-    where = f"{costs['machine'].iloc[0]} ({costs['measured'].iloc[0]})"
-    return paragraph(f"{text}`make reproduce` on {where}.")
+    text = f"**{weeks.capitalize()} in the paper, {duration_text(costs['share_s'].sum())} here**: `make reproduce` on "
+    return paragraph(text + f"{costs['machine'].iloc[0]} ({costs['measured'].iloc[0]}).")
 
 
 def published_claims(name="docs/claims.csv"):

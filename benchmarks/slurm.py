@@ -30,7 +30,6 @@ NODE = socket.gethostname().split(".")[0]
 # There is no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
 THROUGH_SLURM = ("--profile", "profiles/slurm", *QUICK)
-HELD = 10  # seconds during which a drained node must not start a job
 
 MUNGED = "munged --foreground --force --num-threads 2 --socket {0}/munge.socket --key-file {0}/munge.key \
 --pid-file {0}/munged.pid --log-file {0}/munged.log --seed-file {0}/munged.seed"
@@ -155,7 +154,7 @@ def disturb():
     set_state("drain")
     wait_for(lambda: state() == "drained", "end of the jobs on the drained node")
     wait_for(lambda: jobs("PENDING"), "submission of a job to the drained node")
-    time.sleep(HELD)
+    time.sleep(10)  # during which a drained node must not start a job
     if jobs("RUNNING"):
         raise click.ClickException("the drained node gets jobs")
     set_state("resume")

@@ -26,8 +26,6 @@ from measured_times import holds_times
 from measuring import output_option, save
 from project_copy import copy_project, environment
 
-from viscorough.io import netcdf
-
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
 # The longest wait for a kill, as a share of the time of an undisturbed run: most runs are killed several times, and
 # their ends as often as their beginnings.
@@ -102,10 +100,6 @@ def disturb(run, random):
     return "whole run"
 
 
-def jobs_done(folder):
-    return len(list((folder / "results/benchmarks").rglob("*.tsv")))
-
-
 def contents(folder):
     """{name: bytes} of all files in results/, without the bytes of files that hold times."""
     results = folder / "results"
@@ -113,20 +107,11 @@ def contents(folder):
     return {str(name): b"" if holds_times(name) else (results / name).read_bytes() for name in names}
 
 
-def compare(actual, expected):
-    """One line per file that differs from the expected contents."""
-    lines = [f"{name}: is missing" for name in expected if name not in actual]
-    lines += [f"{name}: is left over" for name in actual if name not in expected]
+def compare(folder, expected):
+    """One line per file in results/ that differs from the expected contents."""
+    actual = contents(folder)
+    lines = [f"{name}: is missing or left over" for name in sorted(actual.keys() ^ expected.keys())]
     return lines + [f"{name}: differs" for name in expected if actual.get(name, expected[name]) != expected[name]]
-
-
-def undisturbed(folder):
-    """Contents after a run that starts without results, and its seconds."""
-    remove_results(folder)
-    seconds = run_to_end(folder)
-    for path in (folder / "results").rglob("*.nc"):
-        netcdf.read(path)  # so that every file with the same bytes can be read, too
-    return contents(folder), seconds
 
 
 def chaos(folder, kills, seed):
@@ -134,10 +119,12 @@ def chaos(folder, kills, seed):
 
     A run that is killed is repeated with the results that it has; one that ends by itself, without any.
     """
-    wanted, _ = undisturbed(folder)  # compiles what is not in numba's caches
-    again, seconds = undisturbed(folder)
-    differences = [f"undisturbed: {line}" for line in compare(again, wanted)]
-    click.echo(f"undisturbed: {seconds:.0f} s, {jobs_done(folder)} jobs, {len(wanted)} files")
+    run_to_end(folder)  # compiles what is not in numba's caches
+    wanted = contents(folder)
+    remove_results(folder)
+    seconds = run_to_end(folder)
+    differences = [f"undisturbed: {line}" for line in compare(folder, wanted)]
+    click.echo(f"undisturbed: {seconds:.0f} s, {len(wanted)} files")
     random, log, runs = np.random.default_rng(seed), [], 0
     remove_results(folder)
     while True:
@@ -148,12 +135,12 @@ def chaos(folder, kills, seed):
             except subprocess.TimeoutExpired:
                 if is_last:
                     raise
-                log.append({"killed": disturb(run, random), "jobs_done": jobs_done(folder)})
+                log.append(disturb(run, random))
                 click.echo(f"kill {len(log)} of {kills}: {log[-1]}")
                 run.wait(HANGS)  # a run that has lost a job finishes its other one and ends with an error
                 continue
         runs += 1
-        lines = [f"ends with {code}: {log_tail(folder)}"] if code else compare(contents(folder), wanted)
+        lines = [f"ends with {code}: {log_tail(folder)}"] if code else compare(folder, wanted)
         differences += [f"run {runs}: {line}" for line in lines]
         click.echo("\n".join([f"run {runs} {'differs' if lines else 'has recovered'}", *lines]))
         if is_last:

@@ -10,7 +10,6 @@ import contextlib
 import os
 import pkgutil
 import sys
-import time
 from functools import partial
 from unittest.mock import patch
 
@@ -34,40 +33,35 @@ ENVIRONMENT = {
 }
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
 POINTS = 4_000_000  # of a line
-# Functions whose share of the time is measured, by the part of the computation that they are.
+# {function whose share of the time is measured: part of the computation that it is}
 PARTS_OF_CURVE = {
-    "operator": ("viscorough.contact.halfspace.operator.Halfspace.apply",),
-    "preconditioner": (
-        "viscorough.contact.preconditioner.multilevel.Preconditioner.prepare",
-        "viscorough.contact.preconditioner.multilevel.Preconditioner.apply",
-    ),
-    "dense": ("viscorough.contact.dense.solve", "viscorough.contact.dense.follow_events"),
-    "setup": (
-        "viscorough.contact.grid.solver.GridSolver.__init__",
-        "viscorough.contact.solver.ContactSolver.__init__",
-    ),
+    "viscorough.contact.halfspace.operator.Halfspace.apply": "operator",
+    "viscorough.contact.preconditioner.multilevel.Preconditioner.prepare": "preconditioner",
+    "viscorough.contact.preconditioner.multilevel.Preconditioner.apply": "preconditioner",
+    "viscorough.contact.dense.solve": "dense",
+    "viscorough.contact.dense.follow_events": "dense",
+    "viscorough.contact.grid.solver.GridSolver.__init__": "setup",
+    "viscorough.contact.solver.ContactSolver.__init__": "setup",
 }
 
 
+def whole_curve(disc):
+    """Function that computes the loading curve of a disc."""
+    return partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
+
+
 def curve(hurst, seed, repeats):
-    """Loading curve of a disc: cost, and errors against many levels solved to 1e-6."""
+    """Loading curve of a disc: cost, and the error of the force against levels solved to 1e-6."""
     disc = self_affine_disc(hurst, ELEMENTS, seed=seed)
-    compute = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
-    computed, (wall, processor) = compute(), medians({"curve": compute}, repeats)["curve"]
+    computed, (wall, _) = whole_curve(disc)(), medians({"curve": whole_curve(disc)}, repeats)["curve"]
     several = computed.contact_count > 1
-    at_levels = indent(disc, tolerance=1e-6, depths=computed.depth[several])
-    fine = indent(disc, tolerance=1e-6, depths=np.geomspace(computed.depth[0], computed.depth[-1] * (1 - 1e-9), 300))
-    inside = fine.force <= computed.force[-1]
-    depth, _ = computed.at_force(fine.force[inside])
-    force_error = computed.force[several] / at_levels.force - 1
+    exact = indent(disc, tolerance=1e-6, depths=computed.depth[several]).force
     return {
         "hurst": hurst,
         "seed": seed,
         "wall_s": wall,
-        "processor_s": processor,
         "operator_applications": computed.operator_applications,
-        "force_error": float(np.abs(force_error).max()),
-        "interpolation_error": float(np.abs(depth / fine.depth[inside] - 1).max()),
+        "force_error": float(np.abs(computed.force[several] / exact - 1).max()),
     }
 
 
@@ -88,8 +82,8 @@ def lines(hursts, repeats, points=POINTS):
     measured = medians(functions, repeats)
     transform, _ = measured.pop("transform")
     return [
-        {"hurst": hurst, "points": points, "wall_s": wall, "processor_s": processor, "over_transform": wall / transform}
-        for hurst, (wall, processor) in measured.items()
+        {"hurst": hurst, "points": points, "wall_s": wall, "over_transform": wall / transform}
+        for hurst, (wall, _) in measured.items()
     ]
 
 
@@ -106,7 +100,7 @@ def large_map(points):
     surface = Indenter(self_affine_square(0.8, points, seed=1), 1 / points)
     questions = {"curve": partial(indent, surface, until_fraction=0.5)}
     questions["contact"] = partial(contact_at, surface, force=9)
-    return {question: {"points": points, "wall_s": wall} for question, (wall, _) in medians(questions, 1).items()}
+    return {question: {"wall_s": wall} for question, (wall, _) in medians(questions, 1).items()}
 
 
 def medians(functions, repeats):
@@ -116,34 +110,11 @@ def medians(functions, repeats):
     return timing.interleaved(functions, repeats)
 
 
-@contextlib.contextmanager
-def stopwatch(parts):
-    """{part: processor seconds} spent within the context in the functions of each part, given by dotted names."""
-    seconds = dict.fromkeys(parts, 0.0)
-
-    def timed(part, function):
-        def call(*arguments, **options):
-            start = time.process_time()
-            try:
-                return function(*arguments, **options)
-            finally:
-                seconds[part] += time.process_time() - start
-
-        return call
-
-    with contextlib.ExitStack() as patches:
-        for part, names in parts.items():
-            for name in names:
-                patches.enter_context(patch(name, timed(part, pkgutil.resolve_name(name))))
-        yield seconds
-
-
 def parts():
     """Processor seconds of curves, and the share of each part in them: medians over five repeats, after a first run."""
     result = {}
     for across in (ELEMENTS, 1025):
-        disc = self_affine_disc(0.6, across, seed=1)
-        compute = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
+        compute = whole_curve(self_affine_disc(0.6, across, seed=1))
         compute()
         result[f"curve of a {across} disc"] = pd.DataFrame([shares(compute) for _ in range(5)]).median().to_dict()
     return result
@@ -151,21 +122,22 @@ def parts():
 
 def shares(compute):
     """Processor seconds of a function, and the share of each part in them."""
-    with stopwatch(PARTS_OF_CURVE) as seconds:
+    seconds = dict.fromkeys(PARTS_OF_CURVE.values(), 0.0)
+
+    def measured(part, function):
+        def call(*arguments, **options):
+            result, _, processor = timing.timed(partial(function, *arguments, **options))
+            seconds[part] += processor
+            return result
+
+        return call
+
+    with contextlib.ExitStack() as patches:
+        for name, part in PARTS_OF_CURVE.items():
+            patches.enter_context(patch(name, measured(part, pkgutil.resolve_name(name))))
         _, _, whole = timing.timed(compute)
     shares_of_parts = {part: round(spent / whole, 3) for part, spent in seconds.items()}
     return {"processor_s": round(whole, 4), **shares_of_parts, "rest": round(1 - sum(shares_of_parts.values()), 3)}
-
-
-def measured(repeats):
-    """The content of the file."""
-    return {
-        "parts": parts(),
-        "line": lines((0.1, 0.6, 0.9), 3 * repeats),
-        "rectangles": rectangles((1.0, 2.0, 0.5, 5.0, 0.2), repeats),
-        "large_map": large_map(2049),
-        "curve": [curve(hurst, seed, repeats) for hurst in (0.1, 0.4, 0.6, 0.9) for seed in (1, 2)],
-    }
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -174,7 +146,14 @@ def measured(repeats):
 def main(repeats, output):
     if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
         os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | ENVIRONMENT)
-    save({"repeats": repeats, **measured(repeats)}, output)
+    content = {
+        "parts": parts(),
+        "line": lines((0.1, 0.6, 0.9), 3 * repeats),
+        "rectangles": rectangles((1.0, 2.0, 0.5, 5.0, 0.2), repeats),
+        "large_map": large_map(2049),
+        "curve": [curve(hurst, seed, repeats) for hurst in (0.1, 0.4, 0.6, 0.9) for seed in (1, 2)],
+    }
+    save({"repeats": repeats, **content}, output)
 
 
 if __name__ == "__main__":

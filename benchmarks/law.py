@@ -8,11 +8,11 @@ after its form had been chosen. The table has the columns of viscorough_study.fi
 
 from functools import partial
 from multiprocessing import Pool
-from pathlib import Path
 
 import click
 import numpy as np
 import pandas as pd
+from measuring import output_option, save_table
 from tqdm import tqdm
 
 from viscorough_study.fits.penetration_law import COLUMNS, calibrate, complete_curve
@@ -30,7 +30,7 @@ def disc(hurst, across, number):
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--discs", type=click.IntRange(2), default=150, show_default=True, help="Discs to fit, and to test.")
 @click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, CSV.")
+@output_option
 def main(discs, cores, output):
     rows = []
     with Pool(cores) as pool:
@@ -43,9 +43,7 @@ def main(discs, cores, output):
                 fitted, unused = ((parts[half], controls[half]) for half in (slice(discs), slice(discs, None)))
                 row = calibrate(fitted, unused, across, resamples=RESAMPLES, seed=SEED)
                 rows.append({"hurst": hurst, "across": across} | row)
-    output.parent.mkdir(parents=True, exist_ok=True)
-    pd.DataFrame(rows, columns=list(COLUMNS)).to_csv(output, index=False)
-    click.echo(f"written to {output}")
+    save_table(pd.DataFrame(rows, columns=list(COLUMNS)), output)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Compare with numbers that others published: contact areas on free and periodic half-spaces, and exact solutions.
+"""Compare with numbers that others published, on free and periodic half-spaces.
 
     python benchmarks/outside.py --output results/outside.csv
 
@@ -7,21 +7,17 @@ and the tolerance is twice the standard deviation between ours; other tolerances
 deviation is above its tolerance stays in the table, where `met` is 0.
 """
 
-from pathlib import Path
-
 import click
 import numpy as np
 import pandas as pd
+from measuring import output_option, save_table
 from scipy.signal import resample
 
-from viscorough import Indenter, contact_at, indent, kinetics, reference
+from viscorough import Indenter, contact_at
 from viscorough.contact_maps import EXCESS_PER_CHANGE
-from viscorough.io.atomic import atomic_write
 from viscorough.surfaces import self_affine_square
 from viscorough_study.comparisons.periodic_control import mean_separations, periodic_contact
-from viscorough_study.comparisons.validation import BODIES
 
-COLUMNS = ["half_space", "quantity", "published", "ours", "deviation", "tolerance", "met", "reason", "source"]
 # A free square, H = 0.8, waves 1 to 32 of the side, p/(E* h') = 0.30: raw and corrected contact fraction.
 FREE_WAVES = 32
 GRIDS, RAW, CORRECTED = (128, 256, 512), (0.4692, 0.4592, 0.4544), (0.4438, 0.4463, 0.4479)
@@ -34,10 +30,6 @@ LIGHT, LEVELS = 0.01, np.geomspace(0.01, 0.16, 5)
 AREA_SOURCE, SEPARATION_SOURCE = "Hyun and Robbins 2007; Monti et al. 2021", "Pastewka et al. 2013"
 BETWEEN = "distance to the nearer of two theories, 1.60 (Persson) and 2.51 (Bush, Gibson and Thomas)"
 ONE_DIGIT = "half of the last digit that is stated"
-
-ELEMENTS, RADIUS = 129, 0.4  # across bodies of width 1; contact radius, or half of the longer axis
-SECOND_ORDER = "error of second order in spacing over contact radius"
-FIRST_ORDER = "error of first order in spacing over the shorter half-axis"
 
 
 def surface(points, waves, seed, hurst, **roll_off):
@@ -85,42 +77,21 @@ def periodic_squares(surfaces, points=512):
         yield "periodic", plateau, 0.4, np.mean(u0, axis=0).max(), 0.05, ONE_DIGIT, SEPARATION_SOURCE
 
 
-def bodies():
-    """Rows on bodies with exact solutions."""
-    second = (1 / (ELEMENTS * RADIUS)) ** 2
-    for name, source in (("sphere", "Hertz 1882"), ("cone", "Love 1939")):
-        body, indenter = BODIES[name], BODIES[name].indenter(ELEMENTS)
-        depth = body.mdr_profile(RADIUS)
-        curve, force = indent(indenter, depths=[depth], tolerance=1e-5), body.force(depth)
-        yield "free", f"F/(G L²) of a {name}", force, curve.force[0], second * force, SECOND_ORDER, source
-        if name == "sphere":
-            motion = kinetics(indent(indenter, tolerance=1e-5, until_force=1.01 * force), 1.0, 1.0, [force])
-            quantity = "u/L of a sphere, viscous", depth, motion.depth[0], second * depth
-            yield "free", *quantity, SECOND_ORDER, "Lee and Radok 1960"
-    x = (np.arange(ELEMENTS) - ELEMENTS // 2) / ELEMENTS
-    ellipse = Indenter(np.where((2 * x[:, None]) ** 2 + x**2 <= RADIUS**2, 0.0, np.nan), 1 / ELEMENTS)
-    exact, ours = reference.flat_ellipse_stiffness(RADIUS, RADIUS / 2), indent(ellipse, tolerance=1e-5).stiffness[0]
-    tolerance = exact / (ELEMENTS * RADIUS / 2)
-    yield "free", "k/(G L) of a flat ellipse", exact, ours, tolerance, FIRST_ORDER, "Johnson 1985"
-
-
 def comparison(free=24, periodic=4):
-    """The table of comparisons, a pandas.DataFrame with the columns of `COLUMNS`, of so many surfaces."""
+    """The table of comparisons, a pandas.DataFrame, of so many surfaces."""
     names = ["half_space", "quantity", "published", "ours", "tolerance", "reason", "source"]
-    table = pd.DataFrame([*free_squares(free), *periodic_squares(periodic), *bodies()], columns=names)
-    table["deviation"] = table["ours"] - table["published"]
-    table["met"] = (table["deviation"].abs() <= table["tolerance"]).astype(int)
-    return table[COLUMNS]
+    table = pd.DataFrame([*free_squares(free), *periodic_squares(periodic)], columns=names)
+    table.insert(4, "deviation", table["ours"] - table["published"])
+    table.insert(6, "met", (table["deviation"].abs() <= table["tolerance"]).astype(int))
+    return table
 
 
 @click.command(help=__doc__.splitlines()[0])
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="Table to write, CSV.")
+@output_option
 def main(output):
     table = comparison()
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(output) as temporary:
-        table.to_csv(temporary, index=False, lineterminator="\n")
     click.echo(table.drop(columns=["reason", "source"]).to_string(index=False))
+    save_table(table, output)
 
 
 if __name__ == "__main__":

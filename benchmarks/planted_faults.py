@@ -7,9 +7,7 @@ the tests to run, and the consequence of the fault. A fault is caught if one of 
 must pass without any fault. The working tree is never changed.
 """
 
-import os
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -23,8 +21,9 @@ from measuring import output_option, save
 from project_copy import ROOT, copy_project, environment
 
 FAULTS = Path(__file__).with_suffix(".yaml")
-TIME_LIMIT = 3000.0  # seconds after which the tests of one fault are taken to hang, even on a busy machine
-PASSED, FAILED = 0, 1  # exit codes of pytest; others mean that the tests could not run
+TIME_LIMIT = 3000  # seconds after which the tests of one fault are taken to hang, even on a busy machine
+# {exit code of pytest, or of what kills it at the time limit with all that it has started: verdict}
+VERDICTS = {0: "missed", 1: "caught", -9: "not finished"}
 
 
 @dataclass(frozen=True)
@@ -49,10 +48,10 @@ def problems(fault):
     count = file.read_text(encoding="utf-8").count(fault.old) if file.is_file() else 0
     if count != 1:
         lines.append(f"{fault.name}: the old text occurs {count} times in {fault.file}; it must occur once")
-    if not isinstance(fault.new, str):
-        lines.append(f"{fault.name}: the new text is {fault.new!r}, not text; quotes are needed")
-    if fault.old == fault.new:
-        lines.append(f"{fault.name}: the new text is the old one")
+    if not isinstance(fault.new, str) or fault.new == fault.old:
+        lines.append(
+            f"{fault.name}: the new text is {fault.new!r}; it must be another text, in quotes if it is a number"
+        )
     for test in fault.tests:
         path, *names = test.split("[")[0].split("::")
         text = (ROOT / path).read_text(encoding="utf-8") if (ROOT / path).is_file() else ""
@@ -71,44 +70,25 @@ def plant(fault, folder):
             compiled.unlink()
 
 
-def run_tests(tests, folder, time_limit):
-    """(exit code of pytest, None beyond the time limit; its summary; seconds) of tests of a copy of the project."""
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-W", "ignore", "-p", "no:cacheprovider", *tests]
-    began, pipe = time.perf_counter(), subprocess.PIPE
-    with subprocess.Popen(
-        command, cwd=folder, env=environment(folder), stdout=pipe, stderr=pipe, text=True, start_new_session=True
-    ) as run:
-        try:
-            stdout, stderr = run.communicate(timeout=time_limit)
-        except subprocess.TimeoutExpired:
-            os.killpg(run.pid, signal.SIGKILL)  # with the processes that the tests have started
-            return None, f"not finished within {time_limit:g} s", time_limit
-    lines = [line for line in stdout.splitlines() if line.strip()] or stderr.splitlines() or [""]
+def run_tests(tests, folder, time_limit=TIME_LIMIT):
+    """(exit code of pytest, its summary, seconds) of tests of a copy of the project."""
+    command = ["timeout", "--signal=KILL", str(time_limit), sys.executable, "-m", "pytest", "-q", "-x", "-W", "ignore"]
+    command += ["-p", "no:cacheprovider", *tests]
+    began = time.perf_counter()
+    run = subprocess.run(command, cwd=folder, env=environment(folder), capture_output=True, text=True, check=False)
+    lines = [line for line in run.stdout.splitlines() if line.strip()] or run.stderr.splitlines() or [""]
     failed = [line for line in lines if line.startswith(("FAILED", "ERROR"))]  # its summary
     return run.returncode, (failed or lines)[-1], time.perf_counter() - began
 
 
-def prepare(folder, tests, time_limit):
-    """A copy of the project whose tests pass, with its functions compiled. Raises ClickException if they do not."""
-    copy_project(folder)
-    (folder / "results").mkdir()
-    code, summary, seconds = run_tests(tests, folder, time_limit)
-    if code != PASSED:
-        raise click.ClickException(f"tests fail without any fault: {summary}")
-    return seconds
-
-
-def outcome(fault, clean, folder, time_limit):
+def outcome(fault, clean, folder):
     """Outcome of one fault, as a dictionary for the file: caught, missed, or the reason why neither is known."""
     shutil.copytree(clean, folder)
-    try:
-        plant(fault, folder)
-        code, summary, seconds = run_tests(fault.tests, folder, time_limit)
-    finally:
-        shutil.rmtree(folder)
-    verdict = {PASSED: "missed", FAILED: "caught", None: "not finished"}.get(code, "tests did not run")
-    report = {"name": fault.name, "verdict": verdict, "seconds": round(seconds, 1), "pytest": summary}
-    return report | {"file": fault.file, "why": fault.why}
+    plant(fault, folder)
+    code, summary, seconds = run_tests(fault.tests, folder)
+    shutil.rmtree(folder)
+    verdict = VERDICTS.get(code, "tests did not run")
+    return {"name": fault.name, "verdict": verdict, "seconds": round(seconds, 1), "pytest": summary}
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -123,11 +103,16 @@ def main(output, only, tests):
         raise click.ClickException("\n".join(lines))
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         clean = Path(temporary) / "clean"
+        copy_project(clean)
+        (clean / "results").mkdir()
         tests = list(dict.fromkeys(test for fault in faults for test in fault.tests))
-        click.echo(f"all tests without any fault: {prepare(clean, tests, TIME_LIMIT * len(faults)):.0f} s")
+        code, summary, seconds = run_tests(tests, clean, TIME_LIMIT * len(faults))  # also compiles
+        if code:
+            raise click.ClickException(f"tests fail without any fault: {summary}")
+        click.echo(f"all tests without any fault: {seconds:.0f} s")
         results = []
         for fault in faults:
-            results.append(outcome(fault, clean, Path(temporary) / "planted", TIME_LIMIT))
+            results.append(outcome(fault, clean, Path(temporary) / "planted"))
             click.echo("{name}: {verdict} ({seconds:.0f} s)".format(**results[-1]))
     caught = sum(result["verdict"] == "caught" for result in results)
     click.echo(f"{caught} of {len(faults)} faults caught")

@@ -34,36 +34,35 @@ ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
 OTHER_SOLVERS = "resources/published/other_solvers.csv"  # quoted by runs that do not measure them
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
-# {command of make: names of figures, names of tables} that it makes in results/ and that are published
+# {command of make: names of figures, names of tables, other files} that it makes in results/ and that are published
 MADE = {
     "paper": (
         "fig1_surfaces fig2_kinetics fig3_master_curve fig4_exponent conventions validation interface reduction "
         "mdr_lambda",
         "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
         "literature zeta_laws grid_dependence periodic",
+        "",
     ),
-    "speed": (
-        "speed level_placement",
-        "methods other_solvers level_placement",
-    ),
-    "light": ("light_contact", "light_contact"),  # a part of `make speed`
-    "stability": ("failure_map", "failure_map"),
-    "sizes": ("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
-    "large": ("large", "large"),
-    "bench": ("", ""),
-    "outside": ("", ""),
-    "law": ("", "law"),
-    "reproduce": ("", ""),
-    "seeds": ("", ""),
+    "speed": ("speed level_placement", "methods other_solvers level_placement", ""),
+    "light": ("light_contact", "light_contact", ""),  # a part of `make speed`
+    "stability": ("failure_map", "failure_map", "campaign.json sum_rules.json"),
+    "sizes": ("sizes collapse", "sizes collapse collapse_curves infinite_grid", ""),
+    "large": ("large", "large", ""),
+    "bench": ("", "", "benchmarks.json"),
+    "outside": ("", "", "outside.csv"),
+    "law": ("", "law", ""),
+    "reproduce": ("", "", ""),
+    "seeds": ("", "", ""),
 }
 # {command: files in results/ that are published in docs/results/}
 PUBLISHED = {
-    command: [f"figures/{name}.png" for name in figures.split()] + [f"tables/{name}.csv" for name in tables.split()]
-    for command, (figures, tables) in MADE.items()
+    command: [
+        *(f"figures/{name}.png" for name in figures.split()),
+        *(f"tables/{name}.csv" for name in tables.split()),
+        *others.split(),
+    ]
+    for command, (figures, tables, others) in MADE.items()
 }
-PUBLISHED["stability"] += ["campaign.json", "sum_rules.json"]
-PUBLISHED["outside"].append("outside.csv")
-PUBLISHED["bench"].append("benchmarks.json")
 # {command: {file in results/ that other parts of the project read: where they find it}}
 KEPT = {
     "paper": {
@@ -77,6 +76,7 @@ KEPT = {
     },
     "seeds": {"seeds.csv": "docs/seeds.csv"},
 }
+CLAIMS = read_paper(ROOT / "resources/paper", "claims")
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 
 
@@ -93,33 +93,28 @@ def verdicts():
         f"also with {len(seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)), the verdicts are the same, "
         f"but for: {'; '.join(differ) or 'none'}."
     )
-    return markdown(table, read_claims()) + "\n" + paragraph(text)
+    return markdown(table, CLAIMS) + "\n" + paragraph(text)
 
 
 def verdict_lines():
     """The verdicts on physics without numbers: titles of claims, one line for each verdict."""
-    claims, full = read_claims(), overall(published_claims())
-    physics = [name for name in full if claims[name]["kind"] == "physics"]
-    titles = {verdict: [claims[name]["title"] for name in physics if full[name] == verdict] for verdict in VERDICTS}
-    rows = [(verdict, "; ".join(members)) for verdict, members in titles.items() if members]
-    return markdown_table(("verdict", "claims on physics"), rows)
+    full = overall(published_claims())
+    physics = [name for name in full if CLAIMS[name]["kind"] == "physics"]
+    titles = {verdict: [CLAIMS[name]["title"] for name in physics if full[name] == verdict] for verdict in VERDICTS}
+    rows = [f"| {verdict} | {'; '.join(members)} |" for verdict, members in titles.items() if members]
+    return markdown_table("| verdict | claims on physics |", rows)
 
 
 def time_sentence():
     """Sentence on the time of the default run and that of the paper, with machine and date."""
     costs = pd.read_csv(ROOT / DEFAULT_COSTS)
     weeks = read_paper(ROOT / "resources/paper", "numbers")["boundary_elements"]["computing_time"]["value"]
-    text = f"**{weeks.capitalize()} in the paper, {duration_text(costs['share_s'].sum())} here**: "
-    where = f"{costs['machine'].iloc[0]} ({costs['measured'].iloc[0]})"
-    return paragraph(f"{text}`make reproduce` on {where}.")
+    text = f"**{weeks.capitalize()} in the paper, {duration_text(costs['share_s'].sum())} here**: `make reproduce` on "
+    return paragraph(text + f"{costs['machine'].iloc[0]} ({costs['measured'].iloc[0]}).")
 
 
 def published_claims(name="docs/claims.csv"):
     return pd.read_csv(ROOT / name, keep_default_na=False, na_values=[""]).fillna({"convention": ""})
-
-
-def read_claims():
-    return read_paper(ROOT / "resources/paper", "claims")
 
 
 def paragraph(text):
@@ -128,73 +123,72 @@ def paragraph(text):
 
 
 def markdown_table(head, rows):
-    """A table in Markdown of these texts."""
-    first, *others = (f"|{'|'.join(f' {cell} ' if cell else ' ' for cell in cells)}|\n" for cells in (head, *rows))
-    return "".join([first, "|---" * len(head) + "|\n", *others])
+    """A table in Markdown of these lines."""
+    return "\n".join([head, "|---" * (head.count("|") - 1) + "|", *rows]) + "\n"
 
 
-def texts(ratios):
-    """Texts of a table of ratios; those that are missing are dashes."""
-    return ratios.map("{:.3g}".format).replace("nan", "–")
+def filled(row, table):
+    """The line of a table in Markdown for each row of a DataFrame; row : a template that names its columns."""
+    return [row.format(**record) for record in table.to_dict("records")]
+
+
+def with_ratios(first, table):
+    """A table in Markdown of these first cells, then a ratio of three digits for each column, or a dash."""
+    names = [name if isinstance(name, str) else f"{name[0]}, {name[1]} thread{'s' * (name[1] > 1)}" for name in table]
+    cells = table.map("{:.3g}".format).replace("nan", "–").agg(" | ".join, axis=1)
+    head, *rows = first
+    rows = [f"{row} {rest} |" for row, rest in zip(rows, cells, strict=True)]
+    return markdown_table(f"{head} {' | '.join(names)} |", rows)
 
 
 def other_solver_times():
     """Times of other solvers over that of the loading path, as a table in Markdown, by task and Hurst exponent."""
     table = pd.read_csv(ROOT / OTHER_SOLVERS)
-    ratios = texts(table.pivot_table("ratio", ["task", "elements", "hurst"], "solver", sort=False))
-    lines = [(task, f"{across}", f"{hurst:g}", *row) for (task, across, hurst), row in ratios.iterrows()]
-    return markdown_table(("task", "elements across", "H", *ratios), lines)
+    ratios = table.pivot_table("ratio", ["task", "elements", "hurst"], "solver", sort=False)
+    rows = filled("| {task} | {elements} | {hurst:g} |", ratios.index.to_frame())
+    return with_ratios(["| task | elements across | H |", *rows], ratios)
 
 
 def large_maps():
     """Cost of discs on grids from coarse to fine, as a table in Markdown."""
-    lines = []
-    for row in pd.read_csv(ROOT / "docs/results/large.csv").itertuples():
-        times = f"{row.wall:.3g} s", f"{row.wall_threads:.3g} s"
-        memory = f"{row.memory / 1e9:.1f} GB"
-        lines.append((f"{row.across}", *times, memory, f"{row.levels}", f"{row.operator_applications}"))
-    head = ("elements across", "one thread", "two threads", "memory", "levels", "operator applications")
-    return markdown_table(head, lines)
+    table = pd.read_csv(ROOT / "docs/results/large.csv").eval("gigabytes = memory / 1e9")
+    row = "| {across} | {wall:.3g} s | {wall_threads:.3g} s | {gigabytes:.1f} GB | {levels} | {operator_applications} |"
+    head = "| elements across | one thread | two threads | memory | levels | operator applications |"
+    return markdown_table(head, filled(row, table))
 
 
 def light_loads():
     """Time of one light load on large maps, and those of other solvers over it, as a table in Markdown."""
-    table = pd.read_csv(ROOT / "docs/results/light_contact.csv")
-    maps = ["elements", "fraction"]
-    own = table.query("solver == 'viscorough' and threads == 1").groupby(maps)["wall_s"].median()
+    table = pd.read_csv(ROOT / "docs/results/light_contact.csv").eval("percent = 100 * fraction")
+    maps = ["elements", "percent"]
+    own = table.query("solver == 'viscorough' and threads == 1").groupby(maps, as_index=False)["wall_s"].median()
     others = table[table["solver"] != "viscorough"].pivot_table("ratio", maps, ["solver", "threads"], "median")
-    lines = [
-        (f"{across}²", f"{100 * fraction:g} %", f"{own[across, fraction]:.2g} s", *row)
-        for (across, fraction), row in texts(others).iterrows()
-    ]
-    head = [f"{name}, {threads} thread{'s' * (threads > 1)}" for name, threads in others]
-    return markdown_table(("map", "contact", "viscorough", *head), lines)
+    rows = filled("| {elements}² | {percent:g} % | {wall_s:.2g} s |", others.index.to_frame(False).merge(own))
+    return with_ratios(["| map | contact | viscorough |", *rows], others)
 
 
 def sum_rules():
     """Relative deviations of both integrals of curves and audits, as a table in Markdown."""
-    names = ("first, 1e-3", "second, 1e-3", "first, 1e-8", "second, 1e-8", "levels of the audit")
-    names += ("first, last level alone", "first, audit", "second, audit")
-    content, lines = json.loads((ROOT / "docs/results/sum_rules.json").read_text(encoding="utf-8")), []
+    head = "| | first, 1e-3 | second, 1e-3 | first, 1e-8 | second, 1e-8 | first, audit | second, audit "
+    head += "| first, last level alone | levels of the audit |"
+    content, rows = json.loads((ROOT / "docs/results/sum_rules.json").read_text(encoding="utf-8")), []
     for indenter, rules in content["indenters"].items():
-        loose, tight, audit = rules["plain"]["1e-03"], rules["plain"]["1e-08"], rules["audit"]["1e-05"]
-        both = [curve[rule]["by levels"] for curve in (loose, tight) for rule in ("first", "second")]
-        last = [audit["first"]["last level"], *(audit[rule]["by levels"] for rule in ("first", "second"))]
-        before, after = ([f"{abs(number):.0e}" for number in numbers] for numbers in (both, last))
-        lines.append((indenter, *before, f"{audit['levels']}", *after))
-    return markdown_table(("", *names), lines)
+        audit = rules["audit"]["1e-05"]
+        curves = rules["plain"]["1e-03"], rules["plain"]["1e-08"], audit
+        both = [curve[rule]["by levels"] for curve in curves for rule in ("first", "second")]
+        cells = [f"{abs(number):.0e}" for number in (*both, audit["first"]["last level"])]
+        rows.append(f"| {indenter} | {' | '.join(cells)} | {audit['levels']} |")
+    return markdown_table(head, rows)
 
 
 def outside_numbers():
     """Numbers of others beside ours, of docs/results/outside.csv, as a table in Markdown."""
-    lines = []
-    for row in pd.read_csv(ROOT / "docs/results/outside.csv").itertuples():
-        numbers = f"{row.published:.4g}", f"{row.ours:.4g}", f"{row.deviation:+.2g}"
-        allowed = f"{row.tolerance:.2g}" + ("" if row.met else ", **exceeded**")
-        quantity = row.quantity.replace("*", r"\*")
-        lines.append((row.half_space, quantity, *numbers, allowed, f"{row.reason}; {row.source}"))
-    head = ("half-space", "quantity", "published", "ours", "deviation", "allowed", "reason, source")
-    return markdown_table(head, lines)
+    table = pd.read_csv(ROOT / "docs/results/outside.csv")
+    table["quantity"] = table["quantity"].str.replace("*", r"\*")
+    table["exceeded"] = table["met"].map({0: ", **exceeded**", 1: ""})
+    row = "| {half_space} | {quantity} | {published:.4g} | {ours:.4g} | {deviation:+.2g} | {tolerance:.2g}{exceeded} "
+    head = "| half-space | quantity | published | ours | deviation | allowed | reason, source |"
+    return markdown_table(head, filled(row + "| {reason}; {source} |", table))
 
 
 def infinite_grid():
@@ -204,11 +198,12 @@ def infinite_grid():
     largest end of the 95 % intervals in all ranges of X.
     """
     table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected'")
-    table["cell"] = [f"{row.beta:.3f} [{row.ranges_low:.3f}, {row.ranges_high:.3f}]" for row in table.itertuples()]
+    table["cell"] = filled("{beta:.3f} [{ranges_low:.3f}, {ranges_high:.3f}]", table)
     cells = table.pivot(index=["hurst", "expected"], columns=["source", "quantity"], values="cell")
     names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for source, quantity in cells]
-    lines = [(f"{hurst:g}", f"{expected:.3f}", *row) for (hurst, expected), row in cells.iterrows()]
-    return markdown_table(("*H*", "*H*/(1 + *H*)", *names), lines) + "\n" + correction_exponents(table)
+    rows = [f"| {hurst:g} | {expected:.3f} | {' | '.join(row)} |" for (hurst, expected), *row in cells.itertuples()]
+    head = f"| *H* | *H*/(1 + *H*) | {' | '.join(names)} |"
+    return markdown_table(head, rows) + "\n" + correction_exponents(table)
 
 
 def correction_exponents(table):
@@ -224,20 +219,17 @@ def correction_exponents(table):
 def interface_law():
     """The law of two springs for each Hurst exponent and grid, of data/law.csv, as two tables in Markdown."""
     table = pd.read_csv(ROOT / KEPT["law"]["tables/law.csv"]).sort_values(["across", "hurst"], ascending=[False, True])
-    symbols = dict(zip(CONSTANTS, ("*A*", "*b*", "*s*", "*m*", "*d*"), strict=True))
-    symbols |= {"mean_gap": "∫*g* d ln *X*", "energy": "∫*g* d*X*"}
-    constants, ranges = [], []
-    for _, row in table.iterrows():
-        grid = f"{row['hurst']:g}", f"{row['across']:g}"
-        cells = [f"{row[name]:.3g} [{row[f'{name}_low']:.3g}, {row[f'{name}_high']:.3g}]" for name in symbols]
-        constants.append((*grid, *cells))
-        names = ("deviation", "unadjusted", "standard_error", "geometric_velocity", "geometric_depth")
-        cells = [f"{row['discs']:g}, {row['unused']:g}", f"{row['x_low']:.2g} to {row['x_high']:.3g}"]
-        ranges.append((*grid, *cells, *(f"{100 * row[name]:.1f} %" for name in names)))
-    grid = ("*H*", "elements across")
-    head = ("discs, other discs", "law of *g* within 5 % for *X*", "largest deviation of *g*")
-    head += ("without control variates", "standard error", "geometric mean of *vt*/*h* lower by", "of *u*/*h*")
-    return markdown_table((*grid, *symbols.values()), constants) + "\n" + markdown_table((*grid, *head), ranges)
+    fractions = ["deviation", "unadjusted", "standard_error", "geometric_velocity", "geometric_depth"]
+    table[fractions] *= 100
+    head = "| *H* | elements across | *A* | *b* | *s* | *m* | *d* | ∫*g* d ln *X* | ∫*g* d*X* |"
+    interval = " {{{0}:.3g}} [{{{0}_low:.3g}}, {{{0}_high:.3g}}] |"
+    row = "| {hurst:g} | {across:g} |" + "".join(map(interval.format, (*CONSTANTS, "mean_gap", "energy")))
+    constants = markdown_table(head, filled(row, table))
+    head = "| *H* | elements across | discs, other discs | law of *g* within 5 % for *X* | largest deviation of *g* "
+    head += "| without control variates | standard error | geometric mean of *vt*/*h* lower by | of *u*/*h* |"
+    row = "| {hurst:g} | {across:g} | {discs:g}, {unused:g} | {x_low:.2g} to {x_high:.3g} |"
+    row += "".join(map(" {{{}:.1f}} % |".format, fractions))
+    return constants + "\n" + markdown_table(head, filled(row, table))
 
 
 def published_results(records):
@@ -247,18 +239,16 @@ def published_results(records):
     """
     text = []
     for command, names in PUBLISHED.items():
-        files = [name.split("/")[-1] for name in names if name.split("/")[-1] in records]
-        if not files:
-            continue
-        first = records[files[0]]
-        origin = f"`{first['command']}`, {first['date']}, commit {first['commit']}, {first['processor']}, "
-        text += [f"## make {command}", "", textwrap.fill(f"{origin}{first['cores']} cores.", 120), ""]
-        for file in files:
-            if file.endswith(".png"):
-                name = file.removesuffix(".png").replace("_", " ")
-                text += [f"![{name}](results/{file})", ""]
-        others = [f"[{file}](results/{file})" for file in files if not file.endswith(".png")]
-        text += ["Files:", *(f"- {link}" for link in others), ""]
+        files = [file for file in (Path(name) for name in names) if file.name in records]
+        pictures = [
+            f"![{file.stem.replace('_', ' ')}](results/{file.name})\n" for file in files if file.suffix == ".png"
+        ]
+        links = [f"- [{file.name}](results/{file.name})" for file in files if file.suffix != ".png"]
+        if files:
+            origin = "`{command}`, {date}, commit {commit}, {processor}, {cores} cores.\n".format(
+                **records[files[0].name]
+            )
+            text += [f"## make {command}\n", origin, *pictures, "Files:", *links, ""]
     return "\n".join(text)
 
 

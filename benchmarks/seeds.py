@@ -13,6 +13,7 @@ from pathlib import Path
 
 import click
 import pandas as pd
+from measuring import output_option, save_table
 
 from viscorough_study.verdicts.claims import overall
 
@@ -30,15 +31,14 @@ def claims(folder, seed, cores):
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--seeds", type=click.IntRange(2), default=3, show_default=True, help="Number of root seeds: 1, 2, ...")
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True)
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, CSV.")
+@output_option
 def main(seeds, cores, output):
     tables = {}
     for seed in range(1, seeds + 1):
         with tempfile.TemporaryDirectory() as folder:
             tables[seed] = claims(folder, seed, cores)
         click.echo(f"seed {seed} of {seeds}")
-    output.parent.mkdir(parents=True, exist_ok=True)
-    pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output)
+    save_table(pd.concat(tables, names=["seed"]).reset_index("seed"), output)
     verdicts = pd.DataFrame({seed: overall(table) for seed, table in tables.items()})
     moved = verdicts[verdicts.nunique(axis=1) > 1]
     click.echo(

@@ -11,7 +11,6 @@ from docutils.utils.math import latex2mathml
 from viscorough.cli import subcommand
 
 project = "viscorough"
-author = "the authors of viscorough"
 release = importlib.metadata.version("viscorough")
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]

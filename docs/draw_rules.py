@@ -62,36 +62,29 @@ def without_implied(edges):
     return {(rule, then) for rule, then in edges if not any(then in reached(b) for a, b in edges if a == rule)}
 
 
-def rows(edges, column):
-    """{rule: row}: those of a column evenly spaced, in the order of the rules that they need; those of none, last."""
-    row, most = {}, max(map(list(column.values()).count, column.values()))
-    for position in range(len(STAGES)):
-        rules = [rule for rule in column if column[rule] == position]
-        needed = {then: [row[rule] for rule, later in edges if later == then and rule in row] for then in rules}
-        farthest = {rule: max((column[then] for before, then in edges if before == rule), default=0) for rule in rules}
-        rules.sort(key=lambda rule: (np.mean(needed[rule]) if needed[rule] else np.inf, farthest[rule]))
-        row |= {rule: (i + 0.5) / len(rules) * most for i, rule in enumerate(rules)}
-    return row
-
-
 def draw(edges, path):
-    """A column for each stage, a box for each rule, and a line for each edge that others do not imply."""
-    shown, column = without_implied(edges), columns(edges)
-    row = rows(shown, column)
-    bottom = max(row.values()) + 0.5
+    """A column for each stage, a box for each rule, and a line for each edge that others do not imply.
+
+    The rules of a column stand evenly spaced in the order of the rules that they need; those that need none, last.
+    """
+    shown, column, row = sorted(without_implied(edges)), columns(edges), {}
+    bottom = max(map(list(column.values()).count, column.values()))
     figure = Figure(figsize=(14, 0.25 * bottom))
     axes = figure.add_axes((0, 0, 1, 1), xlim=(-0.5, len(STAGES) - 0.5), ylim=(bottom, -1))
     axes.axis("off")
-    part = np.linspace(0, 1)
-    for rule, then in sorted(shown):
-        start, end = column[rule] + 0.42, column[then] - 0.42
-        rise = part**2 * (3 - 2 * part) * (row[then] - row[rule])
-        axes.plot(start + part * (end - start), row[rule] + rise, color="0.6", linewidth=0.9)
     for position, (stage, (_, colour)) in enumerate(STAGES.items()):
         axes.text(position, -0.3, stage, ha="center", fontsize=9.5, fontweight="bold")
-        for rule in (rule for rule in row if column[rule] == position):
+        rules = [rule for rule in column if column[rule] == position]
+        needed = {then: [row[rule] for rule, later in shown if later == then and rule in row] for then in rules}
+        farthest = {rule: max((column[then] for before, then in shown if before == rule), default=0) for rule in rules}
+        rules.sort(key=lambda rule: (np.mean(needed[rule] or np.inf), farthest[rule]))
+        row |= {rule: (i + 0.5) / len(rules) * bottom for i, rule in enumerate(rules)}
+        for rule in rules:
             axes.barh(row[rule], 0.84, 0.72, position - 0.42, color=colour, edgecolor="0.4", linewidth=0.6, zorder=3)
             axes.text(position, row[rule], rule, ha="center", va="center", fontsize=8, zorder=4)
+    for rule, then in shown:
+        line = (column[rule] + 0.42, column[then] - 0.42), (row[rule], row[then])
+        axes.plot(*line, color="0.6", linewidth=0.9)
     text = "\n".join(f"{rule} -> {then}" for rule, then in sorted(edges))
     figure.savefig(path, dpi=130, metadata={SOURCE: text, "Software": None})
 

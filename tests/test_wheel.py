@@ -4,7 +4,6 @@ import tarfile
 import zipfile
 
 import distribution
-import pytest
 
 from support.documentation import ROOT
 
@@ -14,28 +13,13 @@ LIBRARY = {
 }
 
 
-@pytest.fixture(scope="module")
-def built(tmp_path_factory):
-    return distribution.build(tmp_path_factory.mktemp("dist"))
-
-
-def test_the_wheel_holds_the_files_of_the_library_and_no_others(built):
-    names = zipfile.ZipFile(built[1]).namelist()
+def test_sdist_and_wheel_hold_the_library_and_nothing_else(tmp_path):
+    sdist, wheel = distribution.build(tmp_path)
+    names = zipfile.ZipFile(wheel).namelist()
     assert {name for name in names if ".dist-info/" not in name} == LIBRARY
     assert {"viscorough/py.typed", "viscorough/__init__.pyi", "viscorough/data/calibration.csv"} <= LIBRARY
     assert any(name.endswith("/LICENSE") for name in names)
-    assert built[1].stat().st_size <= distribution.WHEEL_BYTES_MAX
-
-
-def test_the_sdist_has_no_study(built):
-    with tarfile.open(built[0]) as archive:
+    assert wheel.stat().st_size <= 1_000_000
+    with tarfile.open(sdist) as archive:
         names = {name.split("/src/")[1] for name in archive.getnames() if "/src/" in name}
     assert {name for name in names if name.endswith(KINDS)} == LIBRARY
-
-
-def test_what_runs_from_the_wheel():
-    """README's lines and all examples, without the checkout's own folders."""
-    scripts = distribution.scripts()
-    assert set(scripts) == {"README", *(path.stem for path in (ROOT / "examples").glob("*.py"))}
-    assert len(scripts) == 7
-    assert all("savefig" in text for text in scripts.values())

@@ -12,13 +12,13 @@ from click.testing import CliRunner
 def runs(tmp_path):
     """Two runs with the same numbers, whose measured times differ."""
     for name, seconds in (("old", 1.0), ("new", 2.0)):
-        for folder in ("tables", "curves/discs/h04000_c1", "surfaces"):
-            (tmp_path / name / folder).mkdir(parents=True)
+        (tmp_path / name / "tables").mkdir(parents=True)
+        (tmp_path / name / "surfaces").mkdir()
         claims = pd.DataFrame({"claim": ["beta"], "value": [0.3], "note": [np.nan]})
         claims.to_csv(tmp_path / name / "tables/claims.csv", index=False)
         pd.DataFrame({"wall_s": [seconds]}).to_csv(tmp_path / name / "tables/methods.csv", index=False)
-        curves = xr.Dataset({"force": (("realization", "level"), np.ones((2, 3)))})
-        curves.to_netcdf(tmp_path / name / "curves/discs/h04000_c1/0000-0001.nc")
+        heights = xr.Dataset({"heights": (("y", "x"), [[1.0, 2.0]])})
+        heights.to_netcdf(tmp_path / name / "surfaces/examples.nc", group="ensemble_1")
     return tmp_path / "old", tmp_path / "new"
 
 
@@ -29,31 +29,26 @@ def compared(runs, *options):
 
 
 @pytest.mark.parametrize(
-    ("column", "change", "message"),
+    ("column", "change", "differs"),
     [
-        (
-            "value",
-            lambda value: value * (1 + 1e-11),
-            "Not equal to tolerance rtol=1e-12, atol=0 Mismatched elements: 1 / 1 (100%)",
-        ),
-        ("value", lambda value: value * np.nan, "Not equal to tolerance rtol=1e-12, atol=0 nan location mismatch"),
-        ("claim", lambda value: value + "x", "Arrays are not equal Mismatched elements: 1 / 1 (100%)"),
-        ("more", lambda value: 1, "only in NEW"),
-        ("value", lambda value: value * (1 + 1e-14), None),
+        ("value", lambda value: value * (1 + 1e-11), True),
+        ("value", lambda value: value * np.nan, True),
+        ("claim", lambda value: value + "x", True),
+        ("more", lambda value: 1, True),
+        ("value", lambda value: value * (1 + 1e-14), False),
     ],
 )
-def test_a_difference_in_a_table(runs, column, change, message):
+def test_a_difference_in_a_table(runs, column, change, differs):
     path = runs[1] / "tables/claims.csv"
     content = pd.read_csv(path)
     content.assign(**{column: change(content.get(column))}).to_csv(path, index=False)
     code, output = compared(runs)
-    assert code == (message is not None)
-    assert message is None or f"DIFFERENCE: tables/claims.csv, {column}: {message}" in output
+    assert code == differs
+    assert (f"DIFFERENCE: tables/claims.csv, {column}: " in output) == differs
     assert compared(runs, "--allow", f"*claims.csv, {column}")[0] == 0
 
 
 def test_values_in_groups_are_compared(runs):
-    for run, last in zip(runs, (2.0, 3.0), strict=True):
-        heights = xr.Dataset({"heights": ("x", [1.0, last])})
-        heights.to_netcdf(run / "surfaces/examples.nc", group="ensemble_1")
+    heights = xr.Dataset({"heights": (("y", "x"), [[1.0, 3.0]])})
+    heights.to_netcdf(runs[1] / "surfaces/examples.nc", group="ensemble_1")
     assert "DIFFERENCE: surfaces/examples.nc, ensemble_1/heights: " in compared(runs)[1]

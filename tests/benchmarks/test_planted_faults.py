@@ -6,9 +6,7 @@ import planted_faults as planted
 
 
 def test_every_fault_can_be_planted_and_has_its_tests():
-    faults = planted.read_faults()
-    assert len(faults) >= 20
-    assert [line for fault in faults for line in planted.problems(fault)] == []
+    assert [line for fault in planted.read_faults() for line in planted.problems(fault)] == []
 
 
 def test_a_fault_is_caught_missed_or_undecided(tmp_path, monkeypatch):
@@ -23,7 +21,7 @@ def test_a_fault_is_caught_missed_or_undecided(tmp_path, monkeypatch):
         ({"new": "x / 2.0"}, "missed"),
         ({"tests": ("absent.py",)}, "tests did not run"),
     ):
-        outcome = planted.outcome(replace(fault, **changes), tmp_path / "clean", tmp_path / "planted", 60)
+        outcome = planted.outcome(replace(fault, **changes), tmp_path / "clean", tmp_path / "planted")
         assert outcome["verdict"] == verdict
     assert (tmp_path / "clean/half.py").read_text() == "def half(x):\n    return x / 2\n"
     assert not (tmp_path / "planted").exists()

@@ -26,10 +26,9 @@ def test_pages_have_the_published_tables(page, name):
 
 @pytest.fixture
 def results(tmp_path):
-    """A folder with all that `make paper`, `make large` and `make reproduce` make."""
+    """A folder with all that `make paper` and `make large` make."""
     gradient = np.arange(2 * 3 * 3).reshape(2, 3, 3).astype(np.uint8)
-    names = [*publish.PUBLISHED["paper"], *publish.PUBLISHED["large"]]
-    for name in [*names, *publish.KEPT["paper"], *publish.KEPT["reproduce"]]:
+    for name in [*publish.PUBLISHED["paper"], *publish.PUBLISHED["large"], *publish.KEPT["paper"]]:
         (tmp_path / "results" / name).parent.mkdir(parents=True, exist_ok=True)
         if name.endswith(".png"):
             Image.fromarray(gradient).save(tmp_path / "results" / name)
@@ -39,31 +38,22 @@ def results(tmp_path):
     return tmp_path / "results"
 
 
-@pytest.fixture
-def project(tmp_path):
-    """A project without anything published."""
-    for folder in ("docs", "src/viscorough/data", "resources/published"):
-        (tmp_path / "project" / folder).mkdir(parents=True)
-    return tmp_path / "project"
-
-
-def test_publishing(results, project):
-    publish.copy_results(results, project, ["paper"], "abc")
-    publish.copy_results(results, project, ["large"], "def")
-    records = json.loads((project / "docs/results/published.json").read_text())
+def test_publishing(results, tmp_path):
+    """Nothing is published of an incomplete run, as the charts of a folder in which `make speed` was not run."""
+    for folder in ("docs", "src/viscorough/data"):
+        (tmp_path / folder).mkdir(parents=True)
+    with pytest.raises(click.ClickException, match="make speed"):
+        publish.copy_results(results, tmp_path, ["paper", "speed"], "abc")
+    assert not list((tmp_path / "docs").iterdir())
+    publish.copy_results(results, tmp_path, ["paper"], "abc")
+    publish.copy_results(results, tmp_path, ["large"], "def")
+    records = json.loads((tmp_path / "docs/results/published.json").read_text())
     names = {name.split("/")[-1] for name in publish.PUBLISHED["paper"] + publish.PUBLISHED["large"]}
-    assert {path.name for path in (project / "docs/results").iterdir()} - {"published.json"} == set(records) == names
+    assert {path.name for path in (tmp_path / "docs/results").iterdir()} - {"published.json"} == set(records) == names
     assert records["rule_costs.csv"]["date"] == "2000-01-01"
     assert (records["large.csv"]["command"], records["large.csv"]["commit"]) == ("make large", "def")
     for name, target in publish.KEPT["paper"].items():
-        assert (project / target).read_text() == (results / name).read_text()
-
-
-def test_nothing_is_published_of_an_incomplete_run(results, project):
-    """As the charts of a small scale would be, of a folder in which `make speed` was not run."""
-    with pytest.raises(click.ClickException, match="make speed"):
-        publish.copy_results(results, project, ["speed"], "abc")
-    assert not list((project / "docs").iterdir())
+        assert (tmp_path / target).read_text() == (results / name).read_text()
 
 
 def test_published_files_say_where_they_come_from():

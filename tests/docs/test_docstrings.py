@@ -2,7 +2,6 @@
 
 import doctest
 import inspect
-import pydoc
 import re
 
 import pytest
@@ -34,7 +33,3 @@ def test_parameters_are_those_of_the_signature(name):
         each for line in re.findall(r"^\**(\w.*?)(?: :.*)?$", section, re.MULTILINE) for each in line.split(", ")
     }
     assert described == set(inspect.signature(PUBLIC[name]).parameters)
-
-
-def test_help_of_indent_fits_a_screen_and_a_half():
-    assert len(pydoc.render_doc(viscorough.indent).splitlines()) <= 75

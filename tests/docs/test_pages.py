@@ -41,10 +41,3 @@ def test_what_is_named_exists(page):
         for word in command.split():
             assert word in RULES or not re.fullmatch(r"[a-z_]+\w*", word), word
             assert (ROOT / word).exists() or not word.startswith(("config/", "profiles/")), word
-
-
-def test_every_page_is_listed_on_the_first():
-    index = read(ROOT / "docs/index.md")
-    for page in (ROOT / "docs").rglob("*.md"):
-        name = str(page.relative_to(ROOT / "docs").with_suffix(""))
-        assert name == "index" or re.search(rf"^{name}$", index, re.MULTILINE), name

@@ -1,0 +1,49 @@
+"""Print the test files for what has changed since a commit: `python tests/changed.py [COMMIT]`, by default HEAD.
+
+A module has the test file of its name in the folder of tests of the same shape; without one, those of its folder. What
+modules import decides what reruns, so that every change of them has the test of that. Changes of the workflow and of
+pages have the quick tests of their form.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+BY_FOLDER = {
+    "src": ["tests/viscorough_study/run/test_source_digest.py"],
+    "workflow": ["tests/workflow/test_form.py"],
+    "config": ["tests/viscorough_study/run/test_settings.py"],
+    "resources": ["tests/viscorough_study/verdicts/test_claims.py"],
+    "docs": ["tests/docs/test_pages.py", "tests/docs/test_numbers.py"],
+}
+
+
+def changed(commit):
+    """Files that differ from a commit, and those that git does not track yet."""
+    commands = ["diff", "--name-only", "--diff-filter=d", commit], ["ls-files", "--others", "--exclude-standard"]
+    runs = [subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True) for words in commands]
+    return [name for run in runs for name in run.stdout.splitlines()]
+
+
+def relevant_tests(name, root=ROOT):
+    """Test files for a changed file; paths from the root as text."""
+    path = Path(name)
+    if path.name.startswith("test_"):
+        return [name]
+    if path.suffix != ".py" or path.parts[0] not in ("src", "benchmarks"):
+        folder = {"Snakefile": "workflow", "README.md": "docs"}.get(name, path.parts[0])
+        return [test for test in BY_FOLDER.get(folder, []) if (root / test).is_file()]
+    parts = path.parts[1:] if path.parts[0] == "src" else path.parts
+    mirror = Path("tests", *parts[:-1], f"test_{path.name}")
+    if (root / mirror).is_file():
+        return [str(mirror)]
+    return [str(test.relative_to(root)) for test in sorted((root / mirror.parent).glob("test_*.py"))]
+
+
+if __name__ == "__main__":
+    commit = sys.argv[1] if len(sys.argv) > 1 else "HEAD"
+    names = changed(commit)
+    tests = {test for name in names for test in relevant_tests(name)}
+    tests |= {test for name in names if name.startswith("src/") for test in BY_FOLDER["src"]}
+    print("\n".join(sorted(tests)))

@@ -1,0 +1,28 @@
+"""The tests that `make check` picks for a changed file."""
+
+from pathlib import Path
+
+import pytest
+
+import changed
+
+
+@pytest.mark.parametrize(
+    ("name", "some"),
+    [
+        ("tests/docs/test_pages.py", "tests/docs/test_pages.py"),
+        ("src/viscorough/io/text.py", "tests/viscorough/io/test_text.py"),
+        ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_solver.py"),  # of its folder
+        ("benchmarks/fuzz.py", "tests/benchmarks/test_fuzz.py"),
+        ("Snakefile", "tests/workflow/test_form.py"),
+        ("docs/theory.md", "tests/docs/test_numbers.py"),
+    ],
+)
+def test_a_changed_file_has_tests_that_exist(name, some):
+    tests = changed.relevant_tests(name)
+    assert some in tests
+    assert all((changed.ROOT / Path(test)).is_file() for test in tests)
+
+
+def test_files_without_tests_of_their_own_have_none():
+    assert changed.relevant_tests("LICENSE") == changed.relevant_tests("examples/ball.py") == []

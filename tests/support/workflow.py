@@ -18,7 +18,6 @@ SCRIPTS = ROOT / "workflow/scripts"
 TEST = ("--configfile", "config/test.yaml")
 RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="utf-8"))
 TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, table in rule["tables"].items()}
-SHOWN = {name: table for name, table in TABLES.items() if "chapter" in table}  # in the report
 FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
 HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
 TARGETS = {"all", "article", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large"}

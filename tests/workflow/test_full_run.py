@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from support.cf import violations
-from support.workflow import FIGURES, SHOWN, TABLES, TEST, jobs, load_script, plan, snakemake
+from support.workflow import FIGURES, TABLES, TEST, jobs, load_script, plan, snakemake
 from viscorough.surfaces import cut_disc
 
 ALL = [name for name, table in TABLES.items() if "target" not in table]  # tables of the default run
@@ -24,8 +24,6 @@ def test_every_figure_and_table_is_made(finished_once):
         with xr.open_dataset(results / f"tables/{table}.nc") as nc:
             assert set(nc.variables) == set(csv.columns)
             assert nc.attrs["source"].startswith("viscorough ")
-        page = results / f"tables/{table}.html"
-        assert page.read_text().count("<tr>") == len(csv) + 1 if table in SHOWN else not page.exists()
     assert (results / "tables/validation_passed.txt").read_text().startswith("sphere force\n")
 
 
@@ -128,7 +126,7 @@ def test_report(finished):
     assert not (finished / "report.html").exists()
     snakemake(finished, *TEST, "--report", "report.html", cores=None)
     page = (finished / "report.html").read_text()
-    for text in ("fig4_exponent.png", "scaling.html", "4 Conventions and validation", "collapse"):
+    for text in ("fig4_exponent.png", "4 Conventions and validation", "collapse"):
         assert text in page
 
 

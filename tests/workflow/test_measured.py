@@ -13,7 +13,7 @@ from viscorough.surfaces import self_affine_disc
 
 SCANS = {"ground_a", "ground_b", "polished_c"}
 MADE = {"prepare_measured", "indent_surfaces", "aggregate_curves", "evaluate_measured", "plot_measured"}
-MADE |= {"tabulate_rule_costs", "make_page", "show_tables_of_measured", "show_tables_of_all"}
+MADE |= {"tabulate_rule_costs", "make_page"}
 
 
 def write_scans(folder):

@@ -19,7 +19,7 @@ from support.workflow import (
 )
 from viscorough_study.ensembles.surface_files import read_surfaces
 
-LAST = {"tabulate_rule_costs", "make_page", "show_tables_of_all"}  # made again with whatever is
+LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
 BOUNDARY_ELEMENTS = {"indent_surfaces", "compare_direct", "compare_reduction", "validate", "measure_methods"}
 BOUNDARY_ELEMENTS |= {"map_failures", "compare_level_placement"}
 

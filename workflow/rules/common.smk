@@ -204,7 +204,6 @@ CHAPTERS = {
     "speed": "6 Speed and accuracy",
     "failures": "7 Where methods fail",
     "beyond": "8 Beyond the paper",
-    "costs": "9 Costs",
 }
 
 
@@ -226,14 +225,10 @@ TABULATIONS = {
 }
 
 
-def tables_of(target):
-    """{table: entry} of the tables that a target makes."""
-    return {name: table for name, table in TABLES.items() if table["target"] == target}
-
-
-def shown_tables_of(target):
-    """{table: entry} of the tables of a target that the report shows."""
-    return {name: table for name, table in tables_of(target).items() if "chapter" in table}
+def table_files(target):
+    """Files of the tables that a target makes, without those of the costs, which are made last."""
+    names = [name for name, table in TABLES.items() if table["target"] == target and name != "rule_costs"]
+    return expand("results/tables/{table}.{kind}", table=names, kind=("csv", "nc"))
 
 
 def table_functions(tabulation):

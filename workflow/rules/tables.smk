@@ -2,7 +2,6 @@
 
 # {name of an input: files}
 TABLE_INPUTS = {
-    "methods": expand("results/methods/{problem}.csv", problem=PROBLEMS),
     "costs_of_large": expand("results/large/{elements}.csv", elements=config["large"]["elements"]),
     "curves_of_combinations": curves_of_combinations(),
     "measured_curves": curves_of_pool("measured"),
@@ -36,7 +35,11 @@ TABLE_PARAMS = {
         "entries": read_yaml("resources/literature/stiffness.yaml"),
         "conventions": config["figures"],
     },
-    "tabulate_methods": without("methods", "tasks", "light", "scenes", "pairs") | SEED,
+    "measure_methods": {
+        "problems": cases.method_problems(config),
+        **chosen("methods", "levels", "repeats", "longest"),
+        **SEED,
+    },
     "compare_level_placement": config["methods"]["scenes"] | chosen("methods", "repeats") | SEED,
     "time_other_solvers": {
         **{name: config["methods"][name] for name in ("pairs", "longest", "tasks")},

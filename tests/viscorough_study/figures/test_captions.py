@@ -11,7 +11,7 @@ from matplotlib.colors import to_hex
 from matplotlib.text import Text
 
 from support.study import ROOT
-from support.workflow import FIGURES, SHOWN, read_settings
+from support.workflow import FIGURES, read_settings
 from viscorough_study.figures.failure_map import LETTERS
 from viscorough_study.figures.style import SMALL
 
@@ -127,6 +127,5 @@ def test_texts_of_the_report_can_be_filled_in():
 
 
 def test_every_caption_is_that_of_a_result():
-    assert {path.stem for path in REPORT.glob("tables/*.rst")} == set(SHOWN)
     assert {path.stem for path in REPORT.glob("figures/*.rst")} == set(FIGURES)
     assert {path.stem for path in REPORT.glob("*.rst")} == {"page", "workflow"}

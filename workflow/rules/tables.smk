@@ -4,7 +4,6 @@
 TABLE_INPUTS = {
     "costs_of_large": expand("results/large/{elements}.csv", elements=config["large"]["elements"]),
     "curves_of_combinations": curves_of_combinations(),
-    "measured_curves": curves_of_pool("measured"),
 }
 SEED = {"seed": config["seed"]}
 # {rule: further arguments of its function}
@@ -68,14 +67,7 @@ TABLE_PARAMS = {
         **chosen("indentation", "until_x"),
         "discs": cases.first_combination(config),
     },
-    "evaluate_measured": {
-        "names": list(MEASURED),
-        "forces": [scan["forces"] for scan in MEASURED.values()],
-        "media": config["media"]["cases"],
-        "fit": config["scaling"],
-        **chosen("media", "times"),
-        **SEED,
-    },
+    "evaluate_measured": {"fit": config["scaling"]} | SEED,
 }
 
 for name, made in TABULATIONS.items():

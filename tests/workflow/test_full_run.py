@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from support.cf import violations
-from support.workflow import FIGURES, TABLES, TEST, jobs, load_script, plan, snakemake
+from support.workflow import FIGURES, TABLES, TEST, jobs, load_script, snakemake
 from viscorough.surfaces import cut_disc
 
 ALL = [name for name, table in TABLES.items() if "target" not in table]  # tables of the default run
@@ -128,13 +128,6 @@ def test_report(finished):
     page = (finished / "report.html").read_text()
     for text in ("fig4_exponent.png", "4 Conventions and validation", "collapse"):
         assert text in page
-
-
-def test_deleted_files_are_made_again_by_their_targets_alone(finished):
-    for name in ("figures/fig4_exponent.png", "figures/fig1_surfaces.png", "curves/discs/h04000/0000-0001.nc"):
-        (finished / "results" / name).unlink()
-    assert plan(finished, *TEST, "--", "figure_4") == {"plot_exponent": 1}
-    assert plan(finished, *TEST, "--", "curves") == {"generate_discs": 1, "indent_surfaces": 1}
 
 
 def test_a_failed_comparison_stops_the_workflow_and_is_named(finished, tmp_path):

@@ -79,10 +79,6 @@ def test_timed_jobs_ran_alone(finished_once):
     assert most > 1, "else it would not show that timed jobs run alone"
 
 
-def test_no_method_fails_unnoticed(finished_once):
-    assert "unnoticed" not in set(pd.read_csv(finished_once / "results/tables/failure_map.csv")["verdict"])
-
-
 def test_ensembles_on_their_own_grids(finished_once):
     sizes = pd.read_csv(finished_once / "results/tables/sizes.csv")
     discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]

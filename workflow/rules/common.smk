@@ -95,11 +95,6 @@ def scan_value(name):
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
 
-def disc_ensembles(wildcards):
-    """Ensembles of discs in a batch."""
-    return cases.batch_ensembles(DISCS[wildcards.case], wildcards.batch)
-
-
 def kind_of_pool(pool):
     return pool if pool == "measured" else "lines" if pool.endswith("lines") else "discs"
 
@@ -279,10 +274,6 @@ def indentation_memory(wildcards):
 
 def pool_memory(wildcards):
     return cases.pool_memory(CASES[kind_of_pool(wildcards.pool)], wildcards.pool, config["ensemble"])
-
-
-def large_memory(wildcards):
-    return cases.large_memory(int(wildcards.elements))
 
 
 # ---- all rules

@@ -6,7 +6,7 @@ rule measure_large:
         csv="results/large/{elements}.csv",
     threads: ALL_CORES
     resources:
-        mem_mb=large_memory,
+        mem_mb=lambda wildcards: cases.large_memory(int(wildcards.elements)),
     params:
         seed=config["seed"],
         hurst=config["large"]["hurst"],

@@ -1,6 +1,6 @@
 """Frictionless contact of a few elements by a dense influence matrix and non-negative least squares.
 
-It shares no code with the package, so that it can serve as a check of it; the stand-ins for other solvers use it.
+It shares no code with the package, so that it can serve as a check of it; the stand-in for another solver uses it.
 """
 
 import numpy as np

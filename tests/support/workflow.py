@@ -18,11 +18,10 @@ SCRIPTS = ROOT / "workflow/scripts"
 TEST = ("--configfile", "config/test.yaml")
 RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="utf-8"))
 TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, table in rule["tables"].items()}
-SHOWN = {name: table for name, table in TABLES.items() if "chapter" in table}  # in the report
 FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
 HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
-TARGETS = {"all", "article", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large"}
-TARGETS |= {"costs", "light_contact", "measured", *(f"figure_{number}" for number in range(1, 5))}
+TARGETS = {"all", "curves", "figures", "tables", "validation", "speed", "sizes", "large", "measured"}
+TARGETS |= {f"figure_{number}" for number in range(1, 5)}
 
 
 def copy_project(folder):

@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from support.cf import violations
-from support.workflow import FIGURES, SHOWN, TABLES, TEST, jobs, load_script, plan, snakemake
+from support.workflow import FIGURES, TABLES, TEST, jobs, load_script, snakemake
 from viscorough.surfaces import cut_disc
 
 ALL = [name for name, table in TABLES.items() if "target" not in table]  # tables of the default run
@@ -24,8 +24,6 @@ def test_every_figure_and_table_is_made(finished_once):
         with xr.open_dataset(results / f"tables/{table}.nc") as nc:
             assert set(nc.variables) == set(csv.columns)
             assert nc.attrs["source"].startswith("viscorough ")
-        page = results / f"tables/{table}.html"
-        assert page.read_text().count("<tr>") == len(csv) + 1 if table in SHOWN else not page.exists()
     assert (results / "tables/validation_passed.txt").read_text().startswith("sphere force\n")
 
 
@@ -81,10 +79,6 @@ def test_timed_jobs_ran_alone(finished_once):
     assert most > 1, "else it would not show that timed jobs run alone"
 
 
-def test_no_method_fails_unnoticed(finished_once):
-    assert "unnoticed" not in set(pd.read_csv(finished_once / "results/tables/failure_map.csv")["verdict"])
-
-
 def test_ensembles_on_their_own_grids(finished_once):
     sizes = pd.read_csv(finished_once / "results/tables/sizes.csv")
     discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]
@@ -128,15 +122,8 @@ def test_report(finished):
     assert not (finished / "report.html").exists()
     snakemake(finished, *TEST, "--report", "report.html", cores=None)
     page = (finished / "report.html").read_text()
-    for text in ("fig4_exponent.png", "scaling.html", "4 Conventions and validation", "collapse"):
+    for text in ("fig4_exponent.png", "4 Conventions and validation", "collapse"):
         assert text in page
-
-
-def test_deleted_files_are_made_again_by_their_targets_alone(finished):
-    for name in ("figures/fig4_exponent.png", "figures/fig1_surfaces.png", "curves/discs/h04000/0000-0001.nc"):
-        (finished / "results" / name).unlink()
-    assert plan(finished, *TEST, "--", "figure_4") == {"plot_exponent": 1}
-    assert plan(finished, *TEST, "--", "curves") == {"generate_discs": 1, "indent_surfaces": 1}
 
 
 def test_a_failed_comparison_stops_the_workflow_and_is_named(finished, tmp_path):

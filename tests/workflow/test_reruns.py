@@ -19,7 +19,7 @@ from support.workflow import (
 )
 from viscorough_study.ensembles.surface_files import read_surfaces
 
-LAST = {"tabulate_rule_costs", "make_page", "show_tables_of_all"}  # made again with whatever is
+LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
 BOUNDARY_ELEMENTS = {"indent_surfaces", "compare_direct", "compare_reduction", "validate", "measure_methods"}
 BOUNDARY_ELEMENTS |= {"map_failures", "compare_level_placement"}
 
@@ -161,14 +161,3 @@ def test_a_changed_source_reruns_what_uses_it(editable, with_dependents, files, 
     for file in files:
         add_line(editable / file, "CHANGED = True")
     assert set(plan(editable, *TEST)) == with_dependents(directly) | LAST
-
-
-def test_a_change_of_the_generator_reruns_discs_and_their_curves(editable):
-    add_line(editable / "src/viscorough/surfaces.py", "CHANGED = True")
-    planned = plan(editable, *TEST, "--", "curves", "figure_1")
-    disc_jobs = {"generate_discs": 4, "indent_surfaces": 4}
-    assert planned == disc_jobs | {"generate_examples": 1, "plot_surfaces": 1}
-
-
-def test_forcing_one_rule(finished_once):
-    assert plan(finished_once, *TEST, "--forcerun", "plot_exponent") == dict.fromkeys(("plot_exponent", *LAST), 1)

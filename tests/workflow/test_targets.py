@@ -18,7 +18,6 @@ def test_plans_of_every_scale(unmade, name, indent_surfaces, reduce_lines):
     assert (planned.pop("indent_surfaces"), planned.pop("reduce_lines")) == (indent_surfaces, reduce_lines)
     assert planned.pop("generate_discs") == indent_surfaces
     assert planned.pop("aggregate_curves") == 4
-    assert planned.pop("measure_methods") == (2 if name == "test" else 3)
     assert set(planned.values()) == {1}
     assert {"check_validation", "fit_scaling", "judge_claims", "make_page"} < set(planned)
     assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (110 if name == "config" else 300)
@@ -31,10 +30,10 @@ def test_one_figure_needs_only_its_own(unmade):
 
 def test_targets_beside_the_default_one(finished):
     """Cost of one disc, and other solvers, which are not installed; the rest of these targets is there already."""
-    planned = jobs(snakemake(finished, *TEST, "--", "speed", "stability", "sizes", "large"))
+    planned = jobs(snakemake(finished, *TEST, "--", "speed", "sizes", "large"))
     assert planned.pop("measure_large") == 2
-    others = {"time_other_solvers", "show_tables_of_speed", "time_light_contact", "plot_light_contact"}
-    assert planned == dict.fromkeys({"tabulate_large", "plot_large", "show_tables_of_large"} | others, 1)
+    others = {"time_other_solvers", "time_light_contact", "plot_light_contact"}
+    assert planned == dict.fromkeys({"tabulate_large", "plot_large"} | others, 1)
     files = [finished / f"results/figures/{name}.png" for name in ("large", "light_contact")]
     assert all(file.stat().st_size > 5000 for file in files), "there is more in them than axes"
     costs = pd.read_csv(finished / "results/tables/large.csv")

@@ -95,11 +95,6 @@ def scan_value(name):
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
 
-def disc_ensembles(wildcards):
-    """Ensembles of discs in a batch."""
-    return cases.batch_ensembles(DISCS[wildcards.case], wildcards.batch)
-
-
 def kind_of_pool(pool):
     return pool if pool == "measured" else "lines" if pool.endswith("lines") else "discs"
 
@@ -204,7 +199,6 @@ CHAPTERS = {
     "speed": "6 Speed and accuracy",
     "failures": "7 Where methods fail",
     "beyond": "8 Beyond the paper",
-    "costs": "9 Costs",
 }
 
 
@@ -226,14 +220,10 @@ TABULATIONS = {
 }
 
 
-def tables_of(target):
-    """{table: entry} of the tables that a target makes."""
-    return {name: table for name, table in TABLES.items() if table["target"] == target}
-
-
-def shown_tables_of(target):
-    """{table: entry} of the tables of a target that the report shows."""
-    return {name: table for name, table in tables_of(target).items() if "chapter" in table}
+def table_files(target):
+    """Files of the tables that a target makes, without those of the costs, which are made last."""
+    names = [name for name, table in TABLES.items() if table["target"] == target and name != "rule_costs"]
+    return expand("results/tables/{table}.{kind}", table=names, kind=("csv", "nc"))
 
 
 def table_functions(tabulation):
@@ -284,10 +274,6 @@ def indentation_memory(wildcards):
 
 def pool_memory(wildcards):
     return cases.pool_memory(CASES[kind_of_pool(wildcards.pool)], wildcards.pool, config["ensemble"])
-
-
-def large_memory(wildcards):
-    return cases.large_memory(int(wildcards.elements))
 
 
 # ---- all rules

@@ -1,23 +1,4 @@
-# Measured times: every method on every indenter, and one disc on grids from coarse to fine. `make speed` measures them
-# on more indenters, and other solvers, which takes over an hour.
-
-
-rule measure_methods:
-    output:
-        csv="results/methods/{problem}.csv",
-    threads: ALL_CORES
-    resources:
-        mem_mb=8000,
-    params:
-        problem=lambda wildcards: PROBLEMS[wildcards.problem],
-        seed=config["seed"],
-        levels=config["methods"]["levels"],
-        repeats=config["methods"]["repeats"],
-        longest=config["methods"]["longest"],
-    message:
-        "Cost and error of every method: {wildcards.problem}"
-    script:
-        "../scripts/measure_methods.py"
+# Cost of one disc on grids from coarse to fine, each in a process of its own, whose peak memory counts.
 
 
 rule measure_large:
@@ -25,7 +6,7 @@ rule measure_large:
         csv="results/large/{elements}.csv",
     threads: ALL_CORES
     resources:
-        mem_mb=large_memory,
+        mem_mb=lambda wildcards: cases.large_memory(int(wildcards.elements)),
     params:
         seed=config["seed"],
         hurst=config["large"]["hurst"],

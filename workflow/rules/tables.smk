@@ -2,10 +2,8 @@
 
 # {name of an input: files}
 TABLE_INPUTS = {
-    "methods": expand("results/methods/{problem}.csv", problem=PROBLEMS),
     "costs_of_large": expand("results/large/{elements}.csv", elements=config["large"]["elements"]),
     "curves_of_combinations": curves_of_combinations(),
-    "measured_curves": curves_of_pool("measured"),
 }
 SEED = {"seed": config["seed"]}
 # {rule: further arguments of its function}
@@ -36,7 +34,11 @@ TABLE_PARAMS = {
         "entries": read_yaml("resources/literature/stiffness.yaml"),
         "conventions": config["figures"],
     },
-    "tabulate_methods": without("methods", "tasks", "light", "scenes", "pairs") | SEED,
+    "measure_methods": {
+        "problems": cases.method_problems(config),
+        **chosen("methods", "levels", "repeats", "longest"),
+        **SEED,
+    },
     "compare_level_placement": config["methods"]["scenes"] | chosen("methods", "repeats") | SEED,
     "time_other_solvers": {
         **{name: config["methods"][name] for name in ("pairs", "longest", "tasks")},
@@ -65,14 +67,7 @@ TABLE_PARAMS = {
         **chosen("indentation", "until_x"),
         "discs": cases.first_combination(config),
     },
-    "evaluate_measured": {
-        "names": list(MEASURED),
-        "forces": [scan["forces"] for scan in MEASURED.values()],
-        "media": config["media"]["cases"],
-        "fit": config["scaling"],
-        **chosen("media", "times"),
-        **SEED,
-    },
+    "evaluate_measured": {"fit": config["scaling"]} | SEED,
 }
 
 for name, made in TABULATIONS.items():

@@ -28,11 +28,7 @@ rule figures:
 rule tables:
     """All tables."""
     input:
-        expand(
-            "results/tables/{table}.{kind}",
-            table=[table for table in tables_of("all") if table != "rule_costs"],
-            kind=("csv", "nc"),
-        ),
+        table_files("all"),
 
 
 rule validation:
@@ -44,26 +40,14 @@ rule validation:
 rule measured:
     """Tables and figures of the measured surfaces that the settings name."""
     input:
-        [result.output for result in (*plots_of("measured"), rules.show_tables_of_measured)] if MEASURED else [],
+        [plot.output for plot in plots_of("measured")] + table_files("measured") if MEASURED else [],
 
 
 rule speed:
     """Speed against accuracy of every method, and of other solvers."""
     input:
         [plot.output for plot in (rules.plot_speed, rules.plot_level_placement, *plots_of("speed"))],
-        rules.show_tables_of_speed.output,
-
-
-rule light_contact:
-    """One light load on large maps, by this and other solvers: a part of `speed`."""
-    input:
-        rules.plot_light_contact.output,
-
-
-rule stability:
-    """Failure map of all methods."""
-    input:
-        rules.plot_failure_map.output,
+        table_files("speed"),
 
 
 rule sizes:
@@ -77,4 +61,4 @@ rule large:
     """Cost of one disc on grids from coarse to fine."""
     input:
         rules.plot_large.output,
-        rules.show_tables_of_large.output,
+        table_files("large"),

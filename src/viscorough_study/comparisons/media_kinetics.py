@@ -30,11 +30,6 @@ COLUMNS = {
 HALF_WIDTH = 0.25  # decades of time to either side over which local exponents are fitted
 
 
-def named_media(cases):
-    """{name: medium of viscorough.viscous.media} of the settings: mappings with a name and the keys of a medium."""
-    return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
-
-
 def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, force):
     """`media_table` of batches of loading curves.
 
@@ -50,7 +45,8 @@ def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, fo
         for i in np.flatnonzero(np.isin(values["case"].astype(str), discs) & (values["until_x"] == until_x)):
             joined, rms, _ = ensembles.get(hurst, ([], [], None))
             ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
-    return media_table(ensembles, named_media(cases), force=force, times=abscissa(**times))
+    media = {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
+    return media_table(ensembles, media, force=force, times=abscissa(**times))
 
 
 def media_table(ensembles, media, *, force, times):
@@ -63,7 +59,7 @@ def media_table(ensembles, media, *, force, times):
     """
     parts = []
     for (name, medium), (hurst, (curves, rms, diameter)) in product(media.items(), ensembles.items()):
-        time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
+        time = times[force * medium.creep_compliance(times) <= min(curve.force[-1] for curve in curves)]
         if not time.size:
             continue
         motions = [kinetics(curve, force, medium, time) for curve in curves]
@@ -83,8 +79,3 @@ def media_table(ensembles, media, *, force, times):
         }
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)[list(COLUMNS)]
-
-
-def reached_times(last, force, medium, times):
-    """The times at which the creep under a constant force is at most the last F/G of a loading curve."""
-    return times[force * medium.creep_compliance(times) <= last]

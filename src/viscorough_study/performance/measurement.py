@@ -8,9 +8,12 @@ from functools import partial
 
 import numpy as np
 import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from viscorough_study.performance import timing
 from viscorough_study.performance.methods import METHODS
+from viscorough_study.performance.problems import named_problem
+from viscorough_study.run.kernels import compile_kernels
 
 MAX_REPEATED = 10.0  # longest run that is repeated [s]
 TIMES = ("wall_s", "processor_s")
@@ -29,9 +32,12 @@ COLUMNS = {
 }
 
 
-def methods_table(tables, **settings):
-    """One table of the tables of all indenters; settings : of the measurements, to be recorded."""
-    return pd.concat(tables, ignore_index=True)
+def measure_problems(*, problems, seed, levels, repeats, longest):
+    """`measure` on one thread of problems given by the arguments of `named_problem`; seed : root of rough discs."""
+    compile_kernels()  # so that loading compiled code is not timed
+    with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
+        indenters = (named_problem(**problem, levels=levels, root=seed) for problem in problems)
+        return pd.concat([measure(indenter, repeats, longest=longest) for indenter in indenters], ignore_index=True)
 
 
 def measure(problem, repeats, *, longest, methods=METHODS):

@@ -34,7 +34,7 @@ def map_failures(*, seed, across, grids, hurst_min):
     """`failure_map` of all stress-test cases, with a warning in the log for every unnoticed failure."""
     cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
     table = failure_map(cases)
-    for row in unnoticed(table).itertuples():
+    for row in table[table["verdict"] == "unnoticed"].itertuples():
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
     return table
 
@@ -49,11 +49,6 @@ def failure_map(cases, methods=METHODS):
             solutions[question] = reference_solution(case)
         rows += [_cell(case, solutions[question], method) for method in methods]
     return pd.DataFrame(rows, columns=list(COLUMNS))
-
-
-def unnoticed(table):
-    """Rows of a failure map in which a method fails without a message to users."""
-    return table[table["verdict"] == "unnoticed"]
 
 
 def _cell(case, solution, method):

@@ -147,16 +147,12 @@ def line_cases(settings):
 
 
 def method_problems(settings):
-    """{problem: arguments of performance.problems.named_problem} of every indenter on which methods are compared."""
+    """Arguments of performance.problems.named_problem of every indenter on which methods are compared."""
     methods = settings["methods"]
-    bodies = {
-        f"{body}_{n}": {"name": body, "elements": n} for body in methods["bodies"] for n in methods["bodies_elements"]
-    }
-    return bodies | {
-        f"rough_{hurst_id(hurst)}_{n}": {"name": "rough disc", "hurst": hurst, "elements": n}
-        for hurst in methods["hurst"]
-        for n in methods["elements"]
-    }
+    bodies = [{"name": body, "elements": n} for body in methods["bodies"] for n in methods["bodies_elements"]]
+    return bodies + [
+        {"name": "rough disc", "hurst": hurst, "elements": n} for hurst in methods["hurst"] for n in methods["elements"]
+    ]
 
 
 def measured_cases(scans, indentation):

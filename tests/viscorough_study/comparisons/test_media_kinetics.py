@@ -6,12 +6,11 @@ import pytest
 from viscorough.contact.loading_path import indent
 from viscorough.loading_curve import LoadingCurve
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.media import KelvinVoigt, Maxwell, Springpot
-from viscorough_study.comparisons.media_kinetics import COLUMNS, media_table, named_media
+from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Springpot
+from viscorough_study.comparisons.media_kinetics import COLUMNS, media_table
 from viscorough_study.ensembles.averages import abscissa
 
-FLUID = {"name": "newtonian", "kind": "newtonian", "viscosity": 1e6}
-MEDIA = named_media([FLUID]) | {"maxwell": Maxwell(2.5e6, 1e6)}
+MEDIA = {"newtonian": Newtonian(1e6), "maxwell": Maxwell(2.5e6, 1e6)}
 
 
 @pytest.fixture(scope="module")

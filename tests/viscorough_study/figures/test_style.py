@@ -51,13 +51,3 @@ def test_saved_files_are_reproducible(scaling, tmp_path):
     assert b"CreationDate" not in first["a.pdf"]
     assert b"/FontFile2" in first["a.pdf"]  # TrueType fonts are in the file
     assert int.from_bytes(first["a.png"][16:20], "big") == pytest.approx(85 / 25.4 * 200, abs=1)
-
-
-def test_a_file_that_cannot_be_drawn_leaves_the_old_one(tmp_path):
-    path, figure = tmp_path / "a.png", Figure()
-    path.write_bytes(b"old")
-    figure.text(0.5, 0.5, r"$\no_such_symbol$")
-    with pytest.raises(ValueError, match="no_such_symbol"):
-        save_figure(figure, path)
-    assert path.read_bytes() == b"old"
-    assert list(tmp_path.iterdir()) == [path]

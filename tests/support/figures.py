@@ -57,6 +57,11 @@ def published(name):
     return pd.read_csv(ROOT / f"docs/results/{name}.csv")
 
 
+def combinations_of(**values):
+    """Table of all combinations of the values of columns."""
+    return pd.MultiIndex.from_product(values.values(), names=values).to_frame(index=False)
+
+
 def without_region(scaling, hurst):
     """The scaling table with no region (b) for one Hurst exponent, as the workflow writes it."""
     numbers = [name for name, (_, units) in SCALING_COLUMNS.items() if units and name not in ("hurst", "realizations")]
@@ -79,10 +84,16 @@ def curves_of_sizes():
 def media_table():
     """Two media, in which the velocity is a power of time."""
     media, time = ("newtonian", "standard_linear_solid"), np.geomspace(1e-3, 1e3, 13)
-    names = ("medium", "hurst", "time")
-    table = pd.MultiIndex.from_product((media, HURST, time), names=names).to_frame(index=False)
+    table = combinations_of(medium=media, hurst=HURST, time=time)
     power = table["time"] ** table["hurst"]
     return table.assign(x=1e-2 * table["time"], depth=power, velocity=power, realizations=6)
+
+
+def measured_kinetics():
+    """Two scans of one group under two forces in two media."""
+    scans, media, time = ("polished_1", "polished_2"), ("newtonian", "maxwell"), np.geomspace(1e-3, 1e3, 13)
+    table = combinations_of(scan=scans, medium=media, force=(0.1, 1.0), time=time).assign(group="polished")
+    return table.assign(depth=1e-6 * table["force"] * table["time"], velocity=1e-6 * table["force"])
 
 
 def interface_curves():

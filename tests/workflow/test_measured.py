@@ -23,7 +23,7 @@ def write_scans(folder):
         heights = self_affine_disc(0.6, 25, rms=0.5, diameter=250.0, seed=seed).heights
         np.save(folder / f"scans/{name}.npy", heights)
     shared = {"spacing": [10.0], "unit": "um"}
-    ground = {"name": "ground", "files": ["scans/[ab].npy"], **shared}
+    ground = {"name": "ground", "files": ["scans/[ab].npy"], "forces": [1e-4, 1e-3], **shared}
     polished = {"name": "polished", "files": ["scans/c.npy"], "preparation": {"detrend": "plane"}, **shared}
     return settings_file(folder, "scans", measured=[ground, polished])
 
@@ -52,6 +52,19 @@ def test_power_laws_have_the_numbers_of_scans(folder):
     fits = pd.read_csv(folder / "results/tables/measured_fits.csv")
     assert fits.groupby("case_group")["realizations"].first().to_dict() == {"ground": 2, "polished": 1}
     assert fits[fits["case_group"] == "polished"]["beta_low"].isna().all()  # one scan has no interval
+
+
+def test_kinetics_under_the_forces_in_every_medium(folder):
+    kinetics = pd.read_csv(folder / "results/tables/measured_kinetics.csv")
+    assert set(kinetics["scan"]) == {"ground_a", "ground_b"}
+    assert set(kinetics["force"]) == {1e-4, 1e-3}
+    assert set(kinetics["medium"]) == {"newtonian", "springpot"}
+    rows = kinetics[(kinetics["scan"] == "ground_a") & (kinetics["medium"] == "newtonian")]
+    weak, strong = (rows[rows["force"] == force] for force in (1e-4, 1e-3))
+    weak, strong = (part.assign(impulse=(part["force"] * part["time"]).round(15)) for part in (weak, strong))
+    both = pd.merge(weak, strong, on="impulse")
+    np.testing.assert_allclose(both["depth_x"], both["depth_y"], rtol=1e-9)  # one depth for one impulse
+    assert len(both) > 5
 
 
 def test_the_page_has_a_section(folder):

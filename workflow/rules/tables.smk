@@ -4,6 +4,7 @@
 TABLE_INPUTS = {
     "costs_of_large": expand("results/large/{elements}.csv", elements=config["large"]["elements"]),
     "curves_of_combinations": curves_of_combinations(),
+    "measured_curves": curves_of_pool("measured"),
 }
 SEED = {"seed": config["seed"]}
 # {rule: further arguments of its function}
@@ -67,7 +68,14 @@ TABLE_PARAMS = {
         **chosen("indentation", "until_x"),
         "discs": cases.first_combination(config),
     },
-    "evaluate_measured": {"fit": config["scaling"]} | SEED,
+    "evaluate_measured": {
+        "names": list(MEASURED),
+        "forces": [scan["forces"] for scan in MEASURED.values()],
+        "media": config["media"]["cases"],
+        "fit": config["scaling"],
+        **chosen("media", "times"),
+        **SEED,
+    },
 }
 
 for name, made in TABULATIONS.items():

@@ -1,10 +1,14 @@
-"""Tables of measured surfaces: lengths, and power laws of their groups."""
+"""Tables of measured surfaces: lengths, power laws of their groups, and kinetics."""
 
 import json
-from itertools import chain
+from itertools import chain, product
 
 import pandas as pd
 
+from viscorough.io.curves import unstack_curves
+from viscorough.viscous.correspondence import kinetics
+from viscorough_study.comparisons.media_kinetics import named_media, reached_times
+from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.fit_table import fit_rows
 
@@ -19,17 +23,48 @@ COLUMNS = {
     "rms_slope": ("rms slope, as prepared", "1"),
     "diameter": ("diameter L of the circle of equal area", "m"),
 }
+KINETICS = {
+    "scan": ("name of the scan", None),
+    "group": ("group of scans", None),
+    "medium": ("name of the medium", None),
+    "force": ("constant force F, from time 0 on", "N"),
+    "time": ("time t since the force was applied", "s"),
+    "depth": ("depth u", "m"),
+    "velocity": ("velocity v = du/dt", "m s-1"),
+}
 
 
-def measured_tables(pool, *, fit, seed):
-    """{"measured_scans", "measured_fits": table} of measured surfaces, with `COLUMNS` and those of fit_table.
+def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
+    """{"measured_scans", "measured_fits", "measured_kinetics": table} of measured surfaces.
 
-    pool : of all scans; fit : settings in section `scaling`
+    Their columns are `COLUMNS`, those of fit_table and `KINETICS`.
+    pool : of all scans; curves, names, forces : of each scan the Content of its curve, its name and its forces [N]
+    media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
+    fit : settings in section `scaling`
     """
-    scans = []
-    for name, made_from in json.loads(pool.attrs["settings"]).items():
-        (settings,) = made_from["ensembles"]
-        scans.append({"scan": name, "group": settings["group"], "file": settings["file"]} | settings["lengths"])
+    scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
+    media, times = named_media(media), abscissa(**times)
+    for name, batch, scan_forces in zip(names, curves, forces, strict=True):
+        (curve,), (settings,) = unstack_curves(batch), json.loads(batch.attributes["settings"])["ensembles"]
+        labels = {"scan": name, "group": settings["group"]}
+        scans.append(labels | {"file": settings["file"]} | settings["lengths"])
+        motions += [part.assign(**labels) for part in _motions(curve, media, scan_forces, times)]
     groups = ensembles(pool, "group").items()
     fits = [fit_rows(ensemble, source="measured", case_group=group, seed=seed, **fit) for group, ensemble in groups]
-    return {"measured_scans": pd.DataFrame(scans), "measured_fits": pd.DataFrame(chain.from_iterable(fits))}
+    return {
+        "measured_scans": pd.DataFrame(scans),
+        "measured_fits": pd.DataFrame(chain.from_iterable(fits)),
+        "measured_kinetics": pd.concat(motions[1:] or motions, ignore_index=True)[list(KINETICS)],
+    }
+
+
+def _motions(curve, media, forces, times):
+    """Depth and velocity under every force in every medium; curve : LoadingCurve [m].
+
+    Times at which the depth lies beyond the end of the curve are omitted.
+    """
+    for (name, medium), force in product(media.items(), forces):
+        if (reached := reached_times(curve.force[-1], force, medium, times)).size:
+            motion = kinetics(curve, force, medium, reached)
+            columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
+            yield pd.DataFrame(columns).assign(medium=name, force=force)

@@ -59,7 +59,7 @@ def media_table(ensembles, media, *, force, times):
     """
     parts = []
     for (name, medium), (hurst, (curves, rms, diameter)) in product(media.items(), ensembles.items()):
-        time = times[force * medium.creep_compliance(times) <= min(curve.force[-1] for curve in curves)]
+        time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
         if not time.size:
             continue
         motions = [kinetics(curve, force, medium, time) for curve in curves]
@@ -79,3 +79,8 @@ def media_table(ensembles, media, *, force, times):
         }
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)[list(COLUMNS)]
+
+
+def reached_times(last, force, medium, times):
+    """The times at which the creep under a constant force is at most the last F/G of a loading curve."""
+    return times[force * medium.creep_compliance(times) <= last]

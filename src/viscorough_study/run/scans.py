@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def scans(entries):
-    """{scan: group, file, bytes, digest of its content, spacing, unit, preparation} of all files.
+    """{scan: group, file, bytes, digest of its content, spacing, unit, preparation, forces} of all files.
 
     entries : the setting `measured`; its patterns are relative to the working directory
     A scan is named after its group and file. Raises ValueError if a pattern matches no file, or two names agree.
@@ -25,8 +25,8 @@ def scans(entries):
                     both = f"{result[name]['file']} and {file}"
                     raise ValueError(f"measured: {both} have the same name {name}; allowed: different names")
                 shared = {"spacing": entry.get("spacing", []), "unit": entry.get("unit")}
-                shared |= {"preparation": entry.get("preparation", {}), "group": entry["name"], "file": file}
-                result[name] = shared | _content(file)
+                shared |= {"preparation": entry.get("preparation", {}), "forces": entry.get("forces", [])}
+                result[name] = shared | _content(file) | {"group": entry["name"], "file": file}
     return result
 
 

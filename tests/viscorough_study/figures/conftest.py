@@ -71,7 +71,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "fig1_surfaces": ([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)],),
         "fig2_kinetics": (discs, combinations, scaling, SHOWN),
         "fig3_master_curve": (pooled, lines, scaling, SHOWN),
-        "measured": ({"polished": pooled[0]}, pooled, of_group, SHOWN),
+        "measured": ({"polished": pooled[0]}, pooled, of_group, tables.measured_kinetics(), SHOWN),
     }
     params = {name: figure.get("params", []) for name, figure in FIGURES.items()}
     shares = {name: {"fraction_min": 0.95} for name in params if "fraction_min" in params[name]}

@@ -230,12 +230,18 @@ def test_exponent_of_what_has_no_region_and_intervals_beside_their_value(scaling
     close(axes.containers[0].lines[2][0].get_segments()[0][:, 1] - drawn[0][1], [0.1, 0.3])
 
 
-def test_measured_scans_stand_beside_the_generated_discs(drawn, scaling):
-    (law,) = drawn["measured"].axes
+def test_measured_scans_stand_beside_the_generated_discs(drawn, pooled, scaling):
+    law, motion = drawn["measured"].axes
     for line in (line for line in law.lines if line.get_linewidth() == 3):  # over region (b), at the slope of the fit
         (x0, y0), (x1, y1) = line.get_xydata()
         rows = scaling[np.isclose(scaling["x_low"], x0) & np.isclose(scaling["x_high"], x1)]
         assert np.isclose(np.log(y1 / y0) / np.log(x1 / x0), rows["beta"]).any()
+    assert len(motion.lines) == 8
+    close(motion.lines[0].get_ydata(), tables.measured_kinetics()["depth"][:13] * 1e6)
+    assert motion.get_title() == "(b) depth under 0.1, 1 N"
+    none = tables.measured_kinetics()[:0]
+    motion = plot("measured", {"polished": pooled[0]}, pooled, scaling, none, SHOWN, fraction_min=0.95).axes[1]
+    assert motion.get_title() == "(b) depth: no forces were given"
 
 
 def test_collapse_makes_curves_of_a_law_horizontal(drawn):

@@ -113,10 +113,10 @@ speed: settings
 	$(SNAKEMAKE) -- speed
 
 light: settings
-	$(SNAKEMAKE) -- plot_light_contact
+	$(SNAKEMAKE) -- light_contact
 
 stability: settings
-	$(SNAKEMAKE) -- plot_failure_map
+	$(SNAKEMAKE) -- stability
 	$(BIN)/python benchmarks/campaign.py --output results/campaign.json
 	$(BIN)/python benchmarks/sum_rules.py --output results/sum_rules.json
 
@@ -133,7 +133,7 @@ dist: environment
 	$(BIN)/python benchmarks/distribution.py --output build/dist
 
 article: settings
-	$(SNAKEMAKE) -- make_article
+	$(SNAKEMAKE) -- article
 
 outside: environment
 	$(BIN)/python benchmarks/outside.py --output results/outside.csv

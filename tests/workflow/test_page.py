@@ -126,7 +126,7 @@ def test_a_narrow_screen_needs_no_horizontal_scrolling(html, tmp_path):
 
 def test_the_article_is_made_of_the_results(finished):
     """Its rule is not part of the default target; what it quotes beside the run is published."""
-    planned = jobs(snakemake(finished, *TEST, "--", "make_article"))
+    planned = jobs(snakemake(finished, *TEST, "--", "article"))
     assert planned == {"make_article": 1}
     pdf = (finished / "results/article.pdf").read_bytes()
     assert pdf.startswith(b"%PDF")

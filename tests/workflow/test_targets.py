@@ -30,7 +30,7 @@ def test_one_figure_needs_only_its_own(unmade):
 
 def test_targets_beside_the_default_one(finished):
     """Cost of one disc, and other solvers, which are not installed; the rest of these targets is there already."""
-    planned = jobs(snakemake(finished, *TEST, "--", "speed", "sizes", "large"))
+    planned = jobs(snakemake(finished, *TEST, "--", "speed", "stability", "sizes", "large"))
     assert planned.pop("measure_large") == 2
     others = {"time_other_solvers", "time_light_contact", "plot_light_contact"}
     assert planned == dict.fromkeys({"tabulate_large", "plot_large"} | others, 1)

@@ -41,6 +41,12 @@ ARTICLE_FIGURES = ["fig2_kinetics", "fig3_master_curve", "fig4_exponent", "inter
 ARTICLE_TABLES = ["validation", "interface", "periodic", "plateaus"]
 
 
+rule article:
+    """An article on the reproduction, results/article.pdf."""
+    input:
+        "results/article.pdf",
+
+
 rule make_article:
     input:
         discs="results/ensembles/discs.nc",
@@ -57,6 +63,6 @@ rule make_article:
         claims=paper("claims"),
         numbers=paper("numbers"),
     message:
-        "An article on the reproduction, results/article.pdf"
+        "The article"
     script:
         "../scripts/make_article.py"

@@ -19,3 +19,9 @@ rule tabulate_rule_costs:
         "Time and memory of every rule"
     script:
         "../scripts/tabulate_rule_costs.py"
+
+
+rule costs:
+    """Time and memory of every rule."""
+    input:
+        rules.tabulate_rule_costs.output,

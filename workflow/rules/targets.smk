@@ -50,6 +50,18 @@ rule speed:
         table_files("speed"),
 
 
+rule light_contact:
+    """One light load on large maps, by this and other solvers: a part of `speed`."""
+    input:
+        rules.plot_light_contact.output,
+
+
+rule stability:
+    """Failure map of all methods."""
+    input:
+        rules.plot_failure_map.output,
+
+
 rule sizes:
     """Exponents on grids from coarse to fine."""
     input:

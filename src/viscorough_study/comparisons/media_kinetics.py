@@ -30,6 +30,11 @@ COLUMNS = {
 HALF_WIDTH = 0.25  # decades of time to either side over which local exponents are fitted
 
 
+def named_media(cases):
+    """{name: medium of viscorough.viscous.media} of the settings: mappings with a name and the keys of a medium."""
+    return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
+
+
 def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, force):
     """`media_table` of batches of loading curves.
 
@@ -45,8 +50,7 @@ def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, fo
         for i in np.flatnonzero(np.isin(values["case"].astype(str), discs) & (values["until_x"] == until_x)):
             joined, rms, _ = ensembles.get(hurst, ([], [], None))
             ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
-    media = {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
-    return media_table(ensembles, media, force=force, times=abscissa(**times))
+    return media_table(ensembles, named_media(cases), force=force, times=abscissa(**times))
 
 
 def media_table(ensembles, media, *, force, times):

@@ -113,11 +113,10 @@ def test_line_of_a_map_has_its_rms_height_unit_and_length(scale):
 
 
 def test_maps_without_a_spectrum_are_refused():
-    flat, steep, line = np.zeros((8, 8)), 1e300 * np.eye(8), np.zeros(8)
     for heights, what in (
-        (flat, "the map is flat"),
-        (steep, "its squares overflow"),
-        (line, "must be two-dimensional"),
+        (np.zeros((8, 8)), "the map is flat"),
+        (1e300 * np.eye(8), "its squares overflow"),
+        (np.zeros(8), "must be two-dimensional"),
     ):
         with pytest.raises(ValueError, match=what):
             line_of_map(Indenter(heights, 1.0), 1)

@@ -144,7 +144,9 @@ def identify_medium(
     knots = _subset(lags[lags > 0])
     if history.force[0] == 0:  # a ramp shows J before the first row, too
         knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
-    record = _Record(curve, depth, np.column_stack([history.force[place], _hinges(history, times, knots)]))
+    # The creep of J = min(t, τ) is I(t) − I(t − τ), shape (times, knots).
+    hinges = _impulse(history, times[:, None]) - _impulse(history, times[:, None] - knots)
+    record = _Record(curve, depth, np.column_stack([history.force[place], hinges]))
     coefficients = record.fit(record.responses)
     freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
     scatter = np.sqrt(record.squares(record.responses @ coefficients) / freedom)
@@ -218,12 +220,6 @@ def _subset(lags: Array) -> Array:
         return lags
     wanted = np.geomspace(lags[0], lags[-1], _KNOTS)
     return lags[np.unique(np.clip(np.searchsorted(lags, wanted * (1 - 1e-12)), 0, lags.size - 1))]
-
-
-def _hinges(history: ForceHistory, times: Array, knots: Array) -> Array:
-    """Creep of J = min(t, τ): I(t) − I(t − τ), shape (times, knots)."""
-    late, early = times[:, None], times[:, None] - knots
-    return _impulse(history, late) - _impulse(history, early)
 
 
 def _impulse(history: ForceHistory, time: Array) -> Array:

@@ -141,7 +141,10 @@ def identify_medium(
         force = impulses([force, force], [0.0, times[-1]])
     history, place = resampled(force if isinstance(force, ForceHistory) else impulses(force, times), times)
     lags = times - history.times[0]
-    knots = _subset(lags[lags > 0])
+    knots = lags[lags > 0]
+    if knots.size > _KNOTS:  # a subset at equal ratios
+        wanted = np.geomspace(knots[0], knots[-1], _KNOTS)
+        knots = knots[np.unique(np.clip(np.searchsorted(knots, wanted * (1 - 1e-12)), 0, knots.size - 1))]
     if history.force[0] == 0:  # a ramp shows J before the first row, too
         knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
     # The creep of J = min(t, τ) is I(t) − I(t − τ), shape (times, knots).
@@ -212,14 +215,6 @@ def _check_growth(times: Array, depth: Array) -> None:
                 f"scatter, {scatter:.3g}, explains; allowed: depths that grow, under which the contact does not recede"
             )
         size *= 2
-
-
-def _subset(lags: Array) -> Array:
-    """Knots of J among the times since the force began: all, or a subset at equal ratios."""
-    if lags.size <= _KNOTS:
-        return lags
-    wanted = np.geomspace(lags[0], lags[-1], _KNOTS)
-    return lags[np.unique(np.clip(np.searchsorted(lags, wanted * (1 - 1e-12)), 0, lags.size - 1))]
 
 
 def _impulse(history: ForceHistory, time: Array) -> Array:

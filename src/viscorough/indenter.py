@@ -66,7 +66,11 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
         if not _exact(np.asanyarray(self.heights)):
             raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
-        heights = _native(heights)
+        # Single or double precision, in rows and in the byte order of this machine.
+        precision = np.float32 if heights.dtype == np.float32 else np.float64
+        with np.errstate(over="ignore"):  # what does not fit becomes infinite
+            heights = np.ascontiguousarray(heights, dtype=precision)
+        heights.flags.writeable = False
         if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
             raise ValueError("indenter heights: must have at least one element that is not nan")
         if not math.isfinite(float(highest) - float(np.fmin.reduce(heights, axis=None))):
@@ -156,15 +160,6 @@ def _exact(values: NDArray[Any]) -> bool:
     if values.dtype.kind not in "iu" or np.ma.count(values) == 0:
         return True
     return int(values.min()) >= -_LARGEST_WHOLE and int(values.max()) <= _LARGEST_WHOLE
-
-
-def _native(heights: NDArray[Any]) -> NDArray[Any]:
-    """Heights in single or double precision, in rows and in the byte order of this machine."""
-    kept = np.float32 if heights.dtype == np.float32 else np.float64
-    with np.errstate(over="ignore"):  # what does not fit becomes infinite
-        native = np.ascontiguousarray(heights, dtype=kept)
-    native.flags.writeable = False
-    return native
 
 
 def check_indenter(caller: str, indenter: object) -> None:

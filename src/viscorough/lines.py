@@ -65,8 +65,9 @@ class SelfAffineLines:
         self._in_pairs = self._dtype == np.float32 and points % 2 == 0
         if self._in_pairs:
             self._amplitude = self._moduli(0, points // 2 + 1)
-            rows = _divisor_near_root(points // 2)
-            self._packed = np.empty((rows, points // 2 // rows), np.complex64)
+            pairs = points // 2
+            rows = next(d for d in range(math.isqrt(pairs), 0, -1) if pairs % d == 0)  # the divisor nearest to √pairs
+            self._packed = np.empty((rows, pairs // rows), np.complex64)
 
     def heights(self, seed: Seed) -> Array:
         """Heights of the realization of this seed, in order; shape (points,), read-only."""
@@ -119,8 +120,3 @@ class SelfAffineLines:
     def _moduli(self, first: int, count: int, dtype: DTypeLike = np.float32) -> Array:
         """Moduli of the waves first, first + 1, ...; that of wave 0 has no meaning."""
         return spectrum.amplitude(np.arange(first, first + count, dtype=dtype), self._exponent, *self._roll_off)
-
-
-def _divisor_near_root(number: int) -> int:
-    """The largest divisor that is at most √number."""
-    return next(d for d in range(math.isqrt(number), 0, -1) if number % d == 0)

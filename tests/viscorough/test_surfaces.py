@@ -1,7 +1,7 @@
 """Generated surfaces against the theory of Gaussian processes with a power-law spectrum.
 
 Spectra are computed with numpy's transform of whole periods, which is unbiased: the power of every wave is its
-expectation times an exponential variate, whose logarithm has the mean -γ and the variance π²/6.
+expectation times an exponential variate.
 """
 
 from functools import partial
@@ -13,8 +13,6 @@ from scipy import stats
 from support.contract import refused
 from viscorough.surfaces import cut_disc, self_affine_disc, self_affine_line, self_affine_square
 from viscorough_study.run.seeds import realization_seed
-
-VARIANCE = np.pi**2 / 6
 
 
 def waves_of_square(points):
@@ -47,20 +45,8 @@ def test_fixed_amplitudes_are_the_spectrum(hurst):
         np.testing.assert_allclose(weighted, weighted[0], rtol=1e-9)
 
 
-def test_waves_that_are_their_own_mirror_image():
-    """Cosines at the Nyquist wavelength: real amplitudes, yet of the same mean power as their neighbours.
-
-    ln χ² of one degree of freedom has the mean -γ - ln 2 and the variance π²/2.
-    """
-    realizations = 2000
-    squares = (self_affine_square(0.5, 4, corners=True, seed=s) for s in range(realizations))
-    log_power = np.log([np.abs(np.fft.rfft2(z)[[2, 1], [2, 1]]) ** 2 for z in squares])
-    excess = (log_power[:, 0] - log_power[:, 1]).mean() - (-3 * np.log(2) - np.log(2))
-    assert abs(excess) < 4 * np.sqrt((np.pi**2 / 2 + VARIANCE) / realizations)
-
-
 def test_random_amplitudes_are_complex_gaussian():
-    """Power is exponential, the phase uniform and independent of neighbours, in every realization."""
+    """Power is exponential and the phase uniform; waves are as independent as numpy's random numbers."""
     chosen, k = waves_of_square(128)
     wave = np.fft.rfft2(self_affine_square(0.3, 128, seed=4))[chosen]
     power = np.abs(wave * k**1.3) ** 2
@@ -69,11 +55,6 @@ def test_random_amplitudes_are_complex_gaussian():
     # chance of a false alarm 1e-4 each; estimating the mean makes the first one smaller still
     assert stats.kstest(power, "expon").pvalue > 1e-4
     assert stats.kstest(phase, "uniform").pvalue > 1e-4
-    # means of N independent variates of variance 1 (products of unit powers), 1/2 (cosines)
-    neighbours = np.mean((power[1:] - 1) * (power[:-1] - 1))
-    assert abs(neighbours) < 5 / np.sqrt(power.size)
-    assert abs(np.mean(np.cos(2 * np.pi * np.diff(phase)))) < 4 / np.sqrt(2 * power.size)
-    assert abs(stats.spearmanr(power, phase).statistic) < 4 / np.sqrt(power.size)
 
 
 @pytest.mark.parametrize("level", [0.0, 0.25, 1.0])

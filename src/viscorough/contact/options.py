@@ -22,8 +22,6 @@ class SolverOptions:
     operator_rounding : float
         Bound on the rounding error of one application of the half-space operator, over the largest deflection and the
         machine precision; 0: rounding is ignored.
-    warm_start : str
-        "tangent": the iterations of a level start from P + Δu q of the level before; "pressure": from its P.
     max_iterations : int
         Iterations of one level after which ConvergenceError is raised.
     dense_contacts : int
@@ -51,17 +49,14 @@ class SolverOptions:
     precision: str = "single"
     exact_gap_below: float = 1e-4
     operator_rounding: float = 5.0
-    warm_start: str = "tangent"
     max_iterations: int = 2000
     dense_contacts: int = 400
     dense_interactions: int = 1_000_000
     padding: bool = True
 
     def __post_init__(self) -> None:
-        allowed = {"precision": ("single", "double"), "warm_start": ("tangent", "pressure")}
-        for name, values in allowed.items():
-            if getattr(self, name) not in values:
-                raise ValueError(f"{name}: must be one of {', '.join(values)}, not {getattr(self, name)!r}")
+        if self.precision not in ("single", "double"):
+            raise ValueError(f"precision: must be one of single, double, not {self.precision!r}")
         for name in ("exact_gap_below", "operator_rounding", "dense_contacts", "dense_interactions"):
             if not getattr(self, name) >= 0:
                 raise ValueError(f"{name}: must not be negative, not {getattr(self, name)!r}")

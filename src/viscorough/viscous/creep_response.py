@@ -48,7 +48,7 @@ def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]
             "forces under which it grows; direct integration with internal variables goes on there (march_medium, on "
             "the command line viscorough march --medium --method second_order)"
         )
-    return response.creep, response.rate
+    return response.creep, response.rate_at_samples()
 
 
 class _Intervals(ABC):
@@ -123,7 +123,6 @@ class _ByStates(_Intervals):
         self.retardation = instantaneous, fluidity, compliances, times = retardation
         delayed, self.left = branch_states(self.lengths, self.force, times)
         self.creep = instantaneous * self.force + fluidity * history.impulse + delayed @ compliances
-        self.rate = self.rate_at_samples()
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         instantaneous, fluidity, compliances, times = self.retardation
@@ -145,7 +144,6 @@ class _BySums(_Intervals):
         self._sums = functools.partial(sums_over_the_past, self.times, self.jumps, self.slopes)
         sample, offset = np.arange(self.times.size), np.zeros(self.times.size)
         self.creep = np.add(*self._sums(sample, offset, medium.creep_compliance, medium.creep_integral))
-        self.rate = self.rate_at_samples()
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         """As of _ByStates; J is concave, so that positive contributions of the past decrease with time."""

@@ -141,10 +141,15 @@ def identify_medium(
         force = impulses([force, force], [0.0, times[-1]])
     history, place = resampled(force if isinstance(force, ForceHistory) else impulses(force, times), times)
     lags = times - history.times[0]
-    knots = _subset(lags[lags > 0])
+    knots = lags[lags > 0]
+    if knots.size > _KNOTS:  # a subset at equal ratios
+        wanted = np.geomspace(knots[0], knots[-1], _KNOTS)
+        knots = knots[np.unique(np.clip(np.searchsorted(knots, wanted * (1 - 1e-12)), 0, knots.size - 1))]
     if history.force[0] == 0:  # a ramp shows J before the first row, too
         knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
-    record = _Record(curve, depth, np.column_stack([history.force[place], _hinges(history, times, knots)]))
+    # The creep of J = min(t, τ) is I(t) − I(t − τ), shape (times, knots).
+    hinges = _impulse(history, times[:, None]) - _impulse(history, times[:, None] - knots)
+    record = _Record(curve, depth, np.column_stack([history.force[place], hinges]))
     coefficients = record.fit(record.responses)
     freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
     scatter = np.sqrt(record.squares(record.responses @ coefficients) / freedom)
@@ -210,20 +215,6 @@ def _check_growth(times: Array, depth: Array) -> None:
                 f"scatter, {scatter:.3g}, explains; allowed: depths that grow, under which the contact does not recede"
             )
         size *= 2
-
-
-def _subset(lags: Array) -> Array:
-    """Knots of J among the times since the force began: all, or a subset at equal ratios."""
-    if lags.size <= _KNOTS:
-        return lags
-    wanted = np.geomspace(lags[0], lags[-1], _KNOTS)
-    return lags[np.unique(np.clip(np.searchsorted(lags, wanted * (1 - 1e-12)), 0, lags.size - 1))]
-
-
-def _hinges(history: ForceHistory, times: Array, knots: Array) -> Array:
-    """Creep of J = min(t, τ): I(t) − I(t − τ), shape (times, knots)."""
-    late, early = times[:, None], times[:, None] - knots
-    return _impulse(history, late) - _impulse(history, early)
 
 
 def _impulse(history: ForceHistory, time: Array) -> Array:

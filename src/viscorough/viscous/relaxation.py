@@ -74,7 +74,20 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
     4.0
     """
     medium, area = medium_of(medium, curve.length_unit), units.square_metres(curve.length_unit)
-    times, depth = _depth_samples(curve, depth, times)
+    times = increasing("times", times, steps="the depth")
+    depth = samples("depth", depth, times)
+    if not (rises := np.diff(depth, prepend=0) >= 0).all():
+        where = int(np.argmin(rises))
+        raise ValueError(
+            f"depth: sample {where} is {depth[where]:g}; allowed: depths that do not decrease, "
+            "under which the contact does not recede (march_medium goes on there)"
+        )
+    if depth[-1] > curve.depth[-1] * (1 + 1e-12):
+        raise ValueError(
+            f"depth: {depth[-1]:g} is beyond the curve's last level; allowed: up to {curve.depth[-1]:g}; indent "
+            "further, with until_fraction=1 or a level at that depth (depths)"
+        )
+    depth = np.minimum(depth, curve.depth[-1])
     node_times, node_depths, place = _with_levels(curve, times, depth)
     elastic, stiffness = elastic_force(curve, node_depths)
     lengths = np.diff(node_times)
@@ -96,23 +109,6 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
         speed = np.divide(np.diff(node_depths), lengths, out=np.zeros_like(lengths), where=lengths > 0)
         force = force + viscosity * stiffness * np.append(speed, speed[-1:] if speed.size else 0.0)
     return DepthHistory(*map(read_only, (times, depth, force[place] * area)))
-
-
-def _depth_samples(curve: LoadingCurve, depth: ArrayLike, times: ArrayLike) -> tuple[Array, Array]:
-    times = increasing("times", times, steps="the depth")
-    depth = samples("depth", depth, times)
-    if not (rises := np.diff(depth, prepend=0) >= 0).all():
-        where = int(np.argmin(rises))
-        raise ValueError(
-            f"depth: sample {where} is {depth[where]:g}; allowed: depths that do not decrease, "
-            "under which the contact does not recede (march_medium goes on there)"
-        )
-    if depth[-1] > curve.depth[-1] * (1 + 1e-12):
-        raise ValueError(
-            f"depth: {depth[-1]:g} is beyond the curve's last level; allowed: up to {curve.depth[-1]:g}; indent "
-            "further, with until_fraction=1 or a level at that depth (depths)"
-        )
-    return times, np.minimum(depth, curve.depth[-1])
 
 
 def _with_levels(curve: LoadingCurve, times: Array, depth: Array) -> tuple[Array, Array, Integers]:

@@ -46,20 +46,16 @@ def test_intervals_hold_the_compliance(name):
     assert missed[1:].max() <= 2
 
 
-@pytest.mark.parametrize("name", ["solid", "prony", "maxwell"])
-def test_prony_series_are_fitted(name):
-    force, depth = record(MEDIA[name])
-    identified = identify_medium(CURVE, force, TIMES, depth, kind="prony").medium
-    assert isinstance(identified, Prony)
-    np.testing.assert_allclose(identified.creep_compliance(TIMES), MEDIA[name].creep_compliance(TIMES), rtol=0.003)
-
-
 @pytest.mark.parametrize("ramp", [False, True])
-def test_springpots_are_fitted(ramp):
-    force, depth = record(MEDIA["springpot"], ramp=ramp)
-    identified = identify_medium(CURVE, force, TIMES, depth, kind="springpot").medium
-    assert isinstance(identified, Springpot)
-    assert (identified.modulus, identified.exponent) == pytest.approx((2.0, 0.4), rel=3e-3 if ramp else 1e-5)
+@pytest.mark.parametrize(
+    ("name", "kind"), [("solid", Prony), ("prony", Prony), ("maxwell", Prony), ("springpot", Springpot)]
+)
+def test_media_are_fitted(name, kind, ramp):
+    force, depth = record(MEDIA[name], ramp=ramp)
+    identified = identify_medium(CURVE, force, TIMES, depth, kind=kind.__name__.lower()).medium
+    assert isinstance(identified, kind)
+    rtol = 1e-5 if kind is Springpot and not ramp else 3e-3
+    np.testing.assert_allclose(identified.creep_compliance(TIMES), MEDIA[name].creep_compliance(TIMES), rtol=rtol)
 
 
 def test_records_that_no_growing_contact_can_have_are_refused():

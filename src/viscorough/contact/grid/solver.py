@@ -65,7 +65,7 @@ class GridSolver:
         if options.padding:
             tiles = tiles_of_part(of_row - top, of_column - left, shape, aspect, tolerance)
         self.is_restricted = tiles is not None
-        self._options, self._loops = options, GridLoops(threads)
+        self._loops = GridLoops(threads)
         self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads, tiles=tiles)
         self.initial_gap = self._search.initial_gap
         placed = slice(None if tiles is None else reach)  # others have no deflection in a restricted operator
@@ -113,7 +113,7 @@ class GridSolver:
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
         search, last_depth = self._search, contact.reduced_depth
-        before = self._start_fields(contact) if contact.fields else None
+        before = contact.fields
         predicted = self._predicted(before, last_depth, depth) if before else self._guessed(contact, depth)
         pressure, change, inside = predicted
         prescribed = PrescribedForce(*force, self._loops) if force else None
@@ -196,11 +196,3 @@ class GridSolver:
             residual=(max(largest, overlap) + change.rounding) / depth,
             fields=fields,
         )
-
-    def _start_fields(self, contact: ContactState) -> GridFields:
-        """The fields of the last contact; if the warm start uses the pressure only, with a tangent of zero."""
-        fields = contact.grid_fields
-        if self._options.warm_start == "tangent":
-            return fields
-        no_tangent_gap = BoundedField(np.full_like(fields.pressure, -1.0), fields.tangent_gap.rounding)
-        return replace(fields, tangent=np.zeros_like(fields.tangent), tangent_gap=no_tangent_gap)

@@ -114,13 +114,12 @@ def march_steps(
     >>> bool(steps.depth[0] < steps.depth[1])
     True
     """
-    if indenter.heights.ndim != 2:
-        raise ValueError("march_steps: the indenter's heights must be two-dimensional")
     if scheme not in SCHEMES:
         raise ValueError(f"march_steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
     impulses = increasing("march_steps: impulses", np.atleast_1d(impulses), above_zero=True)
+    scale = elements_of_map(indenter, "march_steps").scale
     integrator = _INTEGRATORS[scheme](indenter, tolerance)
-    scale, rows = 4 * np.pi * indenter.element_side, []
+    rows = []
     for step in np.diff(impulses / scale, prepend=0.0):
         integrator.step(step)
         rows.append((integrator.depth, integrator.resistance, integrator.count, integrator.overlap))

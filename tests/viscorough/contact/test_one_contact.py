@@ -62,6 +62,17 @@ def test_a_long_strip_meets_complementarity():
     assert curve.stiffness[-1] == pytest.approx(contact.stiffness, rel=1e-3)
 
 
+def test_a_contact_is_a_level_of_the_curve():
+    curve = indent(DISC, depths=[0.3, 1.2], tolerance=1e-6)
+    contacts = contact_at(DISC, depth=[0.3, 1.2], tolerance=1e-6)
+    for level, contact in enumerate(contacts):
+        assert contact.force == pytest.approx(curve.force[level], rel=1e-9)
+        assert contact.stiffness == pytest.approx(curve.stiffness[level], rel=1e-6)
+        assert contact.contact_fraction == curve.contact_fraction[level]
+    by_force = contact_at(DISC, force=curve.force, tolerance=1e-6)
+    np.testing.assert_allclose([contact.depth for contact in by_force], curve.depth, rtol=1e-8)
+
+
 def test_one_value_gives_one_contact_in_the_unit_of_the_indenter_and_several_a_list():
     disc = Indenter(DISC.heights, DISC.spacing, length_unit="um")
     single, several = contact_at(disc, force=1.0), contact_at(disc, force=[1.0])

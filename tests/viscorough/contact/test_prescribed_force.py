@@ -74,6 +74,16 @@ def test_few_depths_are_solved(monkeypatch):
     assert len(depths) <= 3
 
 
+def test_a_force_takes_hardly_more_operators_than_its_depth():
+    disc = self_affine_disc(0.8, 257, seed=3)
+    for force in (0.1, 1.0, 10.0):
+        at_force = indent(disc, forces=[force], tolerance=1e-6)
+        # Forces are met with half the tolerance.
+        at_depth = indent(disc, depths=at_force.depth, tolerance=5e-7)
+        assert at_depth.force == pytest.approx(force, rel=1e-8)
+        assert at_force.operator_applications <= 1.5 * at_depth.operator_applications
+
+
 def test_hills_that_are_not_reached_stay_outside_the_box():
     """The power law through the first contacts leads above the second hill; the contact is far below it."""
     row, column = np.mgrid[:512, :512]

@@ -45,8 +45,12 @@ def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, fo
         for i in np.flatnonzero(np.isin(values["case"].astype(str), discs) & (values["until_x"] == until_x)):
             joined, rms, _ = ensembles.get(hurst, ([], [], None))
             ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
-    media = {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
-    return media_table(ensembles, media, force=force, times=abscissa(**times))
+    return media_table(ensembles, named_media(cases), force=force, times=abscissa(**times))
+
+
+def named_media(cases):
+    """{name: medium} of mappings with a name and the keys of a medium."""
+    return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
 
 
 def media_table(ensembles, media, *, force, times):

@@ -12,7 +12,6 @@ from viscorough.calibrated_law import CONSTANTS, interface_velocity, penetration
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.fits.scaling_collapse import Grid, curve_table
-from viscorough_study.robustness.failure_map import VERDICTS
 
 HURST = (0.4, 0.9)
 COMBINATIONS = {
@@ -29,6 +28,9 @@ MODULES = {  # of the figures of the report, by their files
 def case_of(hurst, name):
     """Name of a case as the workflow gives it."""
     return f"h{round(hurst * 1e4):05d}_{name}"
+
+
+CASES = {case_of(hurst, name): at for hurst in HURST for name, at in COMBINATIONS.items()}
 
 
 def plot(module, *arguments, **options):
@@ -108,18 +110,11 @@ def interface_curves():
     return pd.concat(curves, ignore_index=True)
 
 
-def failure_map_table():
-    """Some groups of the published map."""
-    table = published("failure_map")
-    others = ["Hurst exponent", "grid", "shape", "scale"]
-    return table[~table["group"].isin(others) & table["verdict"].isin(VERDICTS)]
-
-
 FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "collapse": (curves_of_sizes(), published("collapse"), published("infinite_grid")),
     "conventions": (published("scaling"), SHOWN),
     "direct": (published("direct"),),
-    "failure_map": (failure_map_table(),),
+    "failure_map": (published("failure_map"),),
     "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0)),
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),
     "large": (published("large"),),

@@ -8,13 +8,11 @@ import re
 import shutil
 import sys
 import tempfile
-from contextlib import contextmanager
 from pathlib import Path
 
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
-SCRIPTS = ROOT / "workflow/scripts"
 TEST = ("--configfile", "config/test.yaml")
 RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="utf-8"))
 TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, table in rule["tables"].items()}
@@ -39,14 +37,6 @@ def copy_sources(folder):
     shutil.copytree(ROOT / "src", folder / "src", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
 
 
-@contextmanager
-def locked(path):
-    """Context that one process at a time can enter."""
-    with open(path, "w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        yield
-
-
 def made_once(tmp_path_factory, name, make):
     """A folder that the first test that needs it makes, in any process of the test session; tests must not change it.
 
@@ -56,18 +46,14 @@ def made_once(tmp_path_factory, name, make):
     if "PYTEST_XDIST_WORKER" in os.environ:
         common = common.parent
     folder, made = common / name, common / f"{name}.made"
-    with locked(common / f"{name}.lock"):
+    with open(common / f"{name}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # one process at a time
         if not made.exists():
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
             make(folder)
             made.touch()
     return folder
-
-
-def command(*arguments, cores=2):
-    number = () if cores is None else ("--cores", cores)
-    return [sys.executable, "-m", "snakemake", "--nocolor", *map(str, (*number, *arguments))]
 
 
 def environment(folder):
@@ -98,8 +84,10 @@ def _run_snakemake(arguments, folder, output):
 
 def snakemake(folder, *arguments, fails=False, cores=2):
     """Run Snakemake in a copy of the project; stdout and stderr together. cores : None leaves --cores out"""
+    number = () if cores is None else ("--cores", cores)
     with tempfile.NamedTemporaryFile("r") as output:
-        run = COPIES.Process(target=_run_snakemake, args=(command(*arguments, cores=cores)[3:], folder, output.name))
+        line = ["--nocolor", *map(str, (*number, *arguments))]
+        run = COPIES.Process(target=_run_snakemake, args=(line, folder, output.name))
         run.start()
         run.join(HANGS)
         text = output.read()
@@ -130,7 +118,7 @@ def settings_file(folder, name, **settings):
 
 
 def load_script(name):
-    spec = importlib.util.spec_from_file_location(name, SCRIPTS / f"{name}.py")
+    spec = importlib.util.spec_from_file_location(name, ROOT / f"workflow/scripts/{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

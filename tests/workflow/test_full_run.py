@@ -67,10 +67,8 @@ def test_every_job_has_a_log_and_a_benchmark(finished_once, tmp_path):
 
 def test_timed_jobs_ran_alone(finished_once):
     timed, running, most = ("Cost and error of every method", "Placement of levels: by the package"), {}, 0
-    lines = re.findall(
-        r"^Job (\d+): (.*)$|^Finished jobid: (\d+)", (finished_once / "run.log").read_text(), re.MULTILINE
-    )
-    for job, message, finished in lines:
+    log = (finished_once / "run.log").read_text()
+    for job, message, finished in re.findall(r"^Job (\d+): (.*)$|^Finished jobid: (\d+)", log, re.MULTILINE):
         running.pop(finished, None)
         if job:
             running[job] = message

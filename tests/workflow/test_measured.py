@@ -59,12 +59,10 @@ def test_kinetics_under_the_forces_in_every_medium(folder):
     assert set(kinetics["scan"]) == {"ground_a", "ground_b"}
     assert set(kinetics["force"]) == {1e-4, 1e-3}
     assert set(kinetics["medium"]) == {"newtonian", "springpot"}
-    rows = kinetics[(kinetics["scan"] == "ground_a") & (kinetics["medium"] == "newtonian")]
-    weak, strong = (rows[rows["force"] == force] for force in (1e-4, 1e-3))
-    weak, strong = (part.assign(impulse=(part["force"] * part["time"]).round(15)) for part in (weak, strong))
-    both = pd.merge(weak, strong, on="impulse")
-    np.testing.assert_allclose(both["depth_x"], both["depth_y"], rtol=1e-9)  # one depth for one impulse
-    assert len(both) > 5
+    rows = kinetics.query("scan == 'ground_a' and medium == 'newtonian'")
+    depths = rows.groupby((rows["force"] * rows["time"]).round(15))["depth"]
+    np.testing.assert_allclose(depths.max(), depths.min(), rtol=1e-9)  # one depth for one impulse
+    assert (depths.size() == 2).sum() > 5
 
 
 def test_the_page_has_a_section(folder):
@@ -81,12 +79,3 @@ def test_a_scan_is_indented_again_if_its_content_changes(folder):
     assert planned == dict.fromkeys(MADE, 1)
     np.save(folder / "scans/b.npy", heights)
     assert plan(folder, *TEST, "scans.yaml") == {}, "its time does not count"
-
-
-def test_wrong_scans_are_one_line(folder):
-    settings_file(folder, "none", measured=[{"name": "ground", "files": ["scans/z.npy"]}])
-    output = snakemake(folder, "--dry-run", *TEST, "none.yaml", fails=True)
-    assert (
-        "Error in the settings: measured: no file scans/z.npy of ground; allowed: files or patterns of files" in output
-    )
-    assert "Traceback" not in output

@@ -1,9 +1,8 @@
 """The workflow as a module of another one, and beside a library that was installed without the study."""
 
 import os
-import subprocess
-import sys
 
+from support.command_line import python
 from support.workflow import ROOT, jobs, snakemake
 
 OTHER = """
@@ -33,16 +32,14 @@ def test_the_study_comes_from_the_checkout_of_the_workflow(tmp_path):
         'print(os.environ["PYTHONPATH"], viscorough.__file__, cases.__file__, sep="\\n")\n'
         "rule all:\n    shell: 'true'\n"
     )
-    script = """
+    script = f"""
 import os, sys
+os.chdir({str(tmp_path)!r})
 sys.path[:] = [path for path in sys.path if not os.path.isdir(os.path.join(path, "viscorough_study"))]
 from snakemake.cli import main
 main(["--dry-run", "--quiet"])
 """
-    environment = os.environ | {"PYTHONPATH": str(tmp_path / "site")}
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
-    )
+    done = python("-c", script, PYTHONPATH=str(tmp_path / "site"))
     source = ROOT / "src"
     expected = [f"{source}{os.pathsep}{tmp_path / 'site'}", f"{source}/viscorough/__init__.py"]
-    assert done.stdout.splitlines()[:3] == [*expected, f"{source}/viscorough_study/run/cases.py"], done.stderr
+    assert done.stdout.splitlines()[:3] == [*expected, f"{source}/viscorough_study/run/cases.py"]

@@ -115,13 +115,9 @@ def test_a_narrow_screen_needs_no_horizontal_scrolling(html, tmp_path):
     """In a frame, since the windows of Chromium are at least 500 pixels wide."""
     (tmp_path / "page.html").write_text(html, encoding="utf-8")
     width = "document.title = this.contentDocument.documentElement.scrollWidth"
-    frame = (
-        f'<!DOCTYPE html><title>-</title><iframe src="page.html" width="400" height="900" onload="{width}"></iframe>'
-    )
-    (tmp_path / "frame.html").write_text(frame)
-    assert "<title>400</title>" in opened(
-        tmp_path / "frame.html", "--hide-scrollbars", "--allow-file-access-from-files"
-    )
+    path, size = tmp_path / "frame.html", 'width="400" height="900"'
+    path.write_text(f'<!DOCTYPE html><title>-</title><iframe src="page.html" {size} onload="{width}"></iframe>')
+    assert "<title>400</title>" in opened(path, "--hide-scrollbars", "--allow-file-access-from-files")
 
 
 def test_the_article_is_made_of_the_results(finished):

@@ -95,12 +95,12 @@ def test_a_further_exponent_reruns_only_what_depends_on_it(finished_once, tmp_pa
     assert "validate" not in planned
 
 
-@pytest.mark.parametrize("more", ["realizations", "a combination"])
-def test_what_is_added_keeps_the_curves_that_are_there(finished_once, tmp_path, more):
-    discs = {"realizations": 4}  # a second batch of both Hurst exponents
-    if more == "a combination":
-        known = read_settings("test")["discs"]["combinations"]
-        discs = {"combinations": [*known, known[0] | {"number": 10}]}
+KNOWN = read_settings("test")["discs"]["combinations"]
+TENTH = {"combinations": [*KNOWN, KNOWN[0] | {"number": 10}]}
+
+
+@pytest.mark.parametrize("discs", [{"realizations": 4}, TENTH])  # a second batch of both Hurst exponents
+def test_what_is_added_keeps_the_curves_that_are_there(finished_once, tmp_path, discs):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "more", discs=discs))
     assert planned["generate_discs"] == planned["indent_surfaces"] == 2
     assert "reduce_lines" not in planned

@@ -43,6 +43,6 @@ def _case_looks(cases):
     looks = {}
     for case in cases:
         body, _, method = case.partition("_")
-        look = {"color": bodies[body]["color"], "marker": methods[method]["marker"]}
-        looks[case] = look | {"markerfacecolor": "none"}
+        marker = {"marker": methods[method]["marker"], "markerfacecolor": "none"}
+        looks[case] = {"color": bodies[body]["color"], **marker}
     return looks

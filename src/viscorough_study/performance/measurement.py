@@ -58,8 +58,18 @@ def measure(problem, repeats, *, longest, methods=METHODS):
             function = partial(method.run, problem, value)
             answer, *seconds = timing.timed(function)
             key = method.name, value
-            rows[key] = _errors_and_costs(problem, method, value, answer)
-            rows[key] |= dict(zip(TIMES, seconds, strict=True))
+            rows[key] = {
+                "problem": problem.name,
+                "hurst": np.nan if problem.hurst is None else problem.hurst,
+                "elements": problem.elements_across,
+                "method": method.name,
+                "group": method.group,
+                "parameter": method.parameter,
+                "value": float(value),
+                **dict(zip(TIMES, seconds, strict=True)),
+                "error": np.sqrt(np.mean((answer.velocity / problem.velocity - 1) ** 2)),
+                "steps": answer.steps,
+            }
             spent = min(seconds)  # on a busy machine only the wall time grows
             if spent < min(longest, MAX_REPEATED):
                 functions[key] = function
@@ -69,19 +79,3 @@ def measure(problem, repeats, *, longest, methods=METHODS):
     for key, seconds in timing.interleaved(functions, repeats).items():
         rows[key] |= dict(zip(TIMES, seconds, strict=True))
     return pd.DataFrame(rows.values(), columns=list(COLUMNS))
-
-
-def _errors_and_costs(problem, method, value, answer):
-    """Entries of `COLUMNS` for one Answer of a method, without the times."""
-    deviation = answer.velocity / problem.velocity - 1
-    return {
-        "problem": problem.name,
-        "hurst": np.nan if problem.hurst is None else problem.hurst,
-        "elements": problem.elements_across,
-        "method": method.name,
-        "group": method.group,
-        "parameter": method.parameter,
-        "value": float(value),
-        "error": np.sqrt(np.mean(deviation**2)),
-        "steps": answer.steps,
-    }

@@ -235,14 +235,10 @@ def _ratios(depth, reference):
 # ---- all methods
 
 
-def _path_limit(case):
-    return 10 * case.tolerance
-
-
 METHODS = (
-    StressedMethod("path, dense", partial(_path, DENSE_ONLY), _path_limit),
-    StressedMethod("path, grid, double", partial(_path, DOUBLE_ON_GRID), _path_limit),
-    StressedMethod("path, grid, single", partial(_path, GRID_ONLY), _path_limit),
+    StressedMethod("path, dense", partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance),
+    StressedMethod("path, grid, double", partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance),
+    StressedMethod("path, grid, single", partial(_path, GRID_ONLY), lambda case: 10 * case.tolerance),
     StressedMethod("path, interpolated", _interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
     StressedMethod("events", _events, lambda case: LIMIT_EVENTS),
     StressedMethod("explicit steps", _steps, lambda case: LIMIT_STEPS),

@@ -67,9 +67,8 @@ def test_u0_stands_beside_that_of_others_and_persson_s_law(table):
 
 
 def test_sources_stay_without_numbers_of_this_study():
-    table = literature(
-        evidence().tables["scaling"][:0], INTERFACE[:0], REDUCTION[:0], entries=ENTRIES, conventions=SHOWN
-    )
+    none = evidence().tables["scaling"][:0], INTERFACE[:0], REDUCTION[:0]
+    table = literature(*none, entries=ENTRIES, conventions=SHOWN)
     assert len(table) == sum(max(len(entry["ours"]), 1) for entry in ENTRIES)
     assert table["value"].isna().all()
 

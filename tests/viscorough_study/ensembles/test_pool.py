@@ -31,12 +31,22 @@ def batch(curves, rms, hurst=0.5, case="a_c1", first=0, until_x=3.0):
     return content
 
 
-@pytest.fixture(scope="module")
-def pool(curves):
+def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves):
     parts = ((slice(0, 5), "a_c1", 0), (slice(5, 9), "a_c2", 0), (slice(9, 12), "a_c2", 4))
     batches = [("base", batch(curves[part], RMS[part], case=case, first=first)) for part, case, first in parts]
     other = ("variant", batch(curves[:2], RMS[:2], hurst=0.7, case="b_c1"))
-    return pool_batches([*batches, other], ["line"], X)
+    pool = pool_batches([*batches, other], ["line"], X)
+    pooled = ensembles(pool, "hurst")[0.5]
+    whole = aggregate(curves, {"line": RMS}, 1.0, X, hurst=0.5, case="a")
+    assert set(pooled.data_vars) == set(whole.data_vars)
+    for name in whole.data_vars:
+        np.testing.assert_allclose(pooled[name], whole[name], rtol=1e-12, err_msg=name)
+    assert pooled["case"].values.tolist() == ["a_c1"] * 5 + ["a_c2"] * 7
+    assert (pooled["hurst"].item(), pooled["elements"].item(), pooled["diameter"].item()) == (0.5, 40, 1.0)
+    by_case = ensembles(select(pool, group="base"), "case")
+    assert list(by_case) == ["a_c1", "a_c2"]
+    second = aggregate(curves[5:], {"line": RMS[5:]}, 1.0, X, hurst=0.5, case="a_c2")
+    np.testing.assert_allclose(by_case["a_c2"]["velocity_geometric"], second["velocity_geometric"], rtol=1e-12)
 
 
 def test_a_mean_is_over_the_curves_that_were_to_reach_its_abscissa(curves):
@@ -49,20 +59,6 @@ def test_a_mean_is_over_the_curves_that_were_to_reach_its_abscissa(curves):
     for name in ("velocity_geometric", "realizations_defined", "fraction_defined", "contact_count_median"):
         np.testing.assert_array_equal(mean[name].values[:, above], whole[name].values[:, above], err_msg=name)
     assert mean["fraction_defined"].values[0, 0] == 1
-
-
-def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves, pool):
-    pooled = ensembles(pool, "hurst")[0.5]
-    whole = aggregate(curves, {"line": RMS}, 1.0, X, hurst=0.5, case="a")
-    assert set(pooled.data_vars) == set(whole.data_vars)
-    for name in whole.data_vars:
-        np.testing.assert_allclose(pooled[name], whole[name], rtol=1e-12, err_msg=name)
-    assert pooled["case"].values.tolist() == ["a_c1"] * 5 + ["a_c2"] * 7
-    assert (pooled["hurst"].item(), pooled["elements"].item(), pooled["diameter"].item()) == (0.5, 40, 1.0)
-    by_case = ensembles(select(pool, group="base"), "case")
-    assert list(by_case) == ["a_c1", "a_c2"]
-    second = aggregate(curves[5:], {"line": RMS[5:]}, 1.0, X, hurst=0.5, case="a_c2")
-    np.testing.assert_allclose(by_case["a_c2"]["velocity_geometric"], second["velocity_geometric"], rtol=1e-12)
 
 
 def test_a_batch_of_several_ensembles(curves):

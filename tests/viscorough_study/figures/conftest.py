@@ -58,18 +58,13 @@ def scaling():
 
 
 @pytest.fixture(scope="session")
-def combinations():
-    return {case_of(hurst, name): at for hurst in HURST for name, at in COMBINATIONS.items()}
-
-
-@pytest.fixture(scope="session")
-def drawn(discs, pooled, lines, scaling, combinations):
+def drawn(discs, pooled, lines, scaling):
     """{file of the report: its figure}, without a warning."""
     heights = self_affine_disc(0.5, 9, seed=1).heights
     of_group = scaling[scaling["source"] == "discs"].assign(source="measured", case_group="polished")
     arguments = tables.FROM_TABLES | {
         "fig1_surfaces": ([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)],),
-        "fig2_kinetics": (discs, combinations, scaling, SHOWN),
+        "fig2_kinetics": (discs, tables.CASES, scaling, SHOWN),
         "fig3_master_curve": (pooled, lines, scaling, SHOWN),
         "measured": ({"polished": pooled[0]}, pooled, of_group, tables.measured_kinetics(), SHOWN),
     }

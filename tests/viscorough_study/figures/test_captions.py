@@ -22,20 +22,9 @@ SYMBOLS = {r"\alpha": "α", r"\beta": "β", r"\zeta": "ζ", r"\kappa": "κ", r"\
 # ---- what a figure shows, and what a caption says
 
 
-def letters_of_panels(figure):
-    """Letters in the titles of the panels."""
-    return {match[0] for axes in figure.axes if (match := re.match(r"\([a-z]\)", axes.get_title()))}
-
-
-def letters_in_caption(caption):
-    """Letters of panels, which are not those of regions, that a caption speaks of."""
-    return set(re.findall(r"\([a-z]\)", re.sub(r"regions? \([abc]\)( and \([abc]\))?", "", caption)))
-
-
-def quantities(figure):
-    """What the axes are labelled with, without units and formatting."""
-    labels = {text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text}
-    return {plain(re.sub(r" \([^()]*\)$", "", label)) for label in labels}
+def labels_of(figure):
+    """Labels of the axes."""
+    return [text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text]
 
 
 def plain(text):
@@ -48,10 +37,12 @@ def plain(text):
 def faults(caption, figure):
     """Errors and omissions of a caption, one line each."""
     caption, wrong = plain(caption), []
-    drawn, named = letters_of_panels(figure), letters_in_caption(caption)
+    drawn = {match[0] for axes in figure.axes if (match := re.match(r"\([a-z]\)", axes.get_title()))}
+    of_no_region = re.sub(r"regions? \([abc]\)( and \([abc]\))?", "", caption)
+    named = set(re.findall(r"\([a-z]\)", of_no_region))
     wrong += [f"panel {name} is not described, or not there" for name in sorted(drawn ^ named)]
-    text = caption.lower()
-    wrong += [f"axis {label} is not described" for label in quantities(figure) if label.lower() not in text]
+    text, quantities = caption.lower(), {plain(re.sub(r" \([^()]*\)$", "", label)) for label in labels_of(figure)}
+    wrong += [f"axis {label} is not described" for label in quantities if label.lower() not in text]
     artists = [line for axes in figure.axes for line in axes.lines]
     artists += [handle for legend in figure.legends for handle in legend.get_lines()]
     for word, is_drawn in {
@@ -85,7 +76,7 @@ def test_caption_describes_its_figure(drawn, name):
 def test_units_stand_in_parentheses_and_dimensionless_quantities_have_none(drawn):
     units = set()
     for figure in drawn.values():
-        labels = [text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel())]
+        labels = labels_of(figure)
         assert not [label for label in labels if re.search(r" \[\w*\]$", label)]
         units |= {match.group(1) for label in labels if (match := re.search(r" \(([^()]*)\)$", label))}
     assert units - {"b"} == {"s", "m/s", "µm", "GB", "darker is higher"}  # region (b)

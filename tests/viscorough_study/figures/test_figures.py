@@ -57,21 +57,16 @@ def expected_points(scaling):
     """(figure, panel, points that its axes have)"""
     reduction, lambdas, large = published("reduction"), published("mdr_lambda"), published("large")
     media, curves, interface = tables.media_table(), tables.interface_curves(), published("interface")
-    lines, discs = (
-        fits(scaling, SHOWN, source="lines", rms_convention="line"),
-        {"source": "discs", "case_group": "base"},
-    )
+    lines = fits(scaling, SHOWN, source="lines", rms_convention="line")
+    discs = {"source": "discs", "case_group": "base"}
     interval = ("beta", "beta_low", "beta_high")
     yield "fig4_exponent", 0, points(lines, "hurst", *interval)
     yield "fig4_exponent", 0, points(fits(scaling, SHOWN | discs), "hurst", *interval)
     for change in ({}, {"average": "arithmetic"}, {"gamma": "with"}, {"case_group": "roll_off"}):
         rows = fits(scaling, SHOWN | discs | change)
         for name in interval:
-            yield (
-                "conventions",
-                0,
-                points(rows.assign(less=rows[name] - rows["hurst"] / (1 + rows["hurst"])), "less", None),
-            )
+            less = rows[name] - rows["hurst"] / (1 + rows["hurst"])
+            yield "conventions", 0, points(rows.assign(less=less), "less", None)
         yield "conventions", 1, points(rows.assign(over=rows["zeta"] / (2 - rows["hurst"])), "over", None)
     for panel, name in ((0, "stiffness"), (2, "area"), (3, "gap")):
         columns = [f"{name}_ratio{end}" for end in ("", "_low", "_high")]
@@ -81,13 +76,14 @@ def expected_points(scaling):
     yield "mdr_lambda", 0, points(lambdas, "x", "lambda", "lambda_low", "lambda_high")
     yield "mdr_lambda", 1, points(lambdas, "x", "velocity_ratio")
     yield "mdr_lambda", 2, points(published("mdr_exponents"), None, "difference")
-    for panel, (_, rows) in enumerate(media.groupby("medium", sort=False)):
-        yield "media", panel, points(rows, "time", "velocity")
+    for figure, table, key, x, y in (
+        ("media", media, "medium", "time", "velocity"),
+        ("validation", published("validation"), "quantity", "elements", "error"),
+        ("direct", published("direct"), "case", "contact_count", "depth_ratio"),
+    ):
+        for panel, (_, rows) in enumerate(table.groupby(key, sort=False)):
+            yield figure, panel, points(rows, x, y)
     yield "media", 2, points(media, "x", "depth")
-    for panel, (_, rows) in enumerate(published("validation").groupby("quantity", sort=False)):
-        yield "validation", panel, points(rows, "elements", "error")
-    for panel, (_, rows) in enumerate(published("direct").groupby("case", sort=False)):
-        yield "direct", panel, points(rows, "contact_count", "depth_ratio")
     base = curves[curves["case_group"] == "base"]
     yield "interface", 0, points(base, "x", "interface", "interface_low", "interface_high")
     yield "interface", 0, points(published("periodic"), "x", "g")

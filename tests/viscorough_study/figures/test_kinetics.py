@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from support.figures import COMBINATIONS, ELEMENTS, HURST, case_of
+from support.figures import CASES, COMBINATIONS, ELEMENTS, HURST, case_of
 from support.study import SHOWN
 from viscorough import reference
 from viscorough.viscous.correspondence import kinetics
@@ -13,11 +13,11 @@ from viscorough_study.fits.conventions import fits
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinations, scaling):
+def test_kinetics_are_those_of_the_curves_in_real_units(curves, drawn):
     """Against viscorough.viscous.correspondence, which does not know of X: geometric mean of v at the times drawn."""
-    raw, collapsed, _ = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes
-    moving = {line.get_label(): line.get_data() for line in raw.lines}
-    scaled = {line.get_label(): line.get_data() for line in collapsed.lines}
+    moving, scaled = (
+        {line.get_label(): line.get_data() for line in axes.lines} for axes in drawn["fig2_kinetics"].axes[:2]
+    )
     for hurst, name in curves:
         at, label = COMBINATIONS[name], case_of(hurst, name)
         time, velocity = moving[label]
@@ -27,8 +27,8 @@ def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinati
         np.testing.assert_allclose(scaled[label], [at["force"] * time / unit, velocity * time / at["rms"]], rtol=1e-12)
 
 
-def test_kinetics_mark_the_regions(discs, combinations, scaling):
-    axes = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes[1]
+def test_kinetics_mark_the_regions(drawn, scaling):
+    axes = drawn["fig2_kinetics"].axes[1]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
     fitted = fits(scaling[scaling["hurst"].isin(HURST)], SHOWN, source="discs", case_group="base")
     np.testing.assert_allclose(sorted(map(tuple, bars)), sorted(zip(fitted.x_low, fitted.x_high, strict=True)))
@@ -38,10 +38,10 @@ def test_kinetics_mark_the_regions(discs, combinations, scaling):
     np.testing.assert_allclose(last[:, 1], last[:, 0])
 
 
-@pytest.mark.parametrize(("fraction_min", "drawn"), [(0.5, True), (0.6, False)])
-def test_means_over_few_realizations_are_left_out(discs, combinations, scaling, fraction_min, drawn):
+@pytest.mark.parametrize(("fraction_min", "shown"), [(0.5, True), (0.6, False)])
+def test_means_over_few_realizations_are_left_out(discs, scaling, fraction_min, shown):
     beyond = discs[0]["x"] > 1.0
     few = discs[0].assign(fraction_defined=discs[0]["fraction_defined"].where(~beyond, 0.5))
-    figure = plot_kinetics([few], combinations, scaling, SHOWN, fraction_min=fraction_min)
-    (line,) = [line for line in figure.axes[1].lines if line.get_label() in combinations]
-    assert (line.get_xdata().max() > 4 * 1.1) == drawn
+    figure = plot_kinetics([few], CASES, scaling, SHOWN, fraction_min=fraction_min)
+    (line,) = [line for line in figure.axes[1].lines if line.get_label() in CASES]
+    assert (line.get_xdata().max() > 4 * 1.1) == shown

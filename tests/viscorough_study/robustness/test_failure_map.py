@@ -21,15 +21,11 @@ def table():
     return failure_map([case for case in cases if case.steps <= 256])
 
 
-def test_every_cell_has_a_number_and_a_verdict(table):
+def test_every_cell_has_a_number_and_a_verdict_and_nothing_fails_unnoticed(table):
     assert len(table) == len(table[["group", "case"]].drop_duplicates()) * len(METHODS)
     assert np.isfinite(table["error"]).all()
-    assert set(table["verdict"]) <= set(VERDICTS)
+    assert set(table["verdict"]) <= set(VERDICTS) - {"unnoticed"}
     assert (table["reason"] != "")[table["verdict"].isin(["refused", "warned", "stated"])].all()
-
-
-def test_nothing_fails_unnoticed(table):
-    assert "unnoticed" not in set(table["verdict"])
 
 
 @pytest.mark.parametrize("method", NUMERICAL)

@@ -77,7 +77,11 @@ def prepare(
         for value in np.atleast_1d(nodata).astype(heights.dtype):
             heights[heights == value] = np.nan
     if crop is not None:
-        heights = _cropped(heights, crop)
+        for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
+            if not 0 <= first < end <= size:
+                raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
+        (left, right), (top, bottom) = crop
+        heights = heights[top:bottom, left:right].copy()
     if np.isnan(heights).all():
         raise ValueError("no height is left after nodata and crop; at least one is needed")
     if flip:
@@ -97,14 +101,6 @@ def doubts(indenter: Indenter) -> list[str]:
     texts = [*_suspicious_values(heights)]
     texts += [] if texts else [*_tilt(indenter), *_spikes(heights)]  # the former would explain the latter
     return [*texts, *_holes(heights)]
-
-
-def _cropped(heights: Array, crop: Crop) -> Array:
-    for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
-        if not 0 <= first < end <= size:
-            raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
-    (left, right), (top, bottom) = crop
-    return heights[top:bottom, left:right].copy()
 
 
 # ---- mean, plane, sphere

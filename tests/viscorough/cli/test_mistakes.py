@@ -21,7 +21,11 @@ GENERATE = "generate --hurst 0.7 --rms 1 --diameter 34 --seed 5 -o made.nc"
 EXCLUDE = "exclude each other; one of them is allowed"
 QUANTITY = "is not a number above 0 and finite, plain or with a unit"
 INCREASING, NO_UNIT = "each larger than the one before", "needs a plain number, since the unit of length is not known"
-PLOT_PIPE, OF_PIPE = "plot pipe.nc -o out.png", f"{KINETICS} --viscosity 1 --force-history pipe"
+# Opening a pipe would wait for somebody to write into it.
+OF_PIPES = ["kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "plot pipe.nc -o out.png"]
+OF_PIPES += [f"{command} -o out.nc" for command in ("indent pipe.nc", "indent pipe.npy", "reduce pipe.npy")]
+OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe{suffix}" for suffix in (".csv", ".npy")]
+OF_PIPES += [f"{KINETICS} --force 1 --medium {name}.yaml" for name in ("pipe", "of_pipe.csv")]
 MISTAKES = [
     ("", "Missing command"),
     ("indent heights.npy --spacing 1", "--output"),
@@ -96,16 +100,7 @@ MISTAKES = [
     (f"{INDENT} --channel height", "--channel height"),
     ("indent um.nc --channel y -o out.nc", "heights have the shape (9,)"),
     (f"{INDENT} --scale much", "--scale much"),
-    *[  # opening a pipe would wait for somebody to write into it
-        (line, f"pipe{suffix}: not readable (it is a pipe); a regular file is needed")
-        for suffix, lines in {
-            ".nc": ("kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "indent pipe.nc -o out.nc", PLOT_PIPE),
-            ".csv": (f"{OF_PIPE}.csv", f"{KINETICS} --force 1 --medium of_pipe.csv.yaml"),
-            ".npy": ("indent pipe.npy -o out.nc", "reduce pipe.npy -o out.nc", f"{OF_PIPE}.npy"),
-            ".yaml": (f"{KINETICS} --force 1 --medium pipe.yaml",),
-        }.items()
-        for line in lines
-    ],
+    *[(line, "not readable (it is a pipe); a regular file is needed") for line in OF_PIPES],
 ]
 
 

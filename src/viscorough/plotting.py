@@ -26,7 +26,7 @@ from viscorough.types import Array, FilePath
 from viscorough.viscous.correspondence import Kinetics
 
 Variables = dict[str, Variable]
-FORMATS = (".png", ".pdf", ".svg")
+FORMATS: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}  # metadata: no dates
 _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told apart with any colour vision
 _FEW = 40  # points below which a curve has markers
 _FEW_DECADES = 80  # ratio of the ends of a logarithmic axis
@@ -82,9 +82,8 @@ def plot(result: Content | LoadingCurve | Kinetics | Contact | Indenter, path: F
         draw, numbers = kind_of(result if isinstance(result, Content) else to_content(result))
         figure = draw(numbers)
         if path is not None:
-            dates: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
             with atomic_write(path) as temporary:
-                figure.savefig(temporary, format=suffix[1:], metadata=dates[suffix])
+                figure.savefig(temporary, format=suffix[1:], metadata=FORMATS[suffix])
     return figure
 
 

@@ -77,7 +77,11 @@ def prepare(
         for value in np.atleast_1d(nodata).astype(heights.dtype):
             heights[heights == value] = np.nan
     if crop is not None:
-        heights = _cropped(heights, crop)
+        for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
+            if not 0 <= first < end <= size:
+                raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
+        (left, right), (top, bottom) = crop
+        heights = heights[top:bottom, left:right].copy()
     if np.isnan(heights).all():
         raise ValueError("no height is left after nodata and crop; at least one is needed")
     if flip:
@@ -97,14 +101,6 @@ def doubts(indenter: Indenter) -> list[str]:
     texts = [*_suspicious_values(heights)]
     texts += [] if texts else [*_tilt(indenter), *_spikes(heights)]  # the former would explain the latter
     return [*texts, *_holes(heights)]
-
-
-def _cropped(heights: Array, crop: Crop) -> Array:
-    for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
-        if not 0 <= first < end <= size:
-            raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
-    (left, right), (top, bottom) = crop
-    return heights[top:bottom, left:right].copy()
 
 
 # ---- mean, plane, sphere
@@ -243,19 +239,11 @@ def _filled(heights: Array, aspect: float) -> Array:
     holes, count = _enclosed(heights)
     if count == 0:
         return heights
-    number = np.full(heights.shape, -1)
-    unknowns = int(np.count_nonzero(holes))
-    number[holes] = np.arange(unknowns)
-    rows, columns = np.nonzero(holes)
-    right, entries = np.zeros(unknowns), []
-    for step, weight in (((0, 1), aspect**2), ((0, -1), aspect**2), ((1, 0), 1.0), ((-1, 0), 1.0)):
-        at = rows + step[0], columns + step[1]
-        inside = number[at] >= 0
-        right[~inside] += weight * heights[at][~inside]
-        entries.append((np.nonzero(inside)[0], number[at][inside], np.full(np.count_nonzero(inside), -weight)))
-    i, j, values = (np.concatenate(parts) for parts in zip(*entries, strict=True))
-    matrix = sparse.csc_array((values, (i, j)), shape=(unknowns, unknowns))
-    matrix = matrix + sparse.diags_array(np.full(unknowns, 2 * aspect**2 + 2), format="csc")
+    hole, weights = np.flatnonzero(holes), np.array([aspect**2, aspect**2, 1.0, 1.0])
+    neighbours = hole[:, None] + [1, -1, heights.shape[1], -heights.shape[1]]
+    ends = np.arange(0, neighbours.size + 1, 4)
+    sums = sparse.csr_array((np.tile(weights, hole.size), neighbours.ravel(), ends), shape=(hole.size, heights.size))
+    matrix = sparse.diags_array(np.full(hole.size, weights.sum())) - sums[:, hole]
     filled = heights.copy()
-    filled[holes] = spsolve(sparse.csc_matrix(matrix), right)
+    filled[holes] = spsolve(sparse.csc_matrix(matrix), sums @ np.where(holes, 0, heights).ravel())
     return filled

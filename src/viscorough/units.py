@@ -155,10 +155,9 @@ def length_unit(text: str) -> str:
 
 def is_length(text: str) -> bool:
     """Whether a text is a unit of length."""
-    try:
+    with contextlib.suppress(ValueError):
         return bool(length_unit(text))
-    except ValueError:
-        return False
+    return False
 
 
 def _rounded(number: float) -> float:

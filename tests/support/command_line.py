@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from viscorough.cli import main
+from viscorough.io import netcdf
 
 VISCOROUGH = Path(sys.executable).with_name("viscorough")
 RADIUS = 100.0
@@ -17,6 +18,11 @@ RADIUS = 100.0
 def run(line):
     """The exit code of a line of arguments."""
     return main(shlex.split(line))
+
+
+def values(path):
+    """{name: values} of the variables in a NetCDF file."""
+    return {name: variable.values for name, variable in netcdf.read(path).variables.items()}
 
 
 def python(*arguments, **environment):

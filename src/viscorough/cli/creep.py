@@ -22,9 +22,7 @@ from viscorough.units import Quantity
     default="table",
     help="Kind of medium: a table of J(t), a Prony series or a springpot.",
 )
-@click.option(
-    "-o", "--output", type=options.FILE, required=True, metavar="MEDIUM.yaml", help="File to write or replace."
-)
+@options.output("MEDIUM.yaml", table=None)
 def creep(
     curve: Path, record: Path, *, force: Quantity | None, force_history: Path | None, fit: str, output: Path
 ) -> None:

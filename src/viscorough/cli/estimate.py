@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
@@ -12,9 +11,6 @@ from viscorough import units
 from viscorough.cli import files, messages, options
 from viscorough.errors import AccuracyWarning
 from viscorough.units import Quantity
-
-if TYPE_CHECKING:
-    from viscorough.calibrated_law import PenetrationLaw
 
 
 @click.command()
@@ -57,6 +53,7 @@ def estimate(
     """
     import numpy as np
 
+    from viscorough.calibrated_law import ACROSS
     from viscorough.estimates import estimate
     from viscorough.io.motion import estimate_to_content
 
@@ -76,19 +73,13 @@ def estimate(
         text += f", X from {law.x_low:.3g} to {law.x_high:.3g}; elsewhere indent a surface made by viscorough generate"
         warnings.warn(text, AccuracyWarning, stacklevel=2)
     if not output:
-        click.echo(_heading(law))
+        (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
+        click.echo(
+            f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}, discs of {ACROSS} "
+            f"elements across; X^beta/zeta from {region[0]:.3g} to {region[1]:.3g}: "
+            f"beta {law.beta:.4g} [{low:.4g}, {high:.4g}], zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
+        )
         click.echo(str(result))
         return
     files.write_output(estimate_to_content(result, unit), output, hurst=hurst, **numbers, **about)
     messages.announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
-
-
-def _heading(law: PenetrationLaw) -> str:
-    from viscorough.calibrated_law import ACROSS
-
-    (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
-    return (
-        f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}, discs of {ACROSS} "
-        f"elements across; X^beta/zeta from {region[0]:.3g} to {region[1]:.3g}: "
-        f"beta {law.beta:.4g} [{low:.4g}, {high:.4g}], zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
-    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -12,10 +12,6 @@ from viscorough.cli import files, messages, options
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
-
-if TYPE_CHECKING:
-    from viscorough.io.netcdf import Content
-    from viscorough.viscous.correspondence import ForceHistory, Kinetics
 
 _CORRESPONDENCE = (
     "depth at a time is the elastic one at F/G = integral of J(t - s) dF(s), velocity is its derivative over k/G "
@@ -69,33 +65,29 @@ def kinetics(
     options.require((force is None) != (force_history is None), "one of --force and --force-history is needed")
     options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
 
+    import numpy as np
+
+    from viscorough.io.motion import kinetics_to_content
     from viscorough.viscous import correspondence
 
     files.check_output(output, force_history=force_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
+    load: Any
     load, of_load = files.read_load(force, force_history, loading.length_unit)
     motion = correspondence.kinetics(loading, load, half_space, times)
-    files.write_output(_content(motion, load), output, **about, **of_load, correspondence=_CORRESPONDENCE)
-    depth = with_unit(motion.depth[-1], loading.length_unit, 6)
-    time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)
-    messages.announce(output, f"{motion.time.size} times, depth {depth} at time {time}")
-
-
-def _content(motion: Kinetics, history: float | ForceHistory) -> Content:
-    """Content of the output; a warning for times at which depth or velocity are not known."""
-    import numpy as np
-
-    from viscorough.io.motion import kinetics_to_content
-
-    force: Any = history
-    if not isinstance(history, float):
-        at_samples = np.array_equal(motion.time, history.times)
-        force = history.force if at_samples else np.interp(motion.time, history.times, history.force)
+    over_time = load
+    if force_history:
+        at_samples = np.array_equal(motion.time, load.times)
+        over_time = load.force if at_samples else np.interp(motion.time, load.times, load.force)
     unknown = np.count_nonzero(~np.isfinite(motion.depth) | ~np.isfinite(motion.velocity))
     if unknown == motion.time.size:
         raise ValueError("times: all are before the curve's first level; later ones are needed, or an earlier level")
     if unknown:
         text = f"at {unknown} of {motion.time.size} times depth or velocity are missing: before the first level of the "
         warnings.warn(f"{text}curve, or where a step moves a springpot without bound", AccuracyWarning, stacklevel=2)
-    return kinetics_to_content(motion, force)
+    content = kinetics_to_content(motion, over_time)
+    files.write_output(content, output, **about, **of_load, correspondence=_CORRESPONDENCE)
+    depth = with_unit(motion.depth[-1], loading.length_unit, 6)
+    time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)
+    messages.announce(output, f"{motion.time.size} times, depth {depth} at time {time}")

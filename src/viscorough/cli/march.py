@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -12,15 +12,8 @@ from viscorough.cli import files, messages, options, surface_options
 from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
 
-if TYPE_CHECKING:
-    from viscorough.indenter import Indenter
-    from viscorough.io.netcdf import Content
-    from viscorough.viscous.correspondence import ForceHistory
-    from viscorough.viscous.medium import Medium
-
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "second_order")  # methods that integrate viscoelastic media
-_METHODS_OF = {"until_fraction": ("events",)}  # {option: methods that have it}
 
 
 @click.command()
@@ -50,10 +43,10 @@ def march(
     force: Quantity | None,
     viscosity: Quantity | None,
     medium: Path | None,
-    times: list[float] | None,
+    times: Any,
     force_history: Path | None,
+    until_fraction: float | None,
     progress: bool,
-    **of_method: Any,
 ) -> None:
     """Integrate the viscous or viscoelastic problem directly in time, without its correspondence with the elastic one.
 
@@ -74,80 +67,57 @@ def march(
         viscorough march heights.npy --spacing 2e-6 --method second_order --medium rubber.yaml \\
             --force-history pulses.csv -o pulses.nc
     """
-    of_method = {name: value for name, value in of_method.items() if value is not None}
-    _check_usage(method, medium, force_history, times, of_method)
+    for option, value, methods in (("medium", medium, _OF_MEDIA), ("until-fraction", until_fraction, ("events",))):
+        wrong = f"--{option} is not for --method {method}; allowed: {', '.join(methods)}"
+        options.require(value is None or method in methods, wrong)
+    options.require(bool(medium) or method != "second_order", "--method second_order is for use with --medium")
+    needed = not force_history and (bool(medium) or method != "events")
+    options.require(needed == bool(times), f"--times is {'not for' if times else 'needed by'} --method {method}")
     options.require(not (force_history and force), "--force-history replaces --force; they exclude each other")
     options.require(not (medium and viscosity), "--medium replaces --viscosity; they exclude each other")
+
+    import numpy as np
+
+    from viscorough.io.motion import medium_motion_to_content, viscous_motion_to_content
+    from viscorough.viscous.integration.events import march_events
+    from viscorough.viscous.integration.internal_variable_events import march_medium_events
+    from viscorough.viscous.integration.internal_variables import march_medium
+    from viscorough.viscous.integration.motion import under_constant_force, under_force_history
+    from viscorough.viscous.integration.stepping import march_steps
+
     files.check_output(output, force_history=force_history, medium=medium)
     indenter = surface_options.read_indenter(surface, output)
     unit = indenter.length_unit
     load: Any
+    half_space: Any
     load, of_load = files.read_load(force or Quantity(1.0), force_history, unit)
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     if force_history and not load.impulse[-1] > 0:
         text = "no time passes while there is a force; allowed: a force above zero for some time"
         raise ValueError(f"{force_history}: {text}")
+    how: dict[str, Any] = {} if until_fraction is None else {"until_fraction": until_fraction}
     with messages.progress_bar("viscorough march", progress) as report:
-        of_method |= {} if method == "events" else {"progress": report}
-        if isinstance(half_space, float):
-            content = _in_viscous_medium(indenter, method, half_space, load, times, **of_method)
+        how |= {} if method == "events" else {"progress": report}
+        if medium:
+            steps, forces = load[:2] if force_history else ([0.0, *times], [load] * (1 + len(times)))
+            integrate = march_medium_events if method == "events" else march_medium
+            content = medium_motion_to_content(integrate(indenter, half_space, steps, force=forces, **how))
         else:
-            content = _in_medium(indenter, method, half_space, load, times, **of_method)
+            per_area = half_space * units.square_metres(unit)  # viscosity in the unit of the lengths
+            if method == "events":
+                integrated: Any = march_events(indenter, **how)
+            else:
+                reached = np.unique(load.impulse[load.impulse > 0]) / per_area if force_history else None
+                ends = load / per_area * np.array(times) if reached is None else reached
+                integrated = march_steps(indenter, ends, scheme=method, **how)
+            if force_history:
+                motion = under_force_history(integrated, load, per_area)
+            else:
+                motion = under_constant_force(integrated, load / per_area)
+            content = viscous_motion_to_content(motion, unit)
     files.write_output(content, output, method=method, **about, **of_load, **surface.attributes(indenter))
     time, depths, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
     depth = with_unit(depths[-1], unit, 6)
     contact = f"{count[-1]} of {indenter.elements} elements in contact"
     last = with_unit(time[-1], si_unit("s", unit), 6)
     messages.announce(output, f"{time.size} levels, depth {depth} at time {last} with {contact}")
-
-
-def _check_usage(
-    method: str, medium: Path | None, history: Path | None, times: list[float] | None, of_method: dict[str, Any]
-) -> None:
-    """Raise UsageError if an option that the method requires is missing, or one is given that does not apply to it."""
-    allowed = {"medium": _OF_MEDIA} if medium else {}
-    for name, methods in (allowed | {name: _METHODS_OF[name] for name in of_method}).items():
-        option = name.replace("_", "-")
-        options.require(method in methods, f"--{option} is not for --method {method}; allowed: {', '.join(methods)}")
-    options.require(bool(medium) or method != "second_order", "--method second_order is for use with --medium")
-    needed = not history and (bool(medium) or method != "events")
-    options.require(needed == bool(times), f"--times is {'not for' if times else 'needed by'} --method {method}")
-
-
-def _in_viscous_medium(
-    indenter: Indenter, method: str, viscosity: float, load: float | ForceHistory, times: Any, **options: Any
-) -> Content:
-    """Content of the output for a Newtonian medium; viscosity in Pa s where the unit of length is known."""
-    import numpy as np
-
-    from viscorough.io.motion import viscous_motion_to_content
-    from viscorough.viscous.integration.events import march_events
-    from viscorough.viscous.integration.motion import under_constant_force, under_force_history
-    from viscorough.viscous.integration.stepping import march_steps
-
-    viscosity *= units.square_metres(indenter.length_unit)
-    if method == "events":
-        integrated = march_events(indenter, **options)
-    elif isinstance(load, float):
-        integrated = march_steps(indenter, load / viscosity * np.array(times), scheme=method, **options)
-    else:
-        steps = np.unique(load.impulse[load.impulse > 0]) / viscosity
-        integrated = march_steps(indenter, steps, scheme=method, **options)
-    if isinstance(load, float):
-        motion = under_constant_force(integrated, load / viscosity)
-    else:
-        motion = under_force_history(integrated, load, viscosity)
-    return viscous_motion_to_content(motion, indenter.length_unit)
-
-
-def _in_medium(
-    indenter: Indenter, method: str, medium: Medium, load: float | ForceHistory, times: Any, **options: Any
-) -> Content:
-    """Content of the output for a viscoelastic medium."""
-    from viscorough.io.motion import medium_motion_to_content
-    from viscorough.viscous.integration.internal_variable_events import march_medium_events
-    from viscorough.viscous.integration.internal_variables import march_medium
-
-    steps, force = ([0.0, *times], [load] * (1 + len(times))) if isinstance(load, float) else load[:2]
-    integrate = march_medium_events if method == "events" else march_medium
-    return medium_motion_to_content(integrate(indenter, medium, steps, force=force, **options))

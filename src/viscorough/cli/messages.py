@@ -78,7 +78,6 @@ def progress_bar(label: str, wanted: bool | None) -> Iterator[Progress]:
         delay=_DELAY,
         disable=sys.stderr is None or (None if wanted is None else not wanted),  # None where it was closed
         leave=False,
-        file=sys.stderr,
         bar_format="{desc}: {percentage:3.0f} % |{bar:30}| {elapsed} gone, about {remaining} left",
     )
     with bar:

@@ -77,12 +77,12 @@ class Increasing(click.ParamType):
 FILE = click.Path(path_type=Path)
 
 
-def output(metavar: str, table: bool = True) -> Callable[..., Any]:
-    """Decorator that adds -o/--output to a command; `table` says whether the results can also be written as CSV."""
+def output(metavar: str, table: bool | None = True) -> Callable[..., Any]:
+    """Decorator that adds -o/--output to a command; `table`: whether .csv is allowed; None: the command checks it."""
     text = "File to write or replace" + ("; as a table if it ends in .csv." if table else ".")
 
     def check(context: click.Context, parameter: click.Parameter, path: Path) -> Path:
-        if path.suffix.lower() == ".csv" and not table:
+        if path.suffix.lower() == ".csv" and table is False:
             raise click.BadParameter(f"{path}: maps are no table; a NetCDF file (.nc) is needed", context, parameter)
         return path
 

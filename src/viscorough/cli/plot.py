@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from viscorough.cli import files, messages, options, surface_options
-
-if TYPE_CHECKING:
-    from viscorough.io.netcdf import Content
 
 
 @click.command()
@@ -34,26 +30,23 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
     except ModuleNotFoundError as error:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
 
+    from viscorough.io.netcdf import Content
+    from viscorough.io.surfaces import surface_to_content
+
     file = surface.path
     files.check_output(output, results=file)
-    plotting.plot(_content(surface, output), output)
-    messages.announce(output, f"figure of {file.name}")
-
-
-def _content(surface: surface_options.Surface, output: Path) -> Content:
-    """What a command wrote, or else a map of heights. Raises ValueError if the file is neither."""
-    from viscorough.io.surfaces import surface_to_content
-    from viscorough.plotting import kind_of
-
-    written = None
-    if not surface.options and surface.path.suffix.lower() == ".nc":
+    content: Content | None = None
+    fault: ValueError | None = None
+    if not surface.options and file.suffix.lower() == ".nc":
         try:
-            content = files.read_content(surface.path)
-            kind_of(content)
-            return content
+            content = files.read_content(file)
+            plotting.kind_of(content)
         except ValueError as error:
-            written = error if str(surface.path) in str(error) else ValueError(f"{surface.path}: {error}")
-    try:
-        return surface_to_content(surface_options.read_indenter(surface, output))
-    except ValueError as error:
-        raise (written or error) from error
+            content, fault = None, error if str(file) in str(error) else ValueError(f"{file}: {error}")
+    if content is None:  # no other command wrote it: a map of heights
+        try:
+            content = surface_to_content(surface_options.read_indenter(surface, output))
+        except ValueError as error:
+            raise (fault or error) from error
+    plotting.plot(content, output)
+    messages.announce(output, f"figure of {file.name}")

@@ -52,11 +52,6 @@ def _spacing(text: str) -> Quantity | tuple[Quantity, ...]:
     return distances if len(distances) == 2 else distances[0]
 
 
-def _numbers(text: str) -> list[float]:
-    """Numbers separated by commas, of any sign."""
-    return [float(entry) for entry in text.split(",")]
-
-
 def _crop(text: str) -> tuple[tuple[int, int], tuple[int, int]]:
     """Columns and rows to keep, FIRST:END each."""
     match = re.fullmatch(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})", text, re.ASCII)
@@ -69,7 +64,7 @@ def _crop(text: str) -> tuple[tuple[int, int], tuple[int, int]]:
 _VALUES: dict[str, Callable[[str], Any]] = {
     "spacing": _spacing,
     "scale": units.quantity,
-    "nodata": _numbers,
+    "nodata": lambda text: [float(entry) for entry in text.split(",")],
     "crop": _crop,
 }
 

@@ -58,8 +58,9 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
     lines = [line.strip() for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
     if missing := next(filter(_MISSING.match, lines), None):
         raise ValueError(f"{missing[:40]!r} is no row of two numbers")
-    above = [*itertools.takewhile(_is_comment, lines)]
-    rows = [*itertools.filterfalse(_is_comment, lines)]
+    comments = [line for line in lines if line.startswith("#")]
+    rows = [line for line in lines if not line.startswith("#")]
+    above = [*itertools.takewhile(lambda line: line.startswith("#"), lines)]
     if rows and not any(map(_starts_like_a_number, rows[0].split(","))):
         heading = rows.pop(0)
     else:
@@ -67,12 +68,11 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
     table = np.loadtxt(rows, delimiter=",", ndmin=2) if rows else np.empty((0, 0))
     if heading is not None and 2 < heading.count(",") + 1 == table.shape[1]:
         table, heading = table[:, :2], ",".join(heading.split(",")[:2])
-    _check_comments([line for line in lines if _is_comment(line) and line is not heading], wanted)
+    for comment in comments:
+        stated = None if comment is heading else _unit_in(comment.strip("# "))
+        if stated is not None and any(_is_another(stated, unit) for unit in wanted):
+            raise ValueError(f"the comment {comment[:40]!r} states a unit; a heading of both columns is needed for it")
     return table, _factors(heading, wanted, length_unit) if heading else (1.0, 1.0)
-
-
-def _is_comment(line: str) -> bool:
-    return line.startswith("#")
 
 
 def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[float]:
@@ -92,14 +92,6 @@ def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[floa
             except ValueError as error:
                 raise ValueError(f"the heading {field[:40]!r}: {error}") from error
     return factors
-
-
-def _check_comments(comments: Iterable[str], wanted: Iterable[str]) -> None:
-    """Raise ValueError if a comment ends with a unit to which numbers would have to be converted."""
-    for comment in comments:
-        stated = _unit_in(comment.strip("# "))
-        if stated is not None and any(_is_another(stated, unit) for unit in wanted):
-            raise ValueError(f"the comment {comment[:40]!r} states a unit; a heading of both columns is needed for it")
 
 
 def _unit_in(heading: str) -> str | None:

@@ -20,8 +20,8 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
     try:
         column, row, columns, rows, spacing = _places(points)
         if not required and len(points) < max(_LEAST_POINTS, _LEAST_SHARE * columns * rows):
-            raise _NoGridError("few of its points")
-    except _NoGridError as fault:
+            raise ValueError("few of its points")
+    except ValueError as fault:
         if required:
             raise ValueError(f"points x, y, z form no grid of equal spacing ({fault}); a grid is needed") from None
         return None
@@ -30,26 +30,22 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
     return heights, spacing
 
 
-class _NoGridError(ValueError):
-    """Points that form no grid."""
-
-
 def _places(points: Array) -> tuple[Integers, Integers, int, int, tuple[float, float]]:
-    """(column and row of each point, numbers of columns and rows, (dx, dy)). Raises _NoGridError."""
+    """(column and row of each point, numbers of columns and rows, (dx, dy)). Raises ValueError."""
     if points.shape[1] != 3:
-        raise _NoGridError(f"{points.shape[1]} columns; three, x, y and z, are needed")
+        raise ValueError(f"{points.shape[1]} columns; three, x, y and z, are needed")
     if not np.isfinite(points[:, :2]).all():
-        raise _NoGridError("x and y must be finite")
+        raise ValueError("x and y must be finite")
     (column, columns, dx), (row, rows, dy) = map(_axis, points[:, :2].T)
     if columns * rows > max(4 * len(points), 100):
-        raise _NoGridError(f"{len(points)} points on a grid of {columns} by {rows}")
+        raise ValueError(f"{len(points)} points on a grid of {columns} by {rows}")
     if np.bincount(row * columns + column).max() > 1:
-        raise _NoGridError("some points stand twice")
+        raise ValueError("some points stand twice")
     return column, row, columns, rows, (dx, dy)
 
 
 def _axis(positions: Array) -> tuple[Integers, int, float]:
-    """(index of each position, number of indices, spacing) along an axis of equal spacing. Raises _NoGridError.
+    """(index of each position, number of indices, spacing) along an axis of equal spacing. Raises ValueError.
 
     Positions may be rounded, and whole columns may be missing.
     """
@@ -57,7 +53,7 @@ def _axis(positions: Array) -> tuple[Integers, int, float]:
     with np.errstate(over="ignore"):
         extent = different[-1] - different[0]
     if not 0 < extent < np.inf:
-        raise _NoGridError("at least two positions in each direction are needed")
+        raise ValueError("at least two positions in each direction are needed")
     different = different[np.diff(different, prepend=-np.inf) > _MERGED * extent]
     steps = np.diff(different)
     for step in (extent / steps.size, np.median(steps), steps.min()):
@@ -67,4 +63,4 @@ def _axis(positions: Array) -> tuple[Integers, int, float]:
         index = np.rint(places).astype(int)
         if np.abs(places - index).max() <= _OFF_GRID:
             return index, count + 1, float(f"{spacing:.12g}")
-    raise _NoGridError(f"steps lie between {steps.min():g} and {steps.max():g}")
+    raise ValueError(f"steps lie between {steps.min():g} and {steps.max():g}")

@@ -17,7 +17,6 @@ from viscorough.summaries import si_unit
 from viscorough.types import FilePath
 from viscorough.viscous import media
 from viscorough.viscous.identification import IdentifiedMedium
-from viscorough.viscous.media import CreepTable
 from viscorough.viscous.medium import Medium
 
 # Kinds of media. The keys of each are the parameters of its class, but for the table, which is in a file.
@@ -89,7 +88,10 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
     if missing := [key for key in keys if key not in mapping]:
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
     if make is media.CreepTable:
-        return _table(folder, mapping["file"], length_unit)
+        name, columns = mapping["file"], {"time": "s", "compliance": "1/Pa"}
+        if not isinstance(name, str) or not name or "\0" in name:
+            raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
+        return make(*read_columns(folder / name, "a creep table", columns, length_unit))
     return make(**{key: _values(key, mapping[key], length_unit) for key in keys})
 
 
@@ -200,13 +202,6 @@ def _values(key: str, value: object, length_unit: str) -> Any:
     if length_unit == "1":
         raise ValueError(f"{key}: {_shown(value)}; allowed: a plain number, since the unit of length is not known")
     return value
-
-
-def _table(folder: Path, name: object, length_unit: str) -> CreepTable:
-    if not isinstance(name, str) or not name or "\0" in name:
-        raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
-    columns = {"time": "s", "compliance": "1/Pa"}
-    return media.CreepTable(*read_columns(folder / name, "a creep table", columns, length_unit))
 
 
 def _shown(value: object) -> str:

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import netCDF4
 import numpy as np
-from numpy.typing import NDArray
 
 from viscorough import __version__
 from viscorough.arrays import read_only
@@ -67,20 +66,16 @@ def write(content: Content, path: FilePath) -> None:
     with atomic_write(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
         file.setncatts(content.attributes | global_attributes())
         for name, (dimensions, values, attributes) in content.variables.items():
-            _write_variable(file, name, dimensions, np.asarray(values), attributes)
-
-
-def _write_variable(
-    file: netCDF4.Dataset, name: str, dimensions: tuple[str, ...], values: NDArray[Any], attributes: Mapping[str, Any]
-) -> None:
-    for dimension, size in zip(dimensions, values.shape, strict=True):
-        if dimension not in file.dimensions:
-            file.createDimension(dimension, size)
-    kind = str if values.dtype.kind in "UO" else values.dtype
-    fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None  # CF: no coordinate may be missing
-    stored = file.createVariable(name, kind, dimensions, fill_value=fill, **compression(values.size))
-    stored.setncatts(attributes)
-    stored[...] = values
+            values = np.asarray(values)
+            for dimension, size in zip(dimensions, values.shape, strict=True):
+                if dimension not in file.dimensions:
+                    file.createDimension(dimension, size)
+            kind = str if values.dtype.kind in "UO" else values.dtype
+            # CF: no coordinate may be missing.
+            fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None
+            stored = file.createVariable(name, kind, dimensions, fill_value=fill, **compression(values.size))
+            stored.setncatts(attributes)
+            stored[...] = values
 
 
 @contextmanager

@@ -43,7 +43,10 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
                 return read_instrument(path, channel)
             if page.samplesperpixel != 1:
                 raise ValueError(f"a picture of {page.samplesperpixel} colours; a map of heights is needed")
-            _check_unscaled(file, page)
+            is_calibrated = file.is_imagej and "cf" in (file.imagej_metadata or {})
+            if is_calibrated or re.search('role="(scale|offset)"', _gdal_metadata(page)):
+                text = "its numbers are heights only after a scale and an offset are applied"
+                raise ValueError(f"{text}; heights are needed")
             spacing, spacing_unit, unit = _stated(file, page)
             heights = _without(page.asarray(), page.tags.get(42113))
     except (MemoryError, ModuleNotFoundError):
@@ -90,13 +93,6 @@ def _stated(file: tifffile.TiffFile, page: Any) -> tuple[Any, ...]:
         return None, units.UNKNOWN, units.UNKNOWN
     dx, dy = (length / points for points, length in (page.tags[name].value for name in ("XResolution", "YResolution")))
     return (dx, dy), unit, units.UNKNOWN
-
-
-def _check_unscaled(file: tifffile.TiffFile, page: Any) -> None:
-    """Raise ValueError if GDAL's metadata, or a calibration of ImageJ, say that the numbers are not the heights."""
-    is_calibrated = file.is_imagej and "cf" in (file.imagej_metadata or {})
-    if is_calibrated or re.search('role="(scale|offset)"', _gdal_metadata(page)):
-        raise ValueError("its numbers are heights only after a scale and an offset are applied; heights are needed")
 
 
 def _gdal_metadata(page: Any) -> str:

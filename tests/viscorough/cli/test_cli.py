@@ -4,13 +4,13 @@ import textwrap
 import warnings
 
 import click
+import numpy as np
 import pytest
 
 import viscorough
-from support.command_line import python
-from viscorough import ConvergenceError, cli
-
-INDENT = "indent heights.npy --spacing 1 -o out.nc"
+from support.command_line import python, run, sphere_heights
+from viscorough import ConvergenceError, cli, sum_rules
+from viscorough.io import netcdf
 
 
 def run_indent_as(function):
@@ -47,6 +47,17 @@ def test_warnings_are_written_once_and_on_one_line(capsys):
 
     assert run_indent_as(warn) == 0
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
+
+
+def test_disagreement_of_an_audit_is_a_warning(here, capsys, monkeypatch):
+    """What --audit prints is shown in docs/own_surface.md."""
+    np.save("heights.npy", 0.1 * sphere_heights(9))
+    monkeypatch.setattr(sum_rules.Audit, "agrees", False)
+    assert run("indent heights.npy --spacing 1 --unit um --audit -o out.nc") == 0
+    printed, attributes = capsys.readouterr(), netcdf.read("out.nc").attributes
+    assert "warning: Audit over" in printed.err
+    assert attributes["warnings"].startswith("Audit over")
+    assert printed.out.endswith(f"49 of 49 elements in contact\n{attributes['audit']}\n")
 
 
 def test_errors_in_the_code_are_not_hidden():

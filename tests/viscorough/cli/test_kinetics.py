@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
-from support.command_line import run, sphere_heights
+from support.command_line import run, sphere_heights, values
 from viscorough import Indenter, impulses, indent, kinetics
 from viscorough.io import netcdf
 from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
@@ -50,10 +50,6 @@ def here(curve, here):
     return here
 
 
-def result():
-    return {name: variable.values for name, variable in netcdf.read("kin.nc").variables.items()}
-
-
 @pytest.mark.parametrize(
     ("load", "force"),
     [
@@ -69,7 +65,7 @@ def test_file_holds_what_python_gives(here, curve, kind, load, force):
     (here / "medium.yaml").write_text(text)
     assert run(f"{KINETICS} {load} --medium medium.yaml") == 0
     history, times = HISTORY if "history" in load else 0.3, [0.5, 2, 7] if "times" in load else None
-    motion, written = kinetics(curve, history, medium, times), result()
+    motion, written = kinetics(curve, history, medium, times), values("kin.nc")
     np.testing.assert_array_equal(written["time"], motion.time)
     np.testing.assert_array_equal(written["depth"], motion.depth)
     np.testing.assert_array_equal(written["velocity"], np.where(np.isinf(motion.velocity), np.nan, motion.velocity))
@@ -90,7 +86,7 @@ def test_units_are_converted_where_the_unit_of_length_is_known(here, curve, opti
     """1 Pa is 1e-12 N/um²: 3 mN on 2 kPa s is as 3e-3 on 2e-9 in N and um; compliances are in 1/Pa."""
     (here / "mega.yaml").write_text("{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e6}")
     assert run(f"kinetics um.nc -o kin.nc {options}") == 0
-    np.testing.assert_allclose(result()["depth"], kinetics(curve, *expected).depth, rtol=1e-12)
+    np.testing.assert_allclose(values("kin.nc")["depth"], kinetics(curve, *expected).depth, rtol=1e-12)
     assert netcdf.read("kin.nc").variables["velocity"].attributes["units"] == "um s-1"
 
 
@@ -101,7 +97,7 @@ def test_missing_values_are_warned_of(here, capsys, complaint):
     (here / "force.csv").write_text("0,0\n0.1,0.1\n1,1\n2,1\n")
     load = f"--force-history force.csv --viscosity {1.6 / late.force[-1]}"
     assert run(f"kinetics late.nc {load} -o kin.nc") == 0
-    assert np.isnan(result()["depth"]).tolist() == [False, True, False, False]
+    assert np.isnan(values("kin.nc")["depth"]).tolist() == [False, True, False, False]
     assert "at 1 of 4 times depth or velocity are missing" in capsys.readouterr().err
     assert "depth or velocity are missing" in netcdf.read("kin.nc").attributes["warnings"]
     line = f"kinetics late.nc {load} --times 0.1,0.11 -o k.nc"
@@ -148,4 +144,4 @@ def test_bad_media_are_one_line(here, complaint, text, message):
 def test_a_force_that_is_zero_at_all_times_is_allowed(here):
     (here / "force.csv").write_text("0,0\n1,0\n")
     assert run(f"{KINETICS} --force-history force.csv --viscosity 1") == 0
-    assert not result()["depth"].any()
+    assert not values("kin.nc")["depth"].any()

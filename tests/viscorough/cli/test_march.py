@@ -5,7 +5,7 @@ from contextlib import nullcontext
 import numpy as np
 import pytest
 
-from support.command_line import run
+from support.command_line import run, values
 from viscorough import self_affine_disc
 from viscorough.cli import messages
 from viscorough.io import netcdf
@@ -21,10 +21,6 @@ def here(here):
     (here / "medium.yaml").write_text("kind: maxwell\nshear_modulus: 2.0\nviscosity: 3.0\n")
     (here / "pulse.csv").write_text("time,force\n0,0\n1,0.2\n2,0.02\n3,0.02\n")
     return here
-
-
-def values(file):
-    return {name: variable.values for name, variable in netcdf.read(file).variables.items()}
 
 
 SHORT_STEPS = f"--force 0.1 --times {','.join(map(str, np.geomspace(1e-3, 1.5, 500)))}"

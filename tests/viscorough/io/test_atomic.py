@@ -13,19 +13,19 @@ from support.faults import namespace
 from viscorough.io.atomic import atomic_write, check_output, check_readable
 
 
+def write(path, text, error=None):
+    with atomic_write(path) as temporary:
+        temporary.write_text(text)
+        if error:
+            raise error
+
+
 def test_target_of_a_link_is_replaced_and_not_the_link(tmp_path):
     (tmp_path / "folder").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "folder" / "real")
-    with atomic_write(tmp_path / "link") as temporary:
-        temporary.write_text("content")
+    write(tmp_path / "link", "content")
     assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "folder" / "real").read_text() == "content"
-
-
-def write_half(path, error):
-    with atomic_write(path) as temporary:
-        temporary.write_text("half")
-        raise error
 
 
 @pytest.mark.parametrize("interruption", [KeyboardInterrupt, TypeError])
@@ -33,7 +33,7 @@ def test_interrupted_writing_leaves_the_older_file(tmp_path, interruption):
     path = tmp_path / "curve"
     path.write_text("older")
     with pytest.raises(interruption):
-        write_half(path, interruption())
+        write(path, "half", interruption())
     assert path.read_text() == "older"
     assert os.listdir(tmp_path) == ["curve"]
 
@@ -41,7 +41,7 @@ def test_interrupted_writing_leaves_the_older_file(tmp_path, interruption):
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), RuntimeError("NetCDF: HDF error")])
 def test_failed_writing_is_one_line(tmp_path, error):
     with pytest.raises(OSError, match=r"a\.csv: not written .*; room on a writable disk is needed$"):
-        write_half(tmp_path / "a.csv", error)
+        write(tmp_path / "a.csv", "half", error)
     assert os.listdir(tmp_path) == []
 
 
@@ -73,8 +73,7 @@ def test_leftovers_of_killed_processes_are_removed(tmp_path):
     running = tmp_path / f".a.csv.{place}.{os.getpid()}.1234abcd.part"
     running.write_text("of a process that is alive")
     (tmp_path / f".a.csv.{place}.{10**30}.1234abcd.part").write_text("of a number that no process has")
-    with atomic_write(tmp_path / "a.csv") as temporary:
-        temporary.write_text("complete")
+    write(tmp_path / "a.csv", "complete")
     assert sorted(path.name for path in tmp_path.iterdir() if str(10**30) not in path.name) == [running.name, "a.csv"]
     assert (tmp_path / "a.csv").read_text() == "complete"
 
@@ -85,8 +84,7 @@ def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
     writer, part = writing(tmp_path / "a.csv", "of the container", *container)
     with writer:
         assert int(part.name.split(".")[-3]) < 10, "the first processes of the container"
-        with atomic_write(tmp_path / "a.csv") as temporary:
-            temporary.write_text("ours")
+        write(tmp_path / "a.csv", "ours")
         assert part.exists()
         writer.communicate("go on\n", timeout=60)
     assert writer.returncode == 0
@@ -102,8 +100,7 @@ def test_permissions_are_kept_or_those_of_any_new_file_also_under_the_longest_na
     if mode is not None:
         plain.chmod(mode)
         shutil.copy(plain, path)
-    with atomic_write(path) as temporary:
-        temporary.write_text("newer")
+    write(path, "newer")
     assert path.read_text() == "newer"
     assert path.stat().st_mode == plain.stat().st_mode
 
@@ -120,8 +117,8 @@ def test_paths_that_cannot_be_written(tmp_path):
     }.items():
         with refused(what):
             check_output(tmp_path / name)
-        with refused(what), atomic_write(tmp_path / name):
-            pass
+        with refused(what):
+            write(tmp_path / name, "")
     assert sorted(os.listdir(tmp_path)) == ["folder", "pipe"]
 
 

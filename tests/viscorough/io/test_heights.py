@@ -34,9 +34,8 @@ def test_heights_of_netcdf(tmp_path):
         indenter = read_heights(tmp_path / "a.nc", 1.0)
         np.testing.assert_array_equal(indenter.heights, factor * heights)
         assert indenter.length_unit == "um"
-    several = named.rename(heights="y2"), "z, y2"
     for ds, what in (
-        several,
+        (named.rename(heights="y2"), "z, y2"),
         (only.drop_vars("z"), "maps of 2 dimensions: none"),
         (named.expand_dims("realization"), "shape"),
     ):

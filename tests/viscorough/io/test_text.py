@@ -87,22 +87,15 @@ POINTS = "0 0 1\n0.5 0 2\n0 0.25 3\n0.5 .25 4\n"
     [
         *[f"{names}\n{POINTS}" for names in ("# X [µm], Y [µm], Z [nm]", "x_um y_um z_nm", "x/um;y/um;z/nm")],
         f"# Lateral units: um\n# Value units: nm\n{POINTS}",
+        f"# X pixel size: 0.5 um\n# Y pixel size: 0.25 um\n# XY units: um\n# Z units: nm\n{POINTS}",
         "y [um];x [um];z [nm];n\n0;0;1;9\n0;0,5;2;9\n0,25;0;3;9\n0,25;0,5;4;9\n",
     ],
 )
-def test_points_with_units_of_their_columns(tmp_path, text):
+def test_points_with_units_of_their_columns_or_below_a_header_that_agrees(tmp_path, text):
     (tmp_path / "a.xyz").write_text(text, encoding="utf-8")
     indenter = read_heights(tmp_path / "a.xyz")
     np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (500, 250, "nm")
-
-
-def test_points_below_a_header_that_agrees(tmp_path):
-    header = "# X pixel size: 0.5 um\n# Y pixel size: 0.25 um\n# XY units: um\n# unit: um\n"
-    (tmp_path / "a.xyz").write_text(header + POINTS)
-    indenter = read_heights(tmp_path / "a.xyz")
-    np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
-    assert (indenter.spacing, indenter.row_spacing) == (0.5, 0.25)
 
 
 ZYGO = """Zygo XYZ Data File - Format 1

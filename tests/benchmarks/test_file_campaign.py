@@ -53,7 +53,7 @@ def reader(case, *, shift=0.0, wider=1.0, unit="m", rows=None, filled=False):
         ({"wider": 1 + 1e-9}, "another spacing"),
         ({"unit": "1"}, "another unit"),
         ({"unit": "mm"}, "another map"),
-        ({"rows": -1}, "another shape"),
+        ({"rows": -1}, "another map"),
         ({"filled": True}, "another map"),
     ],
 )
@@ -61,7 +61,7 @@ def test_another_map_spacing_or_unit_is_noticed(case, tmp_path, monkeypatch, cha
     monkeypatch.setattr("viscorough.read_heights", reader(case, **change))
     outcome, why = campaign.outcome(case, tmp_path)
     assert outcome == campaign.WRONG
-    assert why.startswith(what)
+    assert what in why
 
 
 def test_what_must_be_refused_is_noticed(case, tmp_path, monkeypatch):

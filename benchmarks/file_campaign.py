@@ -71,13 +71,13 @@ def outcome(case, folder):
         return READ, ""
     if "\n" in refusal or not refusal.startswith(str(path)):
         return WRONG, f"a refusal of more than one line, or without the file: {refusal[:200]!r}"
-    return (UNREAD if case.unambiguous else REFUSED), refusal.removeprefix(f"{path}: ")
+    return (UNREAD if case.draft.clear else REFUSED), refusal.removeprefix(f"{path}: ")
 
 
 def difference(case, indenter):
     """Difference of what was read from the truth of a case, as text; "" if there is none."""
     unit = None if indenter.length_unit == "1" else metres(indenter.length_unit)
-    if case.heights is None:
+    if case.draft.bad:
         return f"read, though it must be refused: shape {indenter.heights.shape}, unit {unit} m"
     if (unit is None) != (case.unit is None):
         return f"another unit: {unit} m, not {case.unit} m"
@@ -104,9 +104,9 @@ def main(files, seed, only, output):
             word, why = outcome(case, folder)
             counts.setdefault(case.kind, Counter())[word] += 1
             if word in (UNREAD, WRONG):
-                failures.append({"file": index, "kind": case.kind, "traits": case.traits, "why": why, "is": word})
+                failures.append({"file": index, "kind": case.kind, "traits": case.draft.traits, "why": why, "is": word})
             if only is not None:
-                click.echo(f"{case.name}: {case.content!r}\n{', '.join(case.traits)}; arguments {case.options}")
+                click.echo(f"{case.name}: {case.content!r}\n{', '.join(case.draft.traits)}; arguments {case.options}")
                 click.echo(f"truth: {case.heights}, spacing {case.spacing}, unit {case.unit} m\n{word}: {why}")
     summary = {"seed": seed, "files": len(numbers), "seconds": round(time.perf_counter() - began, 1), "counts": counts}
     if output:

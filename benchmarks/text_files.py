@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import yaml
-from file_cases import UNITS, Draft, distances, map_shape, missing_points
+from file_cases import UNITS, Case, Draft, distances, map_shape, missing_points
 
 # ---- numbers, delimiters, marks of missing points
 
@@ -234,7 +234,7 @@ def matrix(random):
     header, unit, spacing, options = header_lines(draft, heights.shape, decimal_comma)
     lines = with_header(draft, header, lines, delimiter, columns)
     name = "map" + draft.one_of([".txt", ".txt", ".csv", ".dat", ".asc", ".TXT", ".tsv"])
-    return draft.case("matrix", name, encoded(draft, lines), heights, unit, spacing, options | preparation)
+    return Case(draft, "matrix", name, encoded(draft, lines), heights, unit, spacing, options | preparation)
 
 
 # Headings of the columns, with the unit {u} of x and y, {z} of the heights
@@ -319,7 +319,7 @@ def _points_file(draft, table, heights, spacing, delimiter, accuracy):
         draft.note(f"in {suffix}", clear=False)
     lines += [delimiter.join(row[column] for column in ORDERS.get(name, (0, 1, 2))) for row in table]
     metres = tuple(distance * factor for distance in spacing)
-    return draft.case("points", f"points{suffix}", encoded(draft, lines), heights, unit, metres, {}, accuracy)
+    return Case(draft, "points", f"points{suffix}", encoded(draft, lines), heights, unit, metres, {}, accuracy)
 
 
 def esri(random):
@@ -347,4 +347,4 @@ def esri(random):
     options = draft.one_of([{}, {}, {}, {}, {"unit": "m"}])
     draft.note("unit given" if options else "", clear=not options)  # that of the coordinates is not stated
     lines = [*(f"{letters(name)}{gap}{value}" for name, value in head), *body]
-    return draft.case("ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)
+    return Case(draft, "ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)

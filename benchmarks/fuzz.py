@@ -144,14 +144,14 @@ def fault_of_output(path):
 
 
 def breaches(seed, numbers, folder):
-    """[(number, arguments, breach)] of the runs that break the contract, and the number of runs by exit code."""
+    """The runs that break the contract, as in the file of results, and the number of runs by exit code."""
     failures, codes = [], Counter()
     for number, random in generators(seed, numbers):
         arguments, files = case(random)
         code, words = result_of(folder, arguments, files)
         codes[str(code)] += 1
         if words:
-            failures.append((number, arguments, words))
+            failures.append({"run": number, "arguments": arguments, "breach": words})
     return failures, codes
 
 
@@ -178,14 +178,13 @@ def main(runs, seed, only, output):
     began, numbers = time.perf_counter(), range(runs) if only is None else [only]
     with workplace() as folder:
         failures, codes = breaches(seed, tqdm(numbers, unit="run", mininterval=2), folder)
-    for number, arguments, words in failures:
+    for number, arguments, words in map(dict.values, failures):
         repeat = f"python benchmarks/fuzz.py --seed {seed} --only {number}"
         click.echo(f"{repeat}: viscorough {' '.join(map(repr, arguments))}: {words}")
-    failures = [{"run": number, "arguments": arguments, "breach": words} for number, arguments, words in failures]
     seconds = round(time.perf_counter() - began, 1)
     click.echo(f"{len(failures)} of {len(numbers)} runs off the contract, exit codes {dict(codes)}, {seconds} s")
-    attributes = {"seed": seed, "runs": len(numbers), "seconds": seconds, "exit_codes": codes}
     if output:
+        attributes = {"seed": seed, "runs": len(numbers), "seconds": seconds, "exit_codes": codes}
         save({**attributes, "off_contract": failures}, output)
     raise SystemExit(bool(failures))
 

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass, replace
+from collections import namedtuple
 from pathlib import Path
 
 import click
@@ -24,18 +24,8 @@ FAULTS = Path(__file__).with_suffix(".yaml")
 TIME_LIMIT = 3000  # seconds after which the tests of one fault are taken to hang, even on a busy machine
 # {exit code of pytest, or of what kills it at the time limit with all that it has started: verdict}
 VERDICTS = {0: "missed", 1: "caught", -9: "not finished"}
-
-
-@dataclass(frozen=True)
-class Fault:
-    """A wrong text in place of a right one; tests : arguments of pytest; why : consequence of the fault."""
-
-    name: str
-    file: str
-    old: str
-    new: str
-    tests: tuple
-    why: str
+# The wrong text `new` in place of the right one; tests : arguments of pytest; why : consequence of the fault.
+Fault = namedtuple("Fault", "name file old new tests why")
 
 
 def read_faults():
@@ -96,7 +86,7 @@ def outcome(fault, clean, folder):
 @click.option("--only", multiple=True, help="Name of a fault; may be given more than once  [default: all].")
 @click.option("--tests", multiple=True, help="Test to run instead of those of each fault; repeatable.")
 def main(output, only, tests):
-    faults = [replace(fault, tests=tests or fault.tests) for fault in read_faults() if not only or fault.name in only]
+    faults = [fault._replace(tests=tests or fault.tests) for fault in read_faults() if not only or fault.name in only]
     if unknown := set(only) - {fault.name for fault in faults}:
         raise click.UsageError(f"no fault has the name {', '.join(sorted(unknown))}")
     if lines := [line for fault in faults for line in problems(fault)]:

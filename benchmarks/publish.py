@@ -34,34 +34,32 @@ ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
 OTHER_SOLVERS = "resources/published/other_solvers.csv"  # quoted by runs that do not measure them
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
-# {command of make: names of figures, names of tables, other files} that it makes in results/ and that are published
-MADE = {
-    "paper": (
+
+
+def _made(figures="", tables="", others=""):
+    """Files in results/ of these names of figures, names of tables, and other files."""
+    figures, tables = (names.split() for names in (figures, tables))
+    return [*(f"figures/{name}.png" for name in figures), *(f"tables/{name}.csv" for name in tables), *others.split()]
+
+
+# {command of make: files that it makes in results/ and that are published in docs/results/}
+PUBLISHED = {
+    "paper": _made(
         "fig1_surfaces fig2_kinetics fig3_master_curve fig4_exponent conventions validation interface reduction "
         "mdr_lambda",
         "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
         "literature zeta_laws grid_dependence periodic",
-        "",
     ),
-    "speed": ("speed level_placement", "methods other_solvers level_placement", ""),
-    "light": ("light_contact", "light_contact", ""),  # a part of `make speed`
-    "stability": ("failure_map", "failure_map", "campaign.json sum_rules.json"),
-    "sizes": ("sizes collapse", "sizes collapse collapse_curves infinite_grid", ""),
-    "large": ("large", "large", ""),
-    "bench": ("", "", "benchmarks.json"),
-    "outside": ("", "", "outside.csv"),
-    "law": ("", "law", ""),
-    "reproduce": ("", "", ""),
-    "seeds": ("", "", ""),
-}
-# {command: files in results/ that are published in docs/results/}
-PUBLISHED = {
-    command: [
-        *(f"figures/{name}.png" for name in figures.split()),
-        *(f"tables/{name}.csv" for name in tables.split()),
-        *others.split(),
-    ]
-    for command, (figures, tables, others) in MADE.items()
+    "speed": _made("speed level_placement", "methods other_solvers level_placement"),
+    "light": _made("light_contact", "light_contact"),  # a part of `make speed`
+    "stability": _made("failure_map", "failure_map", "campaign.json sum_rules.json"),
+    "sizes": _made("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
+    "large": _made("large", "large"),
+    "bench": ["benchmarks.json"],
+    "outside": ["outside.csv"],
+    "law": _made(tables="law"),
+    "reproduce": [],
+    "seeds": [],
 }
 # {command: {file in results/ that other parts of the project read: where they find it}}
 KEPT = {

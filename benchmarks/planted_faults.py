@@ -39,9 +39,7 @@ def problems(fault):
     if count != 1:
         lines.append(f"{fault.name}: the old text occurs {count} times in {fault.file}; it must occur once")
     if not isinstance(fault.new, str) or fault.new == fault.old:
-        lines.append(
-            f"{fault.name}: the new text is {fault.new!r}; it must be another text, in quotes if it is a number"
-        )
+        lines.append(f"{fault.name}: the new text is {fault.new!r}; it must be another, in quotes if it is a number")
     for test in fault.tests:
         path, *names = test.split("[")[0].split("::")
         text = (ROOT / path).read_text(encoding="utf-8") if (ROOT / path).is_file() else ""

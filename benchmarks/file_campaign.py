@@ -34,19 +34,14 @@ import viscorough
 from viscorough.errors import AccuracyWarning
 from viscorough.units import metres
 
-KINDS = {
-    text_files.matrix: 50,
-    text_files.points: 14,
-    text_files.esri: 8,
-}
+KINDS, SHARES = (text_files.matrix, text_files.points, text_files.esri), (0.7, 0.2, 0.1)
 READ, REFUSED, UNREAD, WRONG = "read", "refused", "refused though unambiguous", "wrong"
 
 
 def cases(seed, numbers):
     """(number, case) of the cases with these numbers."""
-    share = np.array(list(KINDS.values())) / sum(KINDS.values())
     for number, random in generators(seed, numbers):
-        yield number, list(KINDS)[random.choice(len(KINDS), p=share)](random)
+        yield number, KINDS[random.choice(len(KINDS), p=SHARES)](random)
 
 
 # ---- the judge

@@ -1,6 +1,6 @@
 """A file of a known map of heights, and the random choices that make it; for file_campaign.py."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,32 +14,13 @@ def generators(seed, numbers):
         yield number, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
 
 
-@dataclass
-class Case:
-    """A file, the arguments with which it is read, and the expected result.
-
-    kind : of file; traits : the variations that were drawn
-    heights : the numbers, nan where missing, in `unit`; None if the file must be refused
-    unit : of the heights, in metres; None if neither file nor arguments state it
-    spacing : (dx, dy) in metres, or plain numbers where the unit is not known
-    accuracy : relative, of the spacing that the file states
-    unambiguous : whether every competent reader must read the file
-    """
-
-    kind: str
-    name: str
-    content: bytes
-    heights: np.ndarray | None
-    unit: float | None
-    spacing: tuple
-    options: dict = field(default_factory=dict)
-    accuracy: float = 1e-12
-    unambiguous: bool = True
-    traits: tuple = ()
-
-
 class Draft:
-    """Random choices of a file: their names, and whether they leave it unambiguous, or unreadable."""
+    """Random choices of a file.
+
+    traits : names of the choices
+    clear : whether every competent reader must read the file
+    bad : whether the file must be refused
+    """
 
     def __init__(self, random):
         self.random, self.traits, self.clear, self.bad = random, [], True, False
@@ -68,9 +49,28 @@ class Draft:
         self.clear &= clear and not bad
         self.bad |= bad
 
-    def case(self, kind, name, content, heights, unit, spacing, options, accuracy=1e-12):
-        heights = None if self.bad else heights
-        return Case(kind, name, content, heights, unit, spacing, options, accuracy, self.clear, tuple(self.traits))
+
+@dataclass
+class Case:
+    """A file, the arguments with which it is read, and the expected result.
+
+    draft : the variations that were drawn
+    kind : of file
+    heights : the numbers, nan where missing, in `unit`
+    unit : of the heights, in metres; None if neither file nor arguments state it
+    spacing : (dx, dy) in metres, or plain numbers where the unit is not known
+    accuracy : relative, of the spacing that the file states
+    """
+
+    draft: Draft
+    kind: str
+    name: str
+    content: bytes
+    heights: np.ndarray
+    unit: float | None
+    spacing: tuple
+    options: dict
+    accuracy: float = 1e-12
 
 
 def distances(draft, square=False):

@@ -12,7 +12,6 @@ import contextlib
 import io
 import multiprocessing
 import os
-import shutil
 import sys
 import tempfile
 import time
@@ -64,19 +63,25 @@ def _run_in_child(arguments, out, err):
     raise SystemExit(cli.main(arguments))
 
 
-def result_of(folder, arguments, files):
-    """Exit code of a run, and its breach of the contract as text, "" if none. `folder` is emptied first."""
-    for path in folder.iterdir():
-        shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
-    for name, content in ({"older.nc": b"older"} | files).items():
-        (folder / name).write_bytes(content)
-    (folder / "folder").mkdir()
-    os.mkfifo(folder / "pipe")
-    (folder / "link.nc").symlink_to("older.nc")
-    (folder / "dangling.nc").symlink_to("out.nc")
-    before = contents(folder)
-    code, out, err = run(arguments)
-    return code, breach(arguments, (code, out, err), before, contents(folder))
+def result_of(arguments, files):
+    """Exit code of a run in a new folder with these files, and its breach of the contract as text, "" if none."""
+    with new_folder({"older.nc": b"older"} | files) as folder:
+        (folder / "folder").mkdir()
+        os.mkfifo(folder / "pipe")
+        (folder / "link.nc").symlink_to("older.nc")
+        (folder / "dangling.nc").symlink_to("out.nc")
+        before = contents(folder)
+        code, out, err = run(arguments)
+        return code, breach(arguments, (code, out, err), before, contents(folder))
+
+
+@contextlib.contextmanager
+def new_folder(files):
+    """The working folder for the context, with these files alone."""
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        for name, content in files.items():
+            Path(name).write_bytes(content)
+        yield Path(folder)
 
 
 def breach(arguments, result, before, after):
@@ -143,29 +148,25 @@ def fault_of_output(path):
     return ""
 
 
-def breaches(seed, numbers, folder):
-    """[(number, arguments, breach)] of the runs that break the contract, and the number of runs by exit code."""
+def breaches(seed, numbers):
+    """The runs that break the contract, as in the file of results, and the number of runs by exit code."""
     failures, codes = [], Counter()
     for number, random in generators(seed, numbers):
         arguments, files = case(random)
-        code, words = result_of(folder, arguments, files)
+        code, words = result_of(arguments, files)
         codes[str(code)] += 1
         if words:
-            failures.append((number, arguments, words))
+            failures.append({"run": number, "arguments": arguments, "breach": words})
     return failures, codes
 
 
-@contextlib.contextmanager
-def workplace():
-    """An empty working folder for the context; modules and compiled code are loaded once for all runs."""
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-        for number, random in generators(0, range(2 * len(COMMAND_LINES))):
-            arguments = valid_arguments(random, COMMAND_LINES[number // 2])
-            for name, content in files_of(random, arguments, faults=0).items():
-                Path(name).write_bytes(content)
-            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-                cli.main(arguments)
-        yield Path(folder)
+def load():
+    """Load modules and compiled code, once for all runs."""
+    for number, random in generators(0, range(2 * len(COMMAND_LINES))):
+        arguments = valid_arguments(random, COMMAND_LINES[number // 2])
+        files, printed = files_of(random, arguments, faults=0), io.StringIO()
+        with new_folder(files), contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+            cli.main(arguments)
 
 
 @click.command()
@@ -176,16 +177,15 @@ def workplace():
 def main(runs, seed, only, output):
     """Count runs that break the contract; exit code 1 if there is any."""
     began, numbers = time.perf_counter(), range(runs) if only is None else [only]
-    with workplace() as folder:
-        failures, codes = breaches(seed, tqdm(numbers, unit="run", mininterval=2), folder)
-    for number, arguments, words in failures:
+    load()
+    failures, codes = breaches(seed, tqdm(numbers, unit="run", mininterval=2))
+    for number, arguments, words in map(dict.values, failures):
         repeat = f"python benchmarks/fuzz.py --seed {seed} --only {number}"
         click.echo(f"{repeat}: viscorough {' '.join(map(repr, arguments))}: {words}")
-    failures = [{"run": number, "arguments": arguments, "breach": words} for number, arguments, words in failures]
     seconds = round(time.perf_counter() - began, 1)
     click.echo(f"{len(failures)} of {len(numbers)} runs off the contract, exit codes {dict(codes)}, {seconds} s")
-    attributes = {"seed": seed, "runs": len(numbers), "seconds": seconds, "exit_codes": codes}
     if output:
+        attributes = {"seed": seed, "runs": len(numbers), "seconds": seconds, "exit_codes": codes}
         save({**attributes, "off_contract": failures}, output)
     raise SystemExit(bool(failures))
 

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass, replace
+from collections import namedtuple
 from pathlib import Path
 
 import click
@@ -24,18 +24,8 @@ FAULTS = Path(__file__).with_suffix(".yaml")
 TIME_LIMIT = 3000  # seconds after which the tests of one fault are taken to hang, even on a busy machine
 # {exit code of pytest, or of what kills it at the time limit with all that it has started: verdict}
 VERDICTS = {0: "missed", 1: "caught", -9: "not finished"}
-
-
-@dataclass(frozen=True)
-class Fault:
-    """A wrong text in place of a right one; tests : arguments of pytest; why : consequence of the fault."""
-
-    name: str
-    file: str
-    old: str
-    new: str
-    tests: tuple
-    why: str
+# The wrong text `new` in place of the right one; tests : arguments of pytest; why : consequence of the fault.
+Fault = namedtuple("Fault", "name file old new tests why")
 
 
 def read_faults():
@@ -49,9 +39,7 @@ def problems(fault):
     if count != 1:
         lines.append(f"{fault.name}: the old text occurs {count} times in {fault.file}; it must occur once")
     if not isinstance(fault.new, str) or fault.new == fault.old:
-        lines.append(
-            f"{fault.name}: the new text is {fault.new!r}; it must be another text, in quotes if it is a number"
-        )
+        lines.append(f"{fault.name}: the new text is {fault.new!r}; it must be another, in quotes if it is a number")
     for test in fault.tests:
         path, *names = test.split("[")[0].split("::")
         text = (ROOT / path).read_text(encoding="utf-8") if (ROOT / path).is_file() else ""
@@ -96,7 +84,7 @@ def outcome(fault, clean, folder):
 @click.option("--only", multiple=True, help="Name of a fault; may be given more than once  [default: all].")
 @click.option("--tests", multiple=True, help="Test to run instead of those of each fault; repeatable.")
 def main(output, only, tests):
-    faults = [replace(fault, tests=tests or fault.tests) for fault in read_faults() if not only or fault.name in only]
+    faults = [fault._replace(tests=tests or fault.tests) for fault in read_faults() if not only or fault.name in only]
     if unknown := set(only) - {fault.name for fault in faults}:
         raise click.UsageError(f"no fault has the name {', '.join(sorted(unknown))}")
     if lines := [line for fault in faults for line in problems(fault)]:

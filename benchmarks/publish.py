@@ -34,34 +34,32 @@ ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
 OTHER_SOLVERS = "resources/published/other_solvers.csv"  # quoted by runs that do not measure them
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
-# {command of make: names of figures, names of tables, other files} that it makes in results/ and that are published
-MADE = {
-    "paper": (
+
+
+def _made(figures="", tables="", others=""):
+    """Files in results/ of these names of figures, names of tables, and other files."""
+    figures, tables = (names.split() for names in (figures, tables))
+    return [*(f"figures/{name}.png" for name in figures), *(f"tables/{name}.csv" for name in tables), *others.split()]
+
+
+# {command of make: files that it makes in results/ and that are published in docs/results/}
+PUBLISHED = {
+    "paper": _made(
         "fig1_surfaces fig2_kinetics fig3_master_curve fig4_exponent conventions validation interface reduction "
         "mdr_lambda",
         "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
         "literature zeta_laws grid_dependence periodic",
-        "",
     ),
-    "speed": ("speed level_placement", "methods other_solvers level_placement", ""),
-    "light": ("light_contact", "light_contact", ""),  # a part of `make speed`
-    "stability": ("failure_map", "failure_map", "campaign.json sum_rules.json"),
-    "sizes": ("sizes collapse", "sizes collapse collapse_curves infinite_grid", ""),
-    "large": ("large", "large", ""),
-    "bench": ("", "", "benchmarks.json"),
-    "outside": ("", "", "outside.csv"),
-    "law": ("", "law", ""),
-    "reproduce": ("", "", ""),
-    "seeds": ("", "", ""),
-}
-# {command: files in results/ that are published in docs/results/}
-PUBLISHED = {
-    command: [
-        *(f"figures/{name}.png" for name in figures.split()),
-        *(f"tables/{name}.csv" for name in tables.split()),
-        *others.split(),
-    ]
-    for command, (figures, tables, others) in MADE.items()
+    "speed": _made("speed level_placement", "methods other_solvers level_placement"),
+    "light": _made("light_contact", "light_contact"),  # a part of `make speed`
+    "stability": _made("failure_map", "failure_map", "campaign.json sum_rules.json"),
+    "sizes": _made("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
+    "large": _made("large", "large"),
+    "bench": ["benchmarks.json"],
+    "outside": ["outside.csv"],
+    "law": _made(tables="law"),
+    "reproduce": [],
+    "seeds": [],
 }
 # {command: {file in results/ that other parts of the project read: where they find it}}
 KEPT = {
@@ -195,7 +193,7 @@ def infinite_grid():
     """Exponents of infinitely fine grids of docs/results/infinite_grid.csv, as a table in Markdown.
 
     By Hurst exponent, with the correction to scaling, h over all waves of the spectrum; in brackets the least and the
-    largest end of the 95 % intervals in all ranges of X.
+    largest end of the 95 % intervals in all ranges of X. Then in how many fits the data do not determine ω.
     """
     table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected'")
     table["cell"] = filled("{beta:.3f} [{ranges_low:.3f}, {ranges_high:.3f}]", table)
@@ -203,17 +201,12 @@ def infinite_grid():
     names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for source, quantity in cells]
     rows = [f"| {hurst:g} | {expected:.3f} | {' | '.join(row)} |" for (hurst, expected), *row in cells.itertuples()]
     head = f"| *H* | *H*/(1 + *H*) | {' | '.join(names)} |"
-    return markdown_table(head, rows) + "\n" + correction_exponents(table)
-
-
-def correction_exponents(table):
-    """Sentence on the fits of the table of infinite grids whose ω the data do not determine."""
-    omega = table[["omega", "omega_low", "omega_high"]].itertuples(index=False)
-    places = [place_in_range(*values) for values in omega]
-    return paragraph(
+    places = list(map(place_in_range, table["omega"], table["omega_low"], table["omega_high"]))
+    text = (
         f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {places.count(PLACES[2])} of "
         f"these {len(table)} fits, and its interval reaches an end in {places.count(PLACES[1])} others."
     )
+    return markdown_table(head, rows) + "\n" + paragraph(text)
 
 
 def interface_law():
@@ -240,14 +233,12 @@ def published_results(records):
     text = []
     for command, names in PUBLISHED.items():
         files = [file for file in (Path(name) for name in names) if file.name in records]
-        pictures = [
-            f"![{file.stem.replace('_', ' ')}](results/{file.name})\n" for file in files if file.suffix == ".png"
-        ]
-        links = [f"- [{file.name}](results/{file.name})" for file in files if file.suffix != ".png"]
+        figures, tables = ([file for file in files if (file.suffix == ".png") == shown] for shown in (True, False))
+        pictures = [f"![{file.stem.replace('_', ' ')}](results/{file.name})\n" for file in figures]
+        links = [f"- [{file.name}](results/{file.name})" for file in tables]
         if files:
-            origin = "`{command}`, {date}, commit {commit}, {processor}, {cores} cores.\n".format(
-                **records[files[0].name]
-            )
+            record = records[files[0].name]
+            origin = "`{command}`, {date}, commit {commit}, {processor}, {cores} cores.\n".format(**record)
             text += [f"## make {command}\n", origin, *pictures, "Files:", *links, ""]
     return "\n".join(text)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import yaml
-from file_cases import UNITS, Draft, distances, map_shape, missing_points
+from file_cases import UNITS, Case, Draft, distances, map_shape, missing_points
 
 # ---- numbers, delimiters, marks of missing points
 
@@ -116,6 +116,8 @@ HEADERS = {
     kind: {name: lines for name, *lines in (line.split(" | ") for line in table.splitlines())}
     for kind, table in yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")).items()
 }
+HEADERS_WITH_SPACING = HEADERS["Gwyddion"] | HEADERS["clear"], HEADERS["unclear"], HEADERS["bad"]
+OTHER_HEADERS = {"no header": []} | HEADERS["without spacing"], HEADERS["with pixels"]
 REMARKS = (
     *("Measured with a profilometer", "Messung vom Labor, Probe B", "Mesure de la surface, échantillon C"),
     *("Date: 2024-05-01 10:11:12", "Operator: A. Meier", "Temperature: 23 °C", "Objective: 50x", "Filter = none"),
@@ -132,31 +134,23 @@ def header_lines(draft, shape, decimal_comma):
     """
     u, z = (draft.one_of(["um", "um", "nm", "mm", "m", "µm", *UNITS]) for _ in range(2))
     states_spacing, options = draft.chance(0.6), {}
-    if states_spacing:
-        clear = HEADERS["Gwyddion"] | HEADERS["clear"]
-        lines = draft.pick(clear, HEADERS["unclear"], HEADERS["bad"], odd=0.25)
-    else:
-        lines = draft.pick({"no header": []} | HEADERS["without spacing"], HEADERS["with pixels"], odd=0.15)
-    dx, dy = spacing = distances(draft, square=any("{k" in line for line in lines))
+    lines = draft.pick(*(HEADERS_WITH_SPACING if states_spacing else OTHER_HEADERS), odd=0.2)
+    dx, dy = distances(draft, square=any("{k" in line for line in lines))
     in_z = states_spacing and not any("{u}" in line for line in lines)
     unit = UNITS[z] if any("{z}" in line for line in lines) else None
-    if states_spacing:
-        unit = unit or 1.0  # of bad files
-        spacing = tuple(distance * UNITS[z if in_z else u] for distance in spacing)
-        if draft.clear and draft.chance(0.1):  # who does not understand a header may believe the argument
-            factor = draft.one_of([1, 1.1])
-            draft.note("spacing given, too", bad=factor > 1)
-            options["spacing"] = tuple(float(f"{factor * distance / unit:.12g}") for distance in spacing)
-    else:
-        if unit is None and draft.chance(0.4):
-            draft.note("unit given")
-            options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
-            unit = UNITS[options["unit"]]
-        if draft.chance(0.05):
-            draft.note("no spacing at all", bad=True)
-        else:
-            options["spacing"] = spacing
-        spacing = tuple(distance * (unit or 1) for distance in spacing)
+    if unit is None and not states_spacing and draft.chance(0.4):
+        draft.note("unit given")
+        options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
+        unit = UNITS[options["unit"]]
+    scale = UNITS[z if in_z else u] if states_spacing else unit or 1
+    spacing = dx * scale, dy * scale
+    # Of a file that states the spacing, only a clear one: who does not understand a header may believe the argument.
+    if draft.clear and draft.chance(0.1) if states_spacing else draft.chance(0.95):
+        factor = draft.one_of([1, 1.1]) if states_spacing else 1
+        draft.note("spacing given, too" if states_spacing else "", bad=factor > 1)
+        options["spacing"] = tuple(float(f"{factor * distance / (unit or 1):.12g}") for distance in spacing)
+    elif not states_spacing:
+        draft.note("no spacing at all", bad=True)
     numbers = {"dx": dx, "dy": dy, "dx2": 3 * dx, "k": dx, "kz": dx if in_z else dx * UNITS[u] / UNITS[z]}
     numbers |= {"w": round(dx * shape[1], 9), "h": round(dy * shape[0], 9)}
     texts = {name: f"{value:.15g}" for name, value in numbers.items()}
@@ -234,7 +228,7 @@ def matrix(random):
     header, unit, spacing, options = header_lines(draft, heights.shape, decimal_comma)
     lines = with_header(draft, header, lines, delimiter, columns)
     name = "map" + draft.one_of([".txt", ".txt", ".csv", ".dat", ".asc", ".TXT", ".tsv"])
-    return draft.case("matrix", name, encoded(draft, lines), heights, unit, spacing, options | preparation)
+    return Case(draft, "matrix", name, encoded(draft, lines), heights, unit, spacing, options | preparation)
 
 
 # Headings of the columns, with the unit {u} of x and y, {z} of the heights
@@ -292,15 +286,16 @@ def points(random):
 
 def _coordinates(draft, shape):
     """((dx, dy), texts of x and y, relative accuracy of the spacing that they state)."""
-    form, (x0, y0), decimals = draft.pick(["", "", "", "", "rounded", "UTM"]), draft.one_of([(0, 0), (-7.5, 100)]), 4
-    dx, dy = distances(draft)
+    form, start, (dx, dy) = draft.pick(["", "", "", "", "rounded", "UTM"]), (-7.5, 100), distances(draft)
     if form == "rounded":
-        dx, dy, decimals = dx / 3, dy / 3, 5
+        dx, dy = dx / 3, dy / 3
     elif form == "UTM":
-        (x0, y0), dx, dy, decimals = (500000.5, 5412345.25), *[draft.one_of([1.0, 0.5])] * 2, 2
-    x, y = x0 + dx * np.arange(shape[1]), y0 + dy * np.arange(shape[0])
-    rounding = 10.0**-decimals / min((shape[1] - 1) * dx, (shape[0] - 1) * dy) if form == "rounded" else 0
-    return (dx, dy), [[f"{value:.{decimals}f}" for value in axis] for axis in (x, y)], rounding + 1e-9
+        start, dx, dy = (500000.5, 5412345.25), *[draft.one_of([1.0, 0.5])] * 2
+    elif draft.chance(0.5):
+        start = (0, 0)
+    axes = [first + step * np.arange(n) for first, step, n in zip(start, (dx, dy), shape[::-1], strict=True)]
+    rounding = 1e-5 / min(np.ptp(axis) for axis in axes) if form == "rounded" else 0
+    return (dx, dy), [[f"{value:.5f}" for value in axis] for axis in axes], rounding + 1e-9
 
 
 def _points_file(draft, table, heights, spacing, delimiter, accuracy):
@@ -319,7 +314,7 @@ def _points_file(draft, table, heights, spacing, delimiter, accuracy):
         draft.note(f"in {suffix}", clear=False)
     lines += [delimiter.join(row[column] for column in ORDERS.get(name, (0, 1, 2))) for row in table]
     metres = tuple(distance * factor for distance in spacing)
-    return draft.case("points", f"points{suffix}", encoded(draft, lines), heights, unit, metres, {}, accuracy)
+    return Case(draft, "points", f"points{suffix}", encoded(draft, lines), heights, unit, metres, {}, accuracy)
 
 
 def esri(random):
@@ -347,4 +342,4 @@ def esri(random):
     options = draft.one_of([{}, {}, {}, {}, {"unit": "m"}])
     draft.note("unit given" if options else "", clear=not options)  # that of the coordinates is not stated
     lines = [*(f"{letters(name)}{gap}{value}" for name, value in head), *body]
-    return draft.case("ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)
+    return Case(draft, "ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)

@@ -63,13 +63,10 @@ class TableColumns(Directive):
         return [nodes.table("", nodes.tgroup("", *widths, nodes.thead("", head), nodes.tbody("", *body), cols=3))]
 
 
-def _visit_inline_math(writer, node):
-    writer.body.append(latex2mathml.tex2mathml(node.astext(), as_block=False))
-    raise nodes.SkipNode
-
-
-def _visit_math_block(writer, node):
-    writer.body.append(f'<div class="math">{latex2mathml.tex2mathml(node.astext(), as_block=True)}</div>')
+def _visit_math(writer, node):
+    is_block = isinstance(node, nodes.math_block)
+    formula = latex2mathml.tex2mathml(node.astext(), as_block=is_block)
+    writer.body.append(f'<div class="math">{formula}</div>' if is_block else formula)
     raise nodes.SkipNode
 
 
@@ -84,7 +81,7 @@ def _skip_tuple_fields(_app, _what, _name, member, _skip, _options):
 
 
 def setup(app):
-    app.add_html_math_renderer("mathml", (_visit_inline_math, None), (_visit_math_block, None))
+    app.add_html_math_renderer("mathml", (_visit_math, None), (_visit_math, None))
     app.add_directive("command-help", CommandHelp)
     app.add_directive("table-columns", TableColumns)
     app.connect("source-read", _link_to_pages)

@@ -1,9 +1,10 @@
-"""The order of the tests, and their threads."""
+"""The order of the tests, their threads, and figures without a display."""
 
 import os
 
 # One thread for each of the processes that run tests side by side; before numpy is imported, which reads this.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.setdefault("MPLBACKEND", "agg")
 
 
 def pytest_collection_modifyitems(items):

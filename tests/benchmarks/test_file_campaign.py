@@ -1,7 +1,5 @@
 """No file of the campaign is read as another map; and its judge notices what is not read as it should be."""
 
-import dataclasses
-
 import file_campaign as campaign
 import numpy as np
 import pytest
@@ -20,7 +18,7 @@ def case(some_cases):
     return next(
         case
         for case in some_cases
-        if case.kind == "matrix" and case.unambiguous and case.unit and np.isnan(case.heights).any()
+        if case.kind == "matrix" and case.draft.clear and case.unit and np.isnan(case.heights).any()
     )
 
 
@@ -32,10 +30,10 @@ def test_no_file_is_read_as_another_map(some_cases, tmp_path):
 
 def test_every_kind_of_file_is_tried_and_many_are_unambiguous_or_bad(some_cases):
     assert len({case.kind for case in some_cases}) == len(campaign.KINDS)
-    assert sum(case.unambiguous for case in some_cases) > 150
-    assert sum(case.heights is None for case in some_cases) > 20
+    assert sum(case.draft.clear for case in some_cases) > 150
+    assert sum(case.draft.bad for case in some_cases) > 20
     for number, again in campaign.cases(2013, [30, 31]):  # whatever came before
-        assert (again.traits, again.options) == (some_cases[number].traits, some_cases[number].options)
+        assert (again.draft.traits, again.options) == (some_cases[number].draft.traits, some_cases[number].options)
 
 
 def reader(case, *, shift=0.0, wider=1.0, unit="m", rows=None, filled=False):
@@ -53,7 +51,7 @@ def reader(case, *, shift=0.0, wider=1.0, unit="m", rows=None, filled=False):
         ({"wider": 1 + 1e-9}, "another spacing"),
         ({"unit": "1"}, "another unit"),
         ({"unit": "mm"}, "another map"),
-        ({"rows": -1}, "another shape"),
+        ({"rows": -1}, "another map"),
         ({"filled": True}, "another map"),
     ],
 )
@@ -61,10 +59,11 @@ def test_another_map_spacing_or_unit_is_noticed(case, tmp_path, monkeypatch, cha
     monkeypatch.setattr("viscorough.read_heights", reader(case, **change))
     outcome, why = campaign.outcome(case, tmp_path)
     assert outcome == campaign.WRONG
-    assert why.startswith(what)
+    assert what in why
 
 
 def test_what_must_be_refused_is_noticed(case, tmp_path, monkeypatch):
     monkeypatch.setattr("viscorough.read_heights", reader(case))
-    outcome, why = campaign.outcome(dataclasses.replace(case, heights=None), tmp_path)
+    monkeypatch.setattr(case.draft, "bad", True)
+    outcome, why = campaign.outcome(case, tmp_path)
     assert (outcome, why[:28]) == (campaign.WRONG, "read, though it must be refu")

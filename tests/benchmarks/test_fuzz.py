@@ -6,27 +6,26 @@ import pytest
 from file_cases import generators
 
 
-@pytest.fixture(scope="module")
-def folder():
-    with fuzz.workplace() as folder:
-        yield folder
+@pytest.fixture(scope="module", autouse=True)
+def loaded():
+    fuzz.load()
 
 
-def test_random_files_and_options_keep_the_contract(folder, monkeypatch):
+def test_random_files_and_options_keep_the_contract(monkeypatch):
     """A breach is repeated by `python benchmarks/fuzz.py --seed 2013 --only NUMBER`; one file opens too slowly."""
     monkeypatch.setattr("viscorough.cli.files.LONGEST", 5)
-    breaches, codes = fuzz.breaches(2013, range(40), folder)
+    breaches, codes = fuzz.breaches(2013, range(40))
     assert breaches == []
     assert codes["0"] > 3
     assert codes["2"] > 15
 
 
 @pytest.mark.parametrize("line", fuzz_cases.COMMAND_LINES)
-def test_every_command_line_can_be_right(folder, line):
+def test_every_command_line_can_be_right(line):
     """Otherwise the readers would only be tried with what they refuse."""
     for _, random in generators(1, range(60)):
         arguments = fuzz_cases.valid_arguments(random, line)
-        code, words = fuzz.result_of(folder, arguments, fuzz_cases.files_of(random, arguments, faults=0))
+        code, words = fuzz.result_of(arguments, fuzz_cases.files_of(random, arguments, faults=0))
         assert not words
         if code == 0:
             return

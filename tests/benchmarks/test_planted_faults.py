@@ -1,7 +1,5 @@
 """The faults that are planted fit the sources; a fault that is not caught is counted."""
 
-from dataclasses import replace
-
 import planted_faults as planted
 
 
@@ -21,7 +19,7 @@ def test_a_fault_is_caught_missed_or_undecided(tmp_path, monkeypatch):
         ({"new": "x / 2.0"}, "missed"),
         ({"tests": ("absent.py",)}, "tests did not run"),
     ):
-        outcome = planted.outcome(replace(fault, **changes), tmp_path / "clean", tmp_path / "planted")
+        outcome = planted.outcome(fault._replace(**changes), tmp_path / "clean", tmp_path / "planted")
         assert outcome["verdict"] == verdict
     assert (tmp_path / "clean/half.py").read_text() == "def half(x):\n    return x / 2\n"
     assert not (tmp_path / "planted").exists()

@@ -5,7 +5,6 @@ import io
 import re
 import shlex
 
-import matplotlib as mpl
 import pytest
 import yaml
 from matplotlib.testing.compare import compare_images
@@ -21,7 +20,6 @@ RUN = {page: [block for block in blocks(page) if block.language in ("python", "c
 @pytest.fixture(autouse=True)
 def in_a_new_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    mpl.use("agg")
 
 
 def run_page(page):

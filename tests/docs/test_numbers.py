@@ -21,6 +21,7 @@ TABLE = publish.published_claims()
 LAW = pd.read_csv(ROOT / "src/viscorough/data/law.csv").query("across == 257").set_index("hurst")
 BENCHMARKS = json.loads(read(ROOT / "docs/results/benchmarks.json"))
 OTHER_TIMES = pd.read_csv(ROOT / publish.OTHER_SOLVERS)["ratio"]
+DEPTH_OF_RMS_HEIGHT = ["H = 0.1, κ at u/h = 1", "H = 0.4, κ at u/h = 1"]
 DISCS = "source == 'discs' and average == 'geometric' and rms_convention == 'disc'"
 
 
@@ -145,9 +146,7 @@ QUOTED = {
         "by {:.2f} and {:.2f}": lambda: value("coincide").abs()[["H = 0.1", "H = 0.4"]],
         "elements change it by at most {:.3f}, at any": lambda: trends("X = 0.01 to 0.1").abs().max(),
         "which would be {} to {}": lambda: ends(value("gamma", column="expected"), 2),
-        "by {:.2f} at *H* = 0.1 and by {:.2f} at *H* = 0.4, and leave": lambda: value("no_grid").filter(
-            like="κ at u/h = 1"
-        )[:2],
+        "by {:.2f} at *H* = 0.1 and by {:.2f} at *H* = 0.4, and leave": lambda: value("no_grid", DEPTH_OF_RMS_HEIGHT),
     },
     "docs/theory.md": {
         "it is {} to {} at *H* = 0.1, 0.6 and 0.9": lambda: periodic(roll_off=False),

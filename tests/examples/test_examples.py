@@ -22,7 +22,6 @@ NUMBERS = {
 @pytest.fixture(autouse=True)
 def in_a_new_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    mpl.use("agg")
 
 
 @pytest.mark.parametrize("name", NUMBERS)

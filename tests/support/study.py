@@ -65,8 +65,7 @@ def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
     factor = np.exp(scatter * random.standard_normal((20, 1)))
     stiffness = np.clip([scale * zeta * factor * X**alpha for scale in (1.0, square)], one_element, 1.0)
     count = np.where(stiffness > one_element, np.maximum(ELEMENTS * stiffness**2, 2.0), 1.0)
-    coords = {"hurst": hurst, "case": case, "diameter": 1.0, "elements": ELEMENTS}
-    return ensemble_dataset(["disc", "square"], X, stiffness, count, coords)
+    return ensemble_of(X, stiffness, count, conventions=("disc", "square"), hurst=hurst, case=case, elements=ELEMENTS)
 
 
 def pool_of(members, group="base"):
@@ -129,6 +128,11 @@ def evidence_of(discs, **tables):
     return Evidence(discs=discs, tables=tables, numbers=NUMBERS, conventions=SHOWN, across=ACROSS, **rules)
 
 
+def evidence_of_curves(stiffness, count):
+    """Evidence of discs of one Hurst exponent with these κ and elements in contact, shape (realizations, abscissae)."""
+    return evidence_of(pool_of([ensemble_of(X, stiffness, count, elements=ELEMENTS)]))
+
+
 def evidence_with_factors(scatter):
     """Evidence of 80 discs of each Hurst exponent, κ of which has factors that are the same ones at every H.
 
@@ -172,22 +176,16 @@ def three_regions(x):
     return np.clip(1.2 * x**0.6, 1e-6, 1)
 
 
-def ensemble_of(x, stiffness, *, elements=10**6, rms_convention="disc", hurst=0.7):
-    """The part of an ensemble dataset that fits read, made without the module; κ N of N elements are in contact.
+def ensemble_of(x, stiffness, count=None, *, conventions=("disc",), **coords):
+    """Ensemble dataset of these curves; unless they are given, κ N of N elements are in contact.
 
-    x : X, shape (abscissae,); stiffness : κ, shape (realizations, abscissae) or (abscissae,) for one realization
+    x : X, shape (abscissae,); stiffness : κ, shape (conventions, realizations, abscissae), the first axes optional
+    count : elements in contact; conventions : of the rms height; coords : hurst, case, diameter, elements
     """
-    stiffness = np.maximum(np.atleast_2d(stiffness), 1 / elements)
-    geometric = np.exp(np.nanmean(np.log(stiffness), axis=0))
-    averages = {
-        "stiffness_geometric": geometric,
-        "velocity_geometric": x / geometric,
-        "contact_count_median": elements * np.nanmedian(stiffness, axis=0),
-        "fraction_defined": np.isfinite(stiffness).mean(axis=0),
-    }
-    dataset = xr.Dataset({name: (("rms_convention", "abscissa"), [row]) for name, row in averages.items()})
-    dataset["velocity"] = (("rms_convention", "realization", "abscissa"), [x / stiffness])
-    return dataset.assign_coords(x=("abscissa", x), rms_convention=[rms_convention], hurst=hurst)
+    stiffness = np.array(stiffness, ndmin=3)
+    coords = {"hurst": 0.7, "case": "c", "diameter": 1.0, "elements": 10**6} | coords
+    count = coords["elements"] * stiffness if count is None else np.broadcast_to(count, stiffness.shape)
+    return ensemble_dataset(list(conventions), x, stiffness, count, coords)
 
 
 def line_curve(gaps, length=1.0, levels=None):
@@ -204,6 +202,5 @@ def line_curve(gaps, length=1.0, levels=None):
 
 def aggregate(curves, rms, diameter, x, *, hurst, case):
     """Ensemble dataset of the loading curves of one case; arguments as in on_abscissae."""
-    stiffness, count = on_abscissae(curves, rms, diameter, x)
     coords = {"hurst": hurst, "case": case, "diameter": diameter, "elements": curves[0].elements}
-    return ensemble_dataset(list(rms), np.asarray(x, dtype=float), stiffness, count, coords)
+    return ensemble_of(np.asarray(x, dtype=float), *on_abscissae(curves, rms, diameter, x), conventions=rms, **coords)

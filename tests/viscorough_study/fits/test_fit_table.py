@@ -30,7 +30,7 @@ def discs():
 
 @pytest.fixture(scope="module")
 def lines():
-    return ensemble_of(X, np.tile(1.3 * three_regions(X), (9, 1)), rms_convention="line")
+    return ensemble_of(X, np.tile(1.3 * three_regions(X), (9, 1)), conventions=["line"])
 
 
 def test_a_row_for_every_fit(discs, lines):

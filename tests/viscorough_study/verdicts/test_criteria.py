@@ -9,9 +9,8 @@ import pytest
 import xarray as xr
 from scipy import stats
 
-from support.study import ACROSS, CLAIMS, ELEMENTS, HURST, X, evidence, evidence_of, evidence_with_factors, pool_of
+from support.study import ACROSS, CLAIMS, HURST, X, evidence, evidence_of_curves, evidence_with_factors
 from viscorough.reference import exponent_alpha, one_element_stiffness, zeta_elastic
-from viscorough_study.ensembles.averages import ensemble_dataset
 from viscorough_study.verdicts.claims import JUDGES
 from viscorough_study.verdicts.evidence import judged
 from viscorough_study.verdicts.law_criteria import alpha_limit, depth, no_grid, realizations
@@ -206,12 +205,6 @@ def test_contact_problems_are_counted_against_changes_of_the_contact():
     assert (case.value, case.least, case.verdict) == (58 / 51432, 51 / 51432, "not reproduced")
     sample.tables["methods"]["steps"] = 6000.0
     assert [case.verdict for case in contact_problems(sample, 10)] == ["reproduced"]
-
-
-def evidence_of_curves(stiffness, count):
-    """Evidence of discs of one Hurst exponent with these κ and elements in contact, shape (realizations, abscissae)."""
-    coordinates = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
-    return evidence_of(pool_of([ensemble_dataset(["disc"], X, stiffness[None], count[None], coordinates)]))
 
 
 def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():

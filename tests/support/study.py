@@ -12,8 +12,8 @@ from viscorough import LoadingCurve, reference
 from viscorough_study.comparisons.direct_integration import compare_direct
 from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_abscissae
-from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES, ensembles
-from viscorough_study.fits.fit_table import COLUMNS, fit_rows
+from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES
+from viscorough_study.fits.fit_table import scaling_table
 from viscorough_study.fits.intervals import three_columns
 from viscorough_study.fits.zeta_laws import zeta_laws
 from viscorough_study.run.paper_data import read_paper
@@ -91,17 +91,12 @@ def evidence(zeta=reference.zeta_elastic, **options):
 @cache
 def _evidence(zeta, **options):
     members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
-    discs, first = pool_of(members), dict(zip(HURST, members[::4], strict=True))
-    fit_options, rows = {**BOOTSTRAP, "stiffness_range": [0.03, 0.3], **LIMITS}, []
-    for hurst, pooled in ensembles(discs, "hurst").items():
-        lines = first[hurst].sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
-        lines = lines.isel(realization=np.tile(np.arange(20), 4))  # as many as the paper averages at least
-        rows += fit_rows(pooled, source="discs", case_group="base", lines=lines, **fit_options)
-        rows += fit_rows(lines, source="lines", case_group="base", **fit_options)
+    discs, lines = pool_of(members), pool_of(4 * members[::4])  # as many as the paper averages at least
+    lines = lines.sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
+    scaling = scaling_table(discs, lines, **BOOTSTRAP, stiffness_range=[0.03, 0.3], **LIMITS)
     plateaus = [("base", hurst, 80, 2.4, 2.2, 2.6, 0.0) for hurst in HURST]
     columns = ["case_group", "hurst", "realizations", "decades", "decades_low", "decades_high", "power_law_fails"]
     validation = pd.DataFrame({"case": "sphere_reduction", "quantity": "depth", "elements": (65, 129)})
-    scaling = pd.DataFrame(rows, columns=list(COLUMNS))
     evidence = evidence_of(
         discs,
         scaling=scaling,

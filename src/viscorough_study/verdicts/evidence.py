@@ -132,10 +132,9 @@ class Evidence:
         names : columns that name a combination; compared : mask of the rows in whose combinations the claim may hold
         """
         columns = [column, f"{column}_low", f"{column}_high"]
-        allowed = law(every["hurst"]).abs() * tolerance if relative else tolerance + 0 * every["hurst"]
-        distance = (
-            every[columns[1:]].sub(law(every["hurst"]), axis=0).div(allowed, axis=0).abs().max(axis=1, skipna=False)
-        )
+        expected = law(every["hurst"])
+        deviation = every[columns[1:]].sub(expected, axis=0).abs().max(axis=1, skipna=False)
+        distance = deviation / (expected.abs() * tolerance if relative else tolerance)
         mask, holds_in = compared & every["hurst"].isin(own.index), ""
         largest = distance.fillna(np.inf)[mask].groupby([every[name] for name in names], sort=False).max()
         if largest.min() <= 1:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough_study.fits.infinite_grid import COLUMNS, PLACES, fit, limit_table, place_in_range, points
+from viscorough_study.fits.infinite_grid import COLUMNS, PLACES, limit_table, place_in_range, points
 from viscorough_study.fits.power_law import log_means
 from viscorough_study.fits.scaling_collapse import Grid
 
@@ -32,15 +32,6 @@ def limits_of(tolerance=0.05, **options):
 def row(limits, quantity="whole", law="corrected"):
     (row,) = limits[(limits[["quantity", "law"]] == [quantity, law]).all(axis=1)].itertuples()
     return row
-
-
-def test_a_known_law_is_found_exactly():
-    log_x = np.log(np.geomspace(1e-5, 0.3, 80))
-    log_y = np.log(A) + BETA * log_x + B * np.exp(OMEGA * log_x)
-    coefficients = fit(log_x, np.stack([log_y, log_y + 0.1]), np.ones(80), corrected=True)
-    np.testing.assert_allclose(coefficients[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
-    plain = fit(log_x, log_y[None], np.ones(80), corrected=False)
-    assert np.isnan(plain[0, 2:]).all()
 
 
 @pytest.mark.parametrize("factor", [np.exp, lambda z: 1 + 0.3 * z], ids=["exponential", "first order"])
@@ -72,7 +63,10 @@ def test_the_interface_is_fitted_without_the_punch():
 
 
 def test_columns_ranges_and_findings():
+    exact = row(limits_of(scatter=1e-9))
+    assert (exact.amplitude, exact.beta, exact.correction, exact.omega) == pytest.approx((A, BETA, B, OMEGA), rel=1e-6)
     limits = limits_of(scatter=0.02)
+    assert limits["omega"].isna().tolist() == limits["correction"].isna().tolist() == [*(limits["law"] == "power")]
     assert list(limits) == list(COLUMNS)
     assert set(limits["ranges"]) == {2, 4}
     assert (limits["ranges_low"] <= limits["beta_low"]).all()

@@ -94,8 +94,7 @@ def _evidence(zeta, **options):
     discs, lines = pool_of(members), pool_of(4 * members[::4])  # as many as the paper averages at least
     lines = lines.sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
     scaling = scaling_table(discs, lines, **BOOTSTRAP, stiffness_range=[0.03, 0.3], **LIMITS)
-    plateaus = [("base", hurst, 80, 2.4, 2.2, 2.6, 0.0) for hurst in HURST]
-    columns = ["case_group", "hurst", "realizations", "decades", "decades_low", "decades_high", "power_law_fails"]
+    plateaus = pd.DataFrame({"hurst": HURST} | three_columns("decades", (2.4, 2.2, 2.6)))
     validation = pd.DataFrame({"case": "sphere_reduction", "quantity": "depth", "elements": (65, 129)})
     evidence = evidence_of(
         discs,
@@ -105,7 +104,7 @@ def _evidence(zeta, **options):
         methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
         grid_dependence=pd.DataFrame(GRIDS),
         sizes=scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
-        plateaus=pd.DataFrame(plateaus, columns=columns),
+        plateaus=plateaus.assign(case_group="base", realizations=80, power_law_fails=0.0),
         **mdr_tables(),
     )
     laws = zeta_laws(evidence.pooled, evidence.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)

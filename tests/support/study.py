@@ -100,7 +100,7 @@ def _evidence(zeta, **options):
         discs,
         scaling=scaling,
         validation=validation.assign(error=1 / validation["elements"] ** 2),
-        direct=_direct(),
+        direct=compare_direct(hursts=HURST, elements=17, impulses=25, seed=1),
         methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
         grid_dependence=pd.DataFrame(GRIDS),
         sizes=scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
@@ -109,11 +109,6 @@ def _evidence(zeta, **options):
     )
     laws = zeta_laws(evidence.pooled, evidence.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
     return replace(evidence, tables=evidence.tables | {"zeta_laws": laws})  # which has not pooled the discs yet
-
-
-@cache
-def _direct():
-    return compare_direct(hursts=HURST, elements=17, impulses=25, seed=1)
 
 
 def evidence_of(discs, **tables):

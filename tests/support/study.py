@@ -12,8 +12,8 @@ from viscorough import LoadingCurve, reference
 from viscorough_study.comparisons.direct_integration import compare_direct
 from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_abscissae
-from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES, ensembles
-from viscorough_study.fits.fit_table import COLUMNS, fit_rows
+from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES
+from viscorough_study.fits.fit_table import scaling_table
 from viscorough_study.fits.intervals import three_columns
 from viscorough_study.fits.zeta_laws import zeta_laws
 from viscorough_study.run.paper_data import read_paper
@@ -65,8 +65,7 @@ def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
     factor = np.exp(scatter * random.standard_normal((20, 1)))
     stiffness = np.clip([scale * zeta * factor * X**alpha for scale in (1.0, square)], one_element, 1.0)
     count = np.where(stiffness > one_element, np.maximum(ELEMENTS * stiffness**2, 2.0), 1.0)
-    coords = {"hurst": hurst, "case": case, "diameter": 1.0, "elements": ELEMENTS}
-    return ensemble_dataset(["disc", "square"], X, stiffness, count, coords)
+    return ensemble_of(X, stiffness, count, conventions=("disc", "square"), hurst=hurst, case=case, elements=ELEMENTS)
 
 
 def pool_of(members, group="base"):
@@ -92,41 +91,35 @@ def evidence(zeta=reference.zeta_elastic, **options):
 @cache
 def _evidence(zeta, **options):
     members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
-    discs, first = pool_of(members), dict(zip(HURST, members[::4], strict=True))
-    fit_options, rows = {**BOOTSTRAP, "stiffness_range": [0.03, 0.3], **LIMITS}, []
-    for hurst, pooled in ensembles(discs, "hurst").items():
-        lines = first[hurst].sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
-        lines = lines.isel(realization=np.tile(np.arange(20), 4))  # as many as the paper averages at least
-        rows += fit_rows(pooled, source="discs", case_group="base", lines=lines, **fit_options)
-        rows += fit_rows(lines, source="lines", case_group="base", **fit_options)
-    plateaus = [("base", hurst, 80, 2.4, 2.2, 2.6, 0.0) for hurst in HURST]
-    columns = ["case_group", "hurst", "realizations", "decades", "decades_low", "decades_high", "power_law_fails"]
+    discs, lines = pool_of(members), pool_of(4 * members[::4])  # as many as the paper averages at least
+    lines = lines.sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
+    scaling = scaling_table(discs, lines, **BOOTSTRAP, stiffness_range=[0.03, 0.3], **LIMITS)
+    plateaus = pd.DataFrame({"hurst": HURST} | three_columns("decades", (2.4, 2.2, 2.6)))
     validation = pd.DataFrame({"case": "sphere_reduction", "quantity": "depth", "elements": (65, 129)})
-    scaling = pd.DataFrame(rows, columns=list(COLUMNS))
     evidence = evidence_of(
         discs,
         scaling=scaling,
         validation=validation.assign(error=1 / validation["elements"] ** 2),
-        direct=_direct(),
+        direct=compare_direct(hursts=HURST, elements=17, impulses=25, seed=1),
         methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
         grid_dependence=pd.DataFrame(GRIDS),
         sizes=scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
-        plateaus=pd.DataFrame(plateaus, columns=columns),
+        plateaus=plateaus.assign(case_group="base", realizations=80, power_law_fails=0.0),
         **mdr_tables(),
     )
     laws = zeta_laws(evidence.pooled, evidence.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
     return replace(evidence, tables=evidence.tables | {"zeta_laws": laws})  # which has not pooled the discs yet
 
 
-@cache
-def _direct():
-    return compare_direct(hursts=HURST, elements=17, impulses=25, seed=1)
-
-
 def evidence_of(discs, **tables):
     """Evidence of a pool of discs and these tables."""
     rules = {"limits": LIMITS, "rules": RULES, "surfaces": ["base"], **BOOTSTRAP}
     return Evidence(discs=discs, tables=tables, numbers=NUMBERS, conventions=SHOWN, across=ACROSS, **rules)
+
+
+def evidence_of_curves(stiffness, count):
+    """Evidence of discs of one Hurst exponent with these κ and elements in contact, shape (realizations, abscissae)."""
+    return evidence_of(pool_of([ensemble_of(X, stiffness, count, elements=ELEMENTS)]))
 
 
 def evidence_with_factors(scatter):
@@ -172,22 +165,16 @@ def three_regions(x):
     return np.clip(1.2 * x**0.6, 1e-6, 1)
 
 
-def ensemble_of(x, stiffness, *, elements=10**6, rms_convention="disc", hurst=0.7):
-    """The part of an ensemble dataset that fits read, made without the module; κ N of N elements are in contact.
+def ensemble_of(x, stiffness, count=None, *, conventions=("disc",), **coords):
+    """Ensemble dataset of these curves; unless they are given, κ N of N elements are in contact.
 
-    x : X, shape (abscissae,); stiffness : κ, shape (realizations, abscissae) or (abscissae,) for one realization
+    x : X, shape (abscissae,); stiffness : κ, shape (conventions, realizations, abscissae), the first axes optional
+    count : elements in contact; conventions : of the rms height; coords : hurst, case, diameter, elements
     """
-    stiffness = np.maximum(np.atleast_2d(stiffness), 1 / elements)
-    geometric = np.exp(np.nanmean(np.log(stiffness), axis=0))
-    averages = {
-        "stiffness_geometric": geometric,
-        "velocity_geometric": x / geometric,
-        "contact_count_median": elements * np.nanmedian(stiffness, axis=0),
-        "fraction_defined": np.isfinite(stiffness).mean(axis=0),
-    }
-    dataset = xr.Dataset({name: (("rms_convention", "abscissa"), [row]) for name, row in averages.items()})
-    dataset["velocity"] = (("rms_convention", "realization", "abscissa"), [x / stiffness])
-    return dataset.assign_coords(x=("abscissa", x), rms_convention=[rms_convention], hurst=hurst)
+    stiffness = np.array(stiffness, ndmin=3)
+    coords = {"hurst": 0.7, "case": "c", "diameter": 1.0, "elements": 10**6} | coords
+    count = coords["elements"] * stiffness if count is None else np.broadcast_to(count, stiffness.shape)
+    return ensemble_dataset(list(conventions), x, stiffness, count, coords)
 
 
 def line_curve(gaps, length=1.0, levels=None):
@@ -204,6 +191,5 @@ def line_curve(gaps, length=1.0, levels=None):
 
 def aggregate(curves, rms, diameter, x, *, hurst, case):
     """Ensemble dataset of the loading curves of one case; arguments as in on_abscissae."""
-    stiffness, count = on_abscissae(curves, rms, diameter, x)
     coords = {"hurst": hurst, "case": case, "diameter": diameter, "elements": curves[0].elements}
-    return ensemble_dataset(list(rms), np.asarray(x, dtype=float), stiffness, count, coords)
+    return ensemble_of(np.asarray(x, dtype=float), *on_abscissae(curves, rms, diameter, x), conventions=rms, **coords)

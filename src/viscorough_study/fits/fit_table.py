@@ -86,9 +86,8 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
         ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
         ensemble_columns |= {"rms_convention": rms_convention, "realizations": selected.sizes["realization"]}
         for average, (rule, window) in product(FITTED["average"], named_windows(selected, **limits).items()):
-            fitted = {}
-            if window is not None:
-                fitted = _fit(selected, lines, window, average=average, resamples=resamples, seed=seed)
+            options = {"average": average, "resamples": resamples, "seed": seed}
+            fitted = _fit(selected, lines, window, **options) if window else {}
             row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
             rows.append({name: row.get(name, np.nan) for name in COLUMNS})
     return rows

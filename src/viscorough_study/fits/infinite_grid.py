@@ -115,9 +115,8 @@ def _columns(coefficients):
 def _over_ranges(fits, expected, tolerance):
     """Columns of the fits in all ranges, of which the first is that of the table."""
     low, high = min(row["beta_low"] for row in fits), max(row["beta_high"] for row in fits)
-    agrees = equivalence((low - expected, high - expected), -tolerance, tolerance)
-    if place_in_range(*interval(fits[0], "omega")) == PLACES[2]:
-        agrees = None
+    undetermined = place_in_range(*interval(fits[0], "omega")) == PLACES[2]
+    agrees = None if undetermined else equivalence((low - expected, high - expected), -tolerance, tolerance)
     ends = {"expected": expected, "ranges": len(fits), "ranges_low": low, "ranges_high": high}
     return ends | {"finding": FINDINGS[agrees]}
 

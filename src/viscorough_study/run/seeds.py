@@ -6,15 +6,13 @@ random numbers do not depend on which others are computed, in which order, or on
 streams are part of every published result: do not change them, and give a new stream a new number.
 
 Three parts use a root without a stream. The bootstrap of the fits and the disc of the level-placement scenes use the
-root itself (`ROOT_KEY`); the keys of random indenters of the stability campaign are the number of the case alone
+root itself; the keys of random indenters of the stability campaign are the number of the case alone
 (`random_indenter_key`), under a root of that campaign.
 """
 
 import zlib
 
 import numpy as np
-
-ROOT_KEY = ()
 
 
 def realization_seed(root, *key):

@@ -69,9 +69,8 @@ def _schema_complaint(error):
     value = "empty" if error.instance is None else repr(error.instance)
     limits = ", ".join(f"{name} {rule[name]}" for name in _LIMITS if name in rule)
     unit = f" {rule['unit']}" if rule.get("unit", "1") != "1" else ""
-    hint = ""
-    if isinstance(error.instance, str) and "number" in str(rule.get("type")):
-        hint = "; this is text: write numbers as 1.0e-3, with a point"
+    is_text = isinstance(error.instance, str) and "number" in str(rule.get("type"))
+    hint = "; this is text: write numbers as 1.0e-3, with a point" * is_text
     return f"{key} is {value:.60}; allowed: {limits}{unit} ({rule['description']}){hint}"
 
 

@@ -34,19 +34,13 @@ class SourceDigests:
 
         functions : dotted names of functions that the script imports by name at run time
         """
-        lines = []
-        for path in self.used_files(script, *functions):
-            name = path.relative_to(self.folder) if path.is_relative_to(self.folder) else path.name
-            lines.append(f"{name}: {self._module(path)[0]}")
-        return _digest("\n".join(sorted(lines)))
-
-    def used_files(self, script, *functions):
-        """The script and the files of all modules of the packages that it imports."""
-        used, waiting = set(), {Path(script)}.union(*(self._files(name.split(".")) for name in functions))
+        lines, used, waiting = [], set(), {Path(script)}.union(*(self._files(name.split(".")) for name in functions))
         while waiting:
             used.add(path := waiting.pop())
             waiting |= self._module(path)[1] - used
-        return used
+            name = path.relative_to(self.folder) if path.is_relative_to(self.folder) else path.name
+            lines.append(f"{name}: {self._module(path)[0]}")
+        return _digest("\n".join(sorted(lines)))
 
     def _module(self, path):
         """(digest of the syntax tree, files of the modules that are imported) of a file."""

@@ -5,6 +5,7 @@ operating system, which is released whenever its process ends. A process that ob
 and all locks of Snakemake that it finds belong to killed runs.
 """
 
+import contextlib
 import fcntl
 import os
 import sys
@@ -23,11 +24,8 @@ def remove_stale_locks(folder=".snakemake"):
     try:
         folder.mkdir(exist_ok=True)
         alive = os.open(folder / "alive", os.O_RDWR | os.O_CREAT)
-        try:
+        with contextlib.suppress(BlockingIOError):  # another Snakemake is running
             fcntl.flock(alive, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            pass  # another Snakemake is running
-        else:
             if stale := list(folder.glob("locks/*.lock")):
                 print(REMOVED, file=sys.stderr)
             for path in stale:

@@ -109,19 +109,24 @@ class Evidence:
         together = ndtri(1 - CONFIDENCE_TAIL / cases) / ndtri(1 - CONFIDENCE_TAIL)
         return False if equivalence(widened(values, factor * together), low, high) is False else None
 
-    def case(self, name, values, expected, allowed, *, realizations, cases=1, others=None, extremes=NO_INTERVAL):
+    def case(
+        self, name, values, expected, allowed, *, extremes=NO_INTERVAL, others=None, holds_in="", own="", **counted
+    ):
         """Case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
 
-        others : Conventions that the paper leaves open; few realizations do not tell in which of them a claim holds
+        counted : realizations and cases, as in `within`
+        others : value and interval in every combination of the conventions that the paper leaves open, shape
+            (combinations, 3); few realizations do not tell in which of them a claim holds
+        holds_in : combination in words in which every case of the claim holds, "" if there is none
+        own : that of the case itself in words, by default the conventions of the figures
         """
-        met = self.within(values, *allowed, realizations=realizations, cases=cases)
-        if others is None or self.are_few(realizations):
+        met = self.within(values, *allowed, **counted)
+        if others is None or self.are_few(counted["realizations"]):
             return judged(name, values, expected, met, extremes=extremes)
-        decided = [self.within(one, *allowed, realizations=realizations, cases=cases) for one in others.values]
+        decided = [self.within(one, *allowed, **counted) for one in others]
         counts = (len(decided), decided.count(True), decided.count(False))
-        holds_in = others.holds_in
         if met and counts[2]:
-            met, holds_in = False, others.own or as_text({one: self.conventions[one] for one in FITTED})
+            met, holds_in = False, own or as_text({one: self.conventions[one] for one in FITTED})
         return judged(name, values, expected, met, holds_in, extremes=extremes, counts=counts)
 
     def cases_in_conventions(self, own, every, column, law, tolerance, *, names, compared=True, relative=False):
@@ -132,34 +137,19 @@ class Evidence:
         names : columns that name a combination; compared : mask of the rows in whose combinations the claim may hold
         """
         columns = [column, f"{column}_low", f"{column}_high"]
-        allowed = law(every["hurst"]).abs() * tolerance if relative else tolerance + 0 * every["hurst"]
-        distance = (
-            every[columns[1:]].sub(law(every["hurst"]), axis=0).div(allowed, axis=0).abs().max(axis=1, skipna=False)
-        )
+        expected = law(every["hurst"])
+        deviation = every[columns[1:]].sub(expected, axis=0).abs().max(axis=1, skipna=False)
+        distance = deviation / (expected.abs() * tolerance if relative else tolerance)
         mask, holds_in = compared & every["hurst"].isin(own.index), ""
         largest = distance.fillna(np.inf)[mask].groupby([every[name] for name in names], sort=False).max()
         if largest.min() <= 1:
             holds_in = as_text(dict(zip(names, largest.idxmin(), strict=True)))
         for hurst, row in own.iterrows():
             values = every.loc[every["hurst"] == hurst, columns].dropna().to_numpy()
-            more = {"realizations": row["realizations"], "cases": len(own), "others": Conventions(values, holds_in)}
+            more = {"realizations": row["realizations"], "cases": len(own), "others": values, "holds_in": holds_in}
             half = law(hurst) * tolerance if relative else tolerance
             ends = law(hurst) - half, law(hurst) + half
             yield self.case(hurst_name(hurst), interval(row, column), law(hurst), ends, **more)
-
-
-@dataclass(frozen=True)
-class Conventions:
-    """The quantity of a case in every combination of the conventions that the paper leaves open.
-
-    values : value and interval in each, shape (combinations, 3)
-    holds_in : combination in words in which every case of the claim holds, "" if there is none
-    own : that of the case itself in words, by default the conventions of the figures
-    """
-
-    values: np.ndarray
-    holds_in: str = ""
-    own: str = ""
 
 
 def widened(values, factor):

@@ -41,11 +41,7 @@ def coincide(evidence, tolerance):
     both = both.assign(**dict(zip(columns, difference(interval(both, "beta"), of_lines), strict=True)))
     both["realizations"] = both[["realizations", "realizations_of_lines"]].min(axis=1)
     own = select(both, evidence.conventions).set_index("hurst")
-    return evidence.cases_in_conventions(own, both, "difference", _no_difference, tolerance, names=list(FITTED))
-
-
-def _no_difference(hurst):
-    return 0.0 * hurst
+    return evidence.cases_in_conventions(own, both, "difference", lambda h: 0.0 * h, tolerance, names=list(FITTED))
 
 
 def hurst_only(evidence, tolerance):

@@ -80,12 +80,7 @@ def _at_centres(evidence, column, values, allowed):
         if rows.empty:
             yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
             continue
-        row, region_values = _at_centre(rows), [values(row)[0] for row in rows.to_dict("records")]
+        offset = np.log(rows["x"]) - np.log(rows["x"].iloc[[0, -1]]).mean()
+        row, region_values = rows.loc[offset.abs().idxmin()], [values(row)[0] for row in rows.to_dict("records")]
         more = {"realizations": row["realizations"], "extremes": (min(region_values), max(region_values))}
         yield evidence.case(hurst_name(hurst), values(row), 1.0, allowed, cases=len(evidence.regions), **more)
-
-
-def _at_centre(rows):
-    """The row in the middle of the rows in ln X."""
-    offset = np.log(rows["x"]) - np.log(rows["x"].iloc[[0, -1]]).mean()
-    return rows.loc[offset.abs().idxmin()]

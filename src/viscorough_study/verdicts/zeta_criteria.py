@@ -10,7 +10,6 @@ import numpy as np
 from viscorough import reference
 from viscorough_study.fits.conventions import VALUES, in_reading
 from viscorough_study.fits.zeta_laws import difference, measure_value
-from viscorough_study.verdicts.evidence import Conventions
 
 # By which one law fits better than another (fits.zeta_laws): the one of the criterion, and others.
 MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), ("zeta", "spread"))
@@ -70,5 +69,5 @@ def zeta_better(evidence, tolerance):
     context = {"realizations": table["realizations"].min(), "cases": len(readings)}
     for law, reading in readings.items():
         values, *others = (measure_value(table, quantity, difference(law), measure) for quantity, measure in MEASURES)
-        context["others"] = Conventions(np.array([values, *others]), own="deviation of the curves")
+        context |= {"others": [values, *others], "own": "deviation of the curves"}
         yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **context)

@@ -16,6 +16,8 @@ from viscorough_study.run.seeds import realization_seed
 
 X = abscissa(1e-7, 10, 20)
 BOOTSTRAP = {"resamples": 400, "seed": 1}
+DISCS = ensemble_of(X, three_regions(X) * np.exp(0.2 * np.random.default_rng(9).normal(size=(8, 1))))
+LINES = ensemble_of(X, np.tile(1.3 * three_regions(X), (9, 1)), conventions=["line"])
 
 
 def fitted(ensemble, **changes):
@@ -23,47 +25,37 @@ def fitted(ensemble, **changes):
     return fit_rows(ensemble, **(options | LIMITS | BOOTSTRAP | changes))
 
 
-@pytest.fixture(scope="module")
-def discs():
-    return ensemble_of(X, three_regions(X) * np.exp(0.2 * np.random.default_rng(9).normal(size=(8, 1))))
-
-
-@pytest.fixture(scope="module")
-def lines():
-    return ensemble_of(X, np.tile(1.3 * three_regions(X), (9, 1)), rms_convention="line")
-
-
-def test_a_row_for_every_fit(discs, lines):
-    rows = fitted(discs, lines=lines)
+def test_a_row_for_every_fit():
+    rows = fitted(DISCS, lines=LINES)
     assert len(rows) == len({tuple(row[name] for name in FITTED) for row in rows}) == 2 * 4
     for row in rows:
         assert list(row) == list(COLUMNS)
         assert row["decades"] == pytest.approx(np.log10(row["x_high"] / row["x_low"]))
         assert row["realizations"] == 8
     row = next(r for r in rows if r["average"] == "geometric" and r["window_rule"] == "default")
-    zeta = discs.isel(rms_convention=0).stiffness_geometric.values[100] / X[100] ** 0.6
+    zeta = DISCS.isel(rms_convention=0).stiffness_geometric.values[100] / X[100] ** 0.6
     assert row["zeta"] == pytest.approx(zeta, rel=1e-9)
-    assert all(np.isnan(without["lambda"]) for without in fitted(discs))
+    assert all(np.isnan(without["lambda"]) for without in fitted(DISCS))
     assert row["lambda"] == pytest.approx(np.pi * (1.3 * 1.2 / zeta) ** (2 / 0.6), rel=1e-9)
 
 
 @pytest.mark.parametrize("gamma", GAMMA)
-def test_a_reading_is_a_fit_in_it(discs, gamma):
+def test_a_reading_is_a_fit_in_it(gamma):
     """ζ and its interval against a fit in that reading; of two groups of surfaces one is selected."""
-    table = pd.DataFrame(fitted(discs) + fitted(discs, case_group="corners"))
+    table = pd.DataFrame(fitted(DISCS) + fitted(DISCS, case_group="corners"))
     wanted = SHOWN | {"gamma": gamma, "case_group": "corners"}
     (row,) = select(table, wanted).to_dict("records")
     assert {name: row[name] for name in wanted} == wanted
     window = row["x_low"], row["x_high"]
-    fit = fit_power_law(X, discs["velocity"].values[0], window, average="geometric", **BOOTSTRAP)
+    fit = fit_power_law(X, DISCS["velocity"].values[0], window, average="geometric", **BOOTSTRAP)
     zeta = row["zeta"], row["zeta_low"], row["zeta_high"]
     assert (row["beta"], *zeta) == pytest.approx((fit.betas[0], *fit.zeta(gamma)), rel=1e-12)
 
 
-def test_lines_that_do_not_reach_give_no_lambda(discs, lines):
-    short = lines.copy(deep=True)
+def test_lines_that_do_not_reach_give_no_lambda():
+    short = LINES.copy(deep=True)
     short["velocity"][0, 0, X > 3e-7] = np.nan
-    assert all(np.isnan(row["lambda"]) and np.isfinite(row["beta"]) for row in fitted(discs, lines=short))
+    assert all(np.isnan(row["lambda"]) and np.isfinite(row["beta"]) for row in fitted(DISCS, lines=short))
 
 
 def test_without_a_region_rows_have_no_numbers():
@@ -86,9 +78,9 @@ def test_every_grid_is_fitted_also_in_windows_of_fixed_x():
     np.testing.assert_allclose(fixed["beta"], reference.exponent_beta(fixed["hurst"]))
 
 
-def test_calibration_has_base_discs_and_lines_in_the_conventions_shown(discs, lines):
-    rows = fitted(discs, lines=lines) + fitted(discs, case_group="roll_off") + fitted(lines, source="lines")
-    sizes = pd.concat([pd.DataFrame(fitted(discs, case_group="sizes")).assign(hurst=h) for h in (0.7, 0.8, 0.9)])
+def test_calibration_has_base_discs_and_lines_in_the_conventions_shown():
+    rows = fitted(DISCS, lines=LINES) + fitted(DISCS, case_group="roll_off") + fitted(LINES, source="lines")
+    sizes = pd.concat([pd.DataFrame(fitted(DISCS, case_group="sizes")).assign(hurst=h) for h in (0.7, 0.8, 0.9)])
     sizes = sizes.assign(elements=np.where(sizes["hurst"] == 0.9, 3209, 51433))
     table = calibrated(pd.DataFrame(rows), sizes, conventions=SHOWN | {"gamma": "with"}, across=257)
     assert list(table) == list(calibrated_law.COLUMNS)

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from support.study import pool_of
-from viscorough_study.ensembles.averages import ensemble_dataset
+from support.study import ensemble_of, pool_of
 from viscorough_study.fits.grid_dependence import COLUMNS, grid_dependence
 
 X = np.geomspace(1e-9, 30, 900)
@@ -17,10 +16,9 @@ def table(prefactor, scatter=0.0, elements_min=10):
     for across, number in GRIDS.items():
         elements = round(np.pi / 4 * across**2)
         factor = prefactor(elements) * np.exp(scatter * random.standard_normal((number, 1)))
-        stiffness = np.minimum(factor * np.sqrt(X), 1.0)[None]
+        stiffness = np.minimum(factor * np.sqrt(X), 1.0)
         count = np.maximum(elements * stiffness, 1.0)
-        coords = {"hurst": 0.5, "case": f"n{across}", "diameter": 1.0, "elements": elements}
-        members.append(ensemble_dataset(["disc"], X, stiffness, count, coords))
+        members.append(ensemble_of(X, stiffness, count, hurst=0.5, elements=elements))
     found = grid_dependence(pool_of(members, "sizes"), elements_min=elements_min, rms_convention="disc")
     assert list(found) == list(COLUMNS)
     return found.set_index(["quantity", "across"])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough_study.fits.infinite_grid import COLUMNS, PLACES, fit, limit_table, place_in_range, points
+from viscorough_study.fits.infinite_grid import COLUMNS, PLACES, limit_table, place_in_range, points
 from viscorough_study.fits.power_law import log_means
 from viscorough_study.fits.scaling_collapse import Grid
 
@@ -25,26 +25,18 @@ def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
     return {HURST: grids}
 
 
-def row(limits, quantity, law):
+def limits_of(tolerance=0.05, **options):
+    return limit_table(ensembles(**options), "discs", tolerance=tolerance, **RANGES)
+
+
+def row(limits, quantity="whole", law="corrected"):
     (row,) = limits[(limits[["quantity", "law"]] == [quantity, law]).all(axis=1)].itertuples()
     return row
 
 
-def test_a_known_law_is_found_exactly():
-    log_x = np.log(np.geomspace(1e-5, 0.3, 80))
-    log_y = np.log(A) + BETA * log_x + B * np.exp(OMEGA * log_x)
-    coefficients = fit(log_x, np.stack([log_y, log_y + 0.1]), np.ones(80), corrected=True)
-    np.testing.assert_allclose(coefficients[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
-    plain = fit(log_x, log_y[None], np.ones(80), corrected=False)
-    assert np.isnan(plain[0, 2:]).all()
-
-
 @pytest.mark.parametrize("factor", [np.exp, lambda z: 1 + 0.3 * z], ids=["exponential", "first order"])
 def test_joint_fit_returns_the_law_within_its_intervals(factor):
-    fits = [
-        row(limit_table(ensembles(seed=seed, factor=factor), "discs", tolerance=0.03, **RANGES), "whole", "corrected")
-        for seed in range(6)
-    ]
+    fits = [row(limits_of(seed=seed, factor=factor)) for seed in range(6)]
     assert sum(fitted.beta_low <= BETA <= fitted.beta_high for fitted in fits) >= 5
     assert all(fitted.ranges_low <= BETA <= fitted.ranges_high for fitted in fits)
     if factor is np.exp:
@@ -64,23 +56,24 @@ def test_resamples_scatter_as_means_of_independent_realizations():
 
 
 def test_the_interface_is_fitted_without_the_punch():
-    limits = limit_table(ensembles(punch=1.0, scatter=0.02), "discs", tolerance=0.03, **RANGES)
+    limits = limits_of(punch=1.0, scatter=0.02)
     interface = row(limits, "interface", "corrected")
     assert interface.beta_low - 1e-3 <= BETA <= interface.beta_high + 1e-3
     assert row(limits, "whole", "power").beta > row(limits, "interface", "power").beta
 
 
 def test_columns_ranges_and_findings():
-    limits = limit_table(ensembles(scatter=0.02), "discs", tolerance=0.05, **RANGES)
+    exact = row(limits_of(scatter=1e-9))
+    assert (exact.amplitude, exact.beta, exact.correction, exact.omega) == pytest.approx((A, BETA, B, OMEGA), rel=1e-6)
+    limits = limits_of(scatter=0.02)
+    assert limits["omega"].isna().tolist() == limits["correction"].isna().tolist() == [*(limits["law"] == "power")]
     assert list(limits) == list(COLUMNS)
     assert set(limits["ranges"]) == {2, 4}
     assert (limits["ranges_low"] <= limits["beta_low"]).all()
     assert (limits["ranges_high"] >= limits["beta_high"]).all()
-    assert row(limits, "whole", "corrected").finding == "agrees"  # 0.4 beside 0.375
-    strict = limit_table(ensembles(scatter=0.002), "discs", tolerance=0.01, **RANGES)
-    assert row(strict, "whole", "corrected").finding == "departs"
-    noisy = limit_table(ensembles(scatter=0.5), "discs", tolerance=0.01, **RANGES)
-    assert row(noisy, "whole", "corrected").finding == "undecided"
+    assert row(limits).finding == "agrees"  # 0.4 beside 0.375
+    for scatter, finding in ((0.002, "departs"), (0.5, "undecided")):
+        assert row(limits_of(0.01, scatter=scatter)).finding == finding
 
 
 @pytest.mark.parametrize(
@@ -94,7 +87,6 @@ def test_place_of_the_exponent_of_the_correction(omega, low, high, place):
 @pytest.mark.parametrize(("omega", "place"), [(OMEGA, PLACES[0]), (0.05, PLACES[2]), (2.5, PLACES[2])])
 def test_findings_are_undecided_where_the_data_do_not_tell_the_correction(omega, place):
     """A correction with an exponent outside of the range tried ends at an end of it."""
-    limits = limit_table(ensembles(scatter=1e-4, omega=omega), "discs", tolerance=0.05, **RANGES)
-    fitted = row(limits, "whole", "corrected")
+    fitted = row(limits_of(scatter=1e-4, omega=omega))
     assert place_in_range(fitted.omega, fitted.omega_low, fitted.omega_high) == place
     assert (fitted.finding == "undecided") == (place == PLACES[2])

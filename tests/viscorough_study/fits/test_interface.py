@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from support.study import pool_of
+from support.study import ensemble_of, pool_of
 from viscorough.calibrated_law import interface_velocity
-from viscorough_study.ensembles.averages import abscissa, ensemble_dataset
+from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.flat_punch import punch_stiffness
 from viscorough_study.fits.interface import COLUMNS, CURVES, fit_interface, interface_tables
 
@@ -19,12 +19,9 @@ def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, elements=
     """Discs of which the interface is a function of X, times a factor for each; one element touches below X = 1e-5."""
     factor = np.exp(scatter * np.random.default_rng(3).standard_normal((realizations, 1)))
     first = 1e-5
-    softness = np.where(
-        first > X, (first / punch + factor * interface(first)) / first, 1 / punch + factor * interface(X) / X
-    )
-    count = np.where(first > X, 1.0, 20.0 * np.ones_like(softness))
-    coordinates = {"hurst": hurst, "case": "c", "diameter": 1.0, "elements": elements}
-    return ensemble_dataset(["disc"], X, 1 / softness[None], count[None], coordinates)
+    at = np.maximum(X, first)
+    softness = 1 / punch + factor * interface(at) / at
+    return ensemble_of(X, 1 / softness, np.where(first > X, 1.0, 20.0), hurst=hurst, elements=elements)
 
 
 def examined(interface, **changes):

@@ -13,8 +13,8 @@ x = abscissa(1e-7, 10, 20)
 BOOTSTRAP = {"resamples": 400, "seed": 1}
 
 
-def one(dataset):
-    return dataset.isel(rms_convention=0)
+def curves(stiffness, **coords):
+    return ensemble_of(x, stiffness, **coords).isel(rms_convention=0)
 
 
 def scattered(beta, prefactor, realizations, seed):
@@ -28,14 +28,14 @@ def scattered(beta, prefactor, realizations, seed):
 
 def test_region_of_a_three_region_curve():
     """Its ends are the outermost abscissae with 10 elements in contact and κ = 0.2."""
-    low, high = find_region(one(ensemble_of(x, three_regions(x), elements=10**3)), **LIMITS)
+    low, high = find_region(curves(three_regions(x), elements=10**3), **LIMITS)
     assert low == x[x >= (10 / 10**3 / 1.2) ** (1 / 0.6)][0]
     assert high == x[x <= (0.2 / 1.2) ** (1 / 0.6)][-1]
 
 
 def test_region_ends_where_the_slope_is_that_of_a_fixed_contact():
     """A plateau of κ below stiffness_max, such as a flat-topped asperity, is no region (b)."""
-    _, high = find_region(one(ensemble_of(x, np.minimum(1.2 * x**0.6, 0.05))), **LIMITS)
+    _, high = find_region(curves(np.minimum(1.2 * x**0.6, 0.05)), **LIMITS)
     corner = (0.05 / 1.2) ** (1 / 0.6)
     assert corner / 10**0.25 < high < corner * 10**0.25
 
@@ -43,13 +43,13 @@ def test_region_ends_where_the_slope_is_that_of_a_fixed_contact():
 def test_region_needs_nearly_all_realizations():
     stiffness = np.tile(three_regions(x), (20, 1))
     stiffness[:2, x > 1e-3] = np.nan  # 90 % left
-    _, high = find_region(one(ensemble_of(x, stiffness)), **LIMITS)
+    _, high = find_region(curves(stiffness), **LIMITS)
     assert high == x[x <= 1e-3][-1]
 
 
 @pytest.mark.parametrize("stiffness", [np.ones(x.size), np.full(x.size, np.nan)])
 def test_no_region_raises_and_its_windows_are_none(stiffness):
-    mean = one(ensemble_of(x, three_regions(x)))
+    mean = curves(three_regions(x))
     mean["stiffness_geometric"] = "abscissa", stiffness
     mean["velocity_geometric"] = "abscissa", x / stiffness
     assert find_region(mean, **LIMITS) is None
@@ -58,7 +58,7 @@ def test_no_region_raises_and_its_windows_are_none(stiffness):
 
 
 def test_named_windows():
-    windows = named_windows(one(ensemble_of(x, three_regions(x))), stiffness_range=(0.03, 0.3), **LIMITS)
+    windows = named_windows(curves(three_regions(x)), stiffness_range=(0.03, 0.3), **LIMITS)
     low, high = windows["default"]
     middle = pytest.approx(np.sqrt(low * high))
     assert (windows["lower_half"], windows["upper_half"]) == ((low, middle), (middle, high))
@@ -70,9 +70,8 @@ def test_windows_of_fixed_x_need_elements_in_contact_and_realizations():
     stiffness = np.tile(three_regions(x), (20, 1))
     stiffness[:2, x > 2e-2] = np.nan
     fixed = [(1e-5, 1e-4), (1e-3, 1e-2), (1e-2, 1e-1)]
-    windows = named_windows(
-        one(ensemble_of(x, stiffness, elements=10**3)), stiffness_range=(0.03, 0.3), fixed=fixed, **LIMITS
-    )
+    few = curves(stiffness, elements=10**3)
+    windows = named_windows(few, stiffness_range=(0.03, 0.3), fixed=fixed, **LIMITS)
     assert windows.pop("X = 0.001 to 0.01") == fixed[1]
     assert set(windows) == set(FITTED["window_rule"])
 

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from support.study import ELEMENTS, pool_of
+from support.study import ELEMENTS, ensemble_of, pool_of
 from viscorough.reference import exponent_beta
-from viscorough_study.ensembles.averages import ensemble_dataset
 from viscorough_study.fits import scaling_collapse
 from viscorough_study.fits.power_law import log_means
 from viscorough_study.fits.scaling_collapse import (
@@ -109,10 +108,8 @@ def pool(*realizations, scatter=0.0):
     x = 10 ** np.arange(-4, 0, 0.1)
     members = []
     for elements, number in zip((ELEMENTS, 13049), realizations, strict=True):
-        velocity = np.exp(scatter * np.random.default_rng(1).standard_normal((1, number, 1))) * x**0.4
-        count = np.broadcast_to(10 * x / x[10], velocity.shape)
-        coordinates = {"hurst": HURST, "elements": elements, "case": "sizes", "diameter": 1.0}
-        members.append(ensemble_dataset(["disc"], x, x / velocity, count, coordinates))
+        velocity = np.exp(scatter * np.random.default_rng(1).standard_normal((number, 1))) * x**0.4
+        members.append(ensemble_of(x, x / velocity, 10 * x / x[10], hurst=HURST, elements=elements))
     return pool_of(members, "sizes")
 
 

@@ -74,25 +74,15 @@ def shown(tmp_path, **entered):
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
-def test_page_shows_what_the_command_computes(tmp_path):
+def test_page_shows_what_the_command_computes_and_says_what_it_cannot_estimate(tmp_path):
     text = shown(tmp_path, hurst="0.7", rms="2", force="20")
     wanted = estimate(0.7, 2e-6, 0.01, 20.0, 1e9, [0.1])
     numbers = re.match(r"Depth (\S+) \[(\S+), (\S+)\] µm, velocity (\S+) \[(\S+), (\S+)\] µm/s", text).groups()
     names = [f"{name}{end}" for name in ("depth", "velocity") for end in ("", "_low", "_high")]
     for number, name in zip(numbers, names, strict=True):
         assert number_in(number)[0] == pytest.approx(1e6 * getattr(wanted, name)[0], rel=5e-3)
-
-
-@pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
-@pytest.mark.parametrize(
-    ("entered", "text"),
-    [
-        ({"time": "1e6"}, "is above its range: no estimate."),
-        ({"force": ""}, "force F (N): a number above 0 is"),
-    ],
-)
-def test_page_says_what_it_cannot_estimate(tmp_path, entered, text):
-    assert text in shown(tmp_path, **entered)
+    assert "is above its range: no estimate." in shown(tmp_path, time="1e6")
+    assert "force F (N): a number above 0 is" in shown(tmp_path, force="")
 
 
 def test_every_field_has_a_label_and_a_default():

@@ -44,8 +44,7 @@ def test_scale_is_told_from_the_ensembles(tmp_path, elements, realizations, line
     assert (content["discs"]["hurst"], content["discs"]["cases_per_hurst"]) == ([0.4, 0.9], 2)
 
 
-@pytest.fixture
-def methods():
+def test_the_fastest_method_that_reaches_an_error_is_named():
     rows = [
         ("path", "path, at the depths", 1e-1, 0.1, 3e-2),
         ("path", "path, at the depths", 1e-3, 0.2, 5e-4),
@@ -57,10 +56,7 @@ def methods():
     table = pd.DataFrame(rows, columns=["group", "method", "value", "wall_s", "error"]).assign(parameter="tolerance")
     table = table.assign(problem="rough disc, H = 0.8", hurst=0.8, elements=257)
     coarse = table.assign(elements=65, wall_s=1e-6, error=0.0)
-    return Results({"methods": pd.concat([coarse, table], ignore_index=True)}, {})
-
-
-def test_the_fastest_method_that_reaches_an_error_is_named(methods):
+    methods = Results({"methods": pd.concat([coarse, table], ignore_index=True)}, {})
     fastest = {row["error"]: row["fastest"] for row in fastest_methods(methods)}
     assert fastest[0.1]["path"] == method_row(methods, 6)
     assert [fastest[1e-2][group]["wall_s"].value for group in ("path", "marching")] == [0.2, 5.0]

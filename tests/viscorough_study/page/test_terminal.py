@@ -55,10 +55,8 @@ def run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / terminal.PUBLISHED_COSTS).parent.mkdir(parents=True)
     (tmp_path / terminal.PUBLISHED_COSTS).write_text("rule,jobs,share_s\nindent,3,30\nplot,1,1\n")
-    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    yield lambda script: terminal.run([sys.executable, "-c", script])
-    for number, handler in handlers.items():
-        signal.signal(number, handler)
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    return lambda script: terminal.run([sys.executable, "-c", script])
 
 
 def test_what_runs_how_many_of_how_many_and_their_share_of_the_time(monkeypatch):

@@ -29,8 +29,7 @@ def test_spawn_keys_do_not_depend_on_order(settings):
 def test_every_case_is_in_one_pool(settings):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     for table, pools in ((discs, ("discs", "size_discs")), (lines, ("lines", "size_lines"))):
-        pooled = [case for pool in pools for case, _ in cases.pool_batches(table, pool)]
-        assert set(pooled) == set(table)
+        assert {case for pool in pools for case, _ in cases.pool_batches(table, pool)} == set(table)
     assert cases.pool_batches(discs, "discs")[:2] == [("h01000", "0000-0039"), ("h01000", "0040-0079")]
     assert len(cases.pool_batches(discs, "discs")) == 4 * (2 + 1)
     assert cases.pool_batches(lines, "size_lines") == [("sizes", "0000-0239")]

@@ -28,8 +28,3 @@ def test_published_keys_do_not_change():
     assert [key[0] for key in KEYS] == [number for number in range(1, 15) if number != 7], "each has its own number"
     assert {type(number) for key in KEYS for number in key} == {int}
     assert seeds.random_indenter_key(np.int64(7)) == (7,)
-
-
-def test_neighbouring_hurst_exponents_have_their_own_keys():
-    hursts = np.round(np.arange(0, 1.00005, 1e-4), 4)
-    assert len({seeds.line_key(hurst) for hurst in hursts}) == hursts.size

@@ -9,9 +9,8 @@ import pytest
 import xarray as xr
 from scipy import stats
 
-from support.study import ACROSS, CLAIMS, ELEMENTS, HURST, X, evidence, evidence_of, evidence_with_factors, pool_of
+from support.study import ACROSS, CLAIMS, HURST, X, evidence, evidence_of_curves, evidence_with_factors
 from viscorough.reference import exponent_alpha, one_element_stiffness, zeta_elastic
-from viscorough_study.ensembles.averages import ensemble_dataset
 from viscorough_study.verdicts.claims import JUDGES
 from viscorough_study.verdicts.evidence import judged
 from viscorough_study.verdicts.law_criteria import alpha_limit, depth, no_grid, realizations
@@ -23,6 +22,11 @@ from viscorough_study.verdicts.region_criteria import (
     power_law,
     separation,
 )
+
+
+@pytest.fixture
+def sample():
+    return evidence()
 
 
 def test_variance_between_groups_is_covered_at_the_stated_rate():
@@ -92,9 +96,8 @@ def test_a_convention_counts_where_the_data_do_not_decide_but_not_without_a_valu
     assert (undefined.verdict, undefined.convention) == ("undecided", "")
 
 
-def test_all_errors_of_bodies_of_revolution_are_held_to_the_tolerance():
+def test_all_errors_of_bodies_of_revolution_are_held_to_the_tolerance(sample):
     """Also those of the stiffness, of which the finest grid decides."""
-    sample = evidence()
     rows = [("depth", 65, 1e-2), ("depth", 129, 1e-5), ("stiffness", 65, 3e-2), ("stiffness", 129, 3e-3)]
     validation = pd.DataFrame(rows, columns=["quantity", "elements", "error"]).assign(case="cone_reduction")
     sample.tables["validation"] = validation
@@ -110,9 +113,8 @@ def test_four_elements_lie_on_the_rim_of_the_disc():
     assert (case.verdict, missed.verdict) == ("reproduced", "not reproduced")
 
 
-def test_settings_decide_how_long_a_power_law_must_be():
+def test_settings_decide_how_long_a_power_law_must_be(sample):
     """The intervals are 2.2 to 2.6 decades."""
-    sample = evidence()
     for decades, verdict in ((2.2, "reproduced"), (2.3, "undecided"), (2.7, "not reproduced")):
         changed = dataclasses.replace(sample, rules=sample.rules | {"decades_min": decades})
         assert {case.verdict for case in power_law(changed, 0.05)} == {verdict}
@@ -120,9 +122,8 @@ def test_settings_decide_how_long_a_power_law_must_be():
     assert {case.verdict for case in power_law(changed, 0.05)} == {"undecided"}, "the test loses power laws"
 
 
-def test_curves_that_leave_the_first_region_sooner_separate_first():
+def test_curves_that_leave_the_first_region_sooner_separate_first(sample):
     """κ = ζ X^α is twice π/(K₀₀ n) at X = (2π/(K₀₀ n ζ))^(1/α)."""
-    sample = evidence()
     end = {hurst: (2 * one_element_stiffness(ACROSS) / zeta_elastic(hurst)) ** (1 + hurst) for hurst in HURST}
     cases = separation(sample, 0.0)
     for case, (lower, higher) in zip(cases, pairwise(HURST), strict=True):
@@ -140,9 +141,8 @@ def test_interval_of_the_separation_is_that_of_independent_ensembles():
         assert np.log(case.high / case.low) / 2 == pytest.approx(expected, rel=0.1)
 
 
-def test_contact_is_complete_only_where_most_elements_touch():
+def test_contact_is_complete_only_where_most_elements_touch(sample):
     """These discs have κ² of their elements in contact, and all of them where κ is 1."""
-    sample = evidence()
     assert {case.verdict for case in complete_contact(sample, 0.1)} == {"reproduced"}
     halved = sample.discs.assign(contact_count=sample.discs["contact_count"] / 2)
     cases = list(complete_contact(dataclasses.replace(sample, discs=halved), 0.1))
@@ -150,14 +150,13 @@ def test_contact_is_complete_only_where_most_elements_touch():
     assert all(case.value == pytest.approx(0.5, abs=0.01) for case in cases)
 
 
-def test_change_of_stiffness_with_the_grid_is_judged_at_given_depths():
+def test_change_of_stiffness_with_the_grid_is_judged_at_given_depths(sample):
     """Not at given forces, and over the grids only on which enough elements touch."""
-    found = evidence()
-    cases = list(no_grid(found, 0.12))
+    cases = list(no_grid(sample, 0.12))
     assert [case.verdict for case in cases] == ["not reproduced", "undecided", "reproduced"]
     assert [(case.least, case.largest) for case in cases] == [(0.2, 0.3)] * 3
-    found.tables["grid_dependence"] = found.tables["grid_dependence"].query("compared == 0")
-    assert [case.verdict for case in no_grid(found, 0.12)] == ["undecided"]
+    sample.tables["grid_dependence"] = sample.tables["grid_dependence"].query("compared == 0")
+    assert [case.verdict for case in no_grid(sample, 0.12)] == ["undecided"]
 
 
 def test_interval_of_the_exponent_that_250_indentations_give():
@@ -173,8 +172,7 @@ def test_interval_of_the_exponent_that_250_indentations_give():
     assert {case.verdict for case in realizations(sample, 0.001)} == {"not reproduced"}
 
 
-def test_limit_of_the_exponent_needs_lines_and_discs_of_that_exponent():
-    sample = evidence()
+def test_limit_of_the_exponent_needs_lines_and_discs_of_that_exponent(sample):
     assert [case.verdict for case in alpha_limit(sample, 0.015)] == ["undecided", "undecided"]
     for number, (table, source) in enumerate((("scaling", "lines"), ("sizes", "discs"))):
         known = sample.tables[table]
@@ -188,9 +186,8 @@ def test_limit_of_the_exponent_needs_lines_and_discs_of_that_exponent():
     assert [case.value for case in alpha_limit(sample, 0.015)][1] == 0.5
 
 
-def test_time_is_compared_at_the_numbers_of_the_paper():
+def test_time_is_compared_at_the_numbers_of_the_paper(sample):
     """2880 indentations of 51433 events at 1 ms, over 101 · 500 · 4e6 points at 1 ns: 733."""
-    sample = evidence()
     (case,) = computing_time(sample, 10)
     assert case.value == pytest.approx(2880 * 51433 * 1e-3 / (101 * 500 * 4e6 * 1e-9))
     assert (case.verdict, *(case.verdict for case in computing_time(sample, 14))) == ("not reproduced", "reproduced")
@@ -199,19 +196,12 @@ def test_time_is_compared_at_the_numbers_of_the_paper():
     assert [case.verdict for case in contact_problems(sample, 10)] == ["undecided"]
 
 
-def test_contact_problems_are_counted_against_changes_of_the_contact():
+def test_contact_problems_are_counted_against_changes_of_the_contact(sample):
     """58 levels for H = 0.8, 51 for 0.4, each the fewest with an error below 1 %, for 51432 elements."""
-    sample = evidence()
     (case,) = contact_problems(sample, 10)
     assert (case.value, case.least, case.verdict) == (58 / 51432, 51 / 51432, "not reproduced")
     sample.tables["methods"]["steps"] = 6000.0
     assert [case.verdict for case in contact_problems(sample, 10)] == ["reproduced"]
-
-
-def evidence_of_curves(stiffness, count):
-    """Evidence of discs of one Hurst exponent with these κ and elements in contact, shape (realizations, abscissae)."""
-    coordinates = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
-    return evidence_of(pool_of([ensemble_dataset(["disc"], X, stiffness[None], count[None], coordinates)]))
 
 
 def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():

@@ -11,14 +11,10 @@ from viscorough_study.verdicts import mdr_criteria
 GOOD = evidence()
 
 
-def cases(claim, tolerance, **tables):
-    """Cases of a claim by tables of `mdr_tables`, or by these."""
+def verdicts(claim, tolerance, **tables):
+    """Verdicts on the cases of a claim by tables of `mdr_tables`, or by these."""
     made = dataclasses.replace(GOOD, tables=GOOD.tables | tables)
-    return list(getattr(mdr_criteria, claim)(made, tolerance))
-
-
-def verdicts(*claim, **tables):
-    return [case.verdict for case in cases(*claim, **tables)]
+    return [case.verdict for case in getattr(mdr_criteria, claim)(made, tolerance)]
 
 
 @pytest.mark.parametrize(

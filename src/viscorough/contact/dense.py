@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough.compilation import njit
-from viscorough.contact.growing_cholesky import append_element, solve_factored, solve_flat_punch
+from viscorough.contact.halfspace.growing_cholesky import append_element, solve_factored, solve_flat_punch
 from viscorough.contact.options import LATE
 from viscorough.contact.state import ContactState, Elements, MemberLoads, Units
 from viscorough.errors import ConvergenceError

@@ -1,1 +1,1 @@
-"""The elastic half-space under uniform pressure on rectangular elements: influence coefficients and their operator."""
+"""The elastic half-space under uniform pressure on rectangular elements: influence coefficients, their operator."""

@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 
 from viscorough.compilation import njit
-from viscorough.contact.growing_cholesky import solve_factored
+from viscorough.contact.halfspace.growing_cholesky import solve_factored
 from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.parallel import run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from viscorough import memory
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.compilation import njit
-from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
+from viscorough.contact.halfspace.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.interrupts import uninterrupted

@@ -8,7 +8,7 @@ from viscorough import Indenter, indent, march_events, self_affine_disc
 
 @pytest.mark.parametrize(("hurst", "spacings"), [(0.2, 1 / 33), (0.8, 1 / 33), (0.6, (1.0, 2.0)), (0.6, (5.0, 1.0))])
 def test_agrees_with_the_correspondence_over_the_whole_curve(hurst, spacings):
-    """t(u) under constant force: F/G of the elastic curve is F t/η. Common code: K and contact.growing_cholesky."""
+    """t(u) under constant force: F/G of the elastic curve is F t/η. Common code: contact.halfspace alone."""
     disc = Indenter(self_affine_disc(hurst, 33, seed=3).heights, spacings)
     events = march_events(disc)
     assert events.contact_count[-1] == disc.elements

@@ -1,4 +1,4 @@
-# Cost of one disc on grids from coarse to fine, each in a process of its own, whose peak memory counts.
+# Cost of one disc on grids from coarse to fine, each in a separate process, whose peak memory counts.
 
 
 rule measure_large:

@@ -103,6 +103,8 @@ def contact_at(
     states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
     contacts = []
     for state, value in zip(states, values.tolist(), strict=True):
+        if not np.isfinite(state.force):
+            raise ValueError("contact_at: the force is too large to represent; a larger unit of length is needed")
         stated = {"depth" if by_depth else "force": value, "shear_modulus": shear_modulus}
         contacts.append(_contact(indenter, tolerance, solver, state, stated))
         progress(len(contacts) / values.size)

@@ -92,6 +92,8 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
         raise ValueError(f"--scale {scale}: heights are in {scan.unit} in the file; a plain number is needed")
     if not (np.isfinite(number) and number > 0):
         raise ValueError(f"--scale {scale}: allowed are numbers above 0, plain or with a unit of length")
+    if scan.heights.dtype.kind not in "iuf":
+        return scan  # is refused for what it holds
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 

@@ -231,7 +231,7 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
     """Raise ValueError if a line above the first row may be a row itself: nothing of a map is left out for a misprint.
 
     Such a line has as many cells as the table, with or without outer delimiters, and one of them is, or almost is, a
-    number, or all are the same.
+    number, or all that are not empty are the same or without a letter.
     """
     for number, line in enumerate(lines, 1):
         is_comment = _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";"))
@@ -248,7 +248,9 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
         of_points = {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}
         if len(cells) > 1 and _ROW_NUMBERS.fullmatch(cells[0]) and not of_points:
             raise ValueError(f"line {number} ({line[:40]!r}) heads a column of row numbers; heights alone are needed")
-        if any(_ALMOST_A_NUMBER.fullmatch(cell) for cell in cells) or (len(cells) > 1 and len(set(cells)) == 1):
+        filled = [cell for cell in cells if cell]
+        alike = len(cells) > 1 and (len(filled) > len(set(filled)) == 1 or not re.search(r"\w", line))
+        if alike or any(_ALMOST_A_NUMBER.fullmatch(cell) for cell in cells):
             raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; numbers or a comment are needed")
 
 

@@ -91,3 +91,10 @@ def test_invalid_arguments_are_refused():
     ):
         with pytest.raises(ValueError, match=f"contact_at: {message}"):
             contact_at(**({"indenter": DISC} | arguments))
+
+
+@pytest.mark.filterwarnings("ignore:overflow")
+def test_a_force_that_overflows_is_refused():
+    huge = Indenter(np.array([[0.0, -1e307], [-1e306, -1e307]]), 1e10)
+    with pytest.raises(ValueError, match="too large to represent"):
+        contact_at(huge, depth=1e306)

@@ -87,6 +87,10 @@ def test_counts_are_scaled(tmp_path):
     indenter.save(tmp_path / "nm.nc")
     with refused("--scale 0.053 nm: heights are in nm in the file"):
         viscorough.read_heights(tmp_path / "nm.nc", scale="0.053 nm")
+    for odd in (["a", "b"], [True, False]):
+        np.save(tmp_path / "odd.npy", np.array([odd, odd]))
+        with refused("real numbers are needed"):
+            viscorough.read_heights(tmp_path / "odd.npy", 20.0, scale=2)
 
 
 def test_a_spacing_may_be_a_text_with_a_unit(tmp_path):

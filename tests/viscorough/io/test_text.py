@@ -150,6 +150,7 @@ BAD = [
     ("1\u202f234 5\n6 7\n", "line 1 holds"),
     ("1 2\n\n3 4\n\n\n5 6\n\n7 8\n", "line 6: empty lines separate it"),
     (";\n4;5\n6;7\n", "line 1: a row of empty cells"),
+    (".\t.\t.\t\n1\t2\t3\t\n4\t5\t6\t\n", "line 1 .* is not a row of numbers"),
     ("# Channel: A\n1 2\n# Channel: B\n3 4\n", "line 3 .* stands between rows"),
     ("1 7 2\n2 3 9\n3 1 4\n4 8 8\n5 2 7\n6 9 1\n", "the first column counts up evenly"),
     (f"lon lat z\n{CORNERS}", "degrees"),

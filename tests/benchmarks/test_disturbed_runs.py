@@ -2,9 +2,11 @@
 
 import subprocess
 import sys
+from functools import partial
 
 import chaos
 import numpy as np
+import psutil
 import pytest
 import slurm
 
@@ -46,7 +48,8 @@ def test_killed_runs_recover(folder):
 @pytest.mark.parametrize(("seed", "what"), [(1, "whole run"), (3, "interrupt"), (2, "job")])
 def test_a_run_or_a_job_is_killed_or_interrupted(folder, seed, what):
     with chaos.started(folder) as run:
-        chaos.wait_for(lambda: "rule wait" in chaos.log_tail(folder), "start of the job")
+        children = partial(psutil.Process(run.pid).children, recursive=True)
+        chaos.wait_for(lambda: "sleep" in [process.name() for process in children()], "start of the job")
         assert chaos.disturb(run, np.random.default_rng(seed)) == what
         assert run.wait(60) != 0
 

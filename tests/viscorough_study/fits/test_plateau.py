@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.study import ensemble_of
-from viscorough_study.fits.plateau import COLUMNS, inner_slopes, longest_plateau, plateau, plateau_row
+from viscorough_study.fits.plateau import COLUMNS, inner_slopes, longest_plateau, plateau, plateau_row, shares
 
 X = 10.0 ** np.linspace(-4, 1, 101)
 HALF_WIDTH = 0.25 * np.log(10)
@@ -39,6 +39,16 @@ def test_plateau_of_a_curve_with_a_kink():
 def test_curves_shorter_than_a_slope_are_refused():
     with pytest.raises(ValueError, match="inner_slopes: 5 abscissae are too few"):
         inner_slopes(np.log(X[:5]), np.log(X[None, :5]), HALF_WIDTH)
+
+
+def test_power_laws_pass_and_what_is_none_does_not():
+    random, residuals = np.random.default_rng(2), scattered(0.0, 200, 0.1)
+    residuals = residuals - residuals.mean(axis=0)
+    means = 0.3 * np.log(X), control(X), 0.05 * np.log(X) ** 2
+    options = {"draws": 20, "decades_min": 2.0, "random": random} | HOW
+    assert [shares(np.log(X), mean, residuals, **options) for mean in means] == [(1, 0), (0, 1), (0, 1)]
+    passed, failed = shares(np.log(X), means[0], scattered(0.0, 8, 0.5), **options)
+    assert (passed, failed > 0.05) == (0, True), "few realizations lose power laws"
 
 
 OPTIONS = {"x_range": [1e-3, 1.0], "half_width": 0.25, "tolerance": 0.05, "decades_min": 2.0}

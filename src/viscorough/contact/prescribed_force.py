@@ -1,11 +1,12 @@
 """Contacts at prescribed forces, found by solving as few depths as possible.
 
 The force is a convex function F(u) of the depth, and the contact solver gives F and its exact tangent k at any depth.
-The depth for a large map is first estimated from a map of the highest points of its blocks, solved in the same way; for
-a smaller one, dense solutions at depths that grow by large ratios give the exponent of a power law, and this a first
-guess. On a grid the depth is then adjusted while the contact is solved (grid.depth_adjustment). Where that is not
-accurate enough, the next depth lies between a contact below and one above: that of the interpolant of a loading curve,
-in the triangle of chord and tangents, or where the tangents put it. The last, small correction follows the tangent.
+The depth for a large map is first estimated from a map of the highest points of its blocks, solved in the same way.
+Otherwise the contact events are followed, which end at the force while few elements are in contact, and else give the
+exponent of a power law, and this a first guess. On a grid the depth is then adjusted while the contact is solved
+(grid.depth_adjustment). Where that is not accurate enough, the next depth lies between a contact below and one above:
+that of the interpolant of a loading curve, in the triangle of chord and tangents, or where the tangents put it. The
+last, small correction follows the tangent.
 """
 
 from functools import cached_property
@@ -14,7 +15,6 @@ import numpy as np
 
 from viscorough.compilation import njit
 from viscorough.contact.dense import ROUNDING
-from viscorough.contact.parallel import BLOCK
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.state import ContactState, Elements, MemberLoads
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
@@ -27,15 +27,17 @@ _MAX_DEPTH_RATIO = 4.0
 _MAX_ATTEMPTS = 100
 # The depth guessed may be too small by the ratio to the last depth to this power; boxes of grids allow for no more.
 _UNCERTAINTY = 0.2
-# Elements in contact from which on the power law is trusted over larger ratios.
-_REPRESENTATIVE = 100
+# Elements in contact up to which events are followed, and from which on the power law is trusted over larger ratios.
+_EVENTS, _REPRESENTATIVE = 200, 100
 _TINY = 1e-300
 # Elements above which the depth is estimated on a map of blocks, their sides in elements, the tolerance there, and the
 # ratio of forces from the last contact from which on it is.
-_LARGE, _SIDE, _COARSE_TOLERANCE, _FAR = BLOCK, 4, 1e-2, 4.0
+_LARGE, _SIDE, _COARSE_TOLERANCE, _FAR = 1 << 15, 4, 1e-2, 4.0
 # Least number of blocks in contact for an estimate. The depth of the map exceeds that of the blocks by a share of c
-# over the square root of their number; self-affine maps of all H had c from 0.6 to 2.4. A likely and a large c.
-_FEWEST_BLOCKS, _LIKELY, _LARGEST = 20, 1.2, 2.5
+# over the square root of their number. Self-affine maps of all H had c from 0.6 to 3: a small, likely and large c.
+# Where the depth of the blocks was itself estimated from blocks of them, it tells their c, which is taken to be no less
+# than the last number here; the c of the map was 0.9 to 1.6 times as large.
+_FEWEST_BLOCKS, _EXCESS, _GROWTH_OF_EXCESS, _LEAST_EXCESS = 20, (0.6, 1.2, 2.5), (0.8, 1.1, 1.6), 0.3
 # Deflection of the centre of a square under a uniform pressure, over P.
 _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 
@@ -92,6 +94,10 @@ class ForceSearch:
     def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
         self._below, self._above = solver.unloaded_state(), ContactsAhead()
+        # Up to how many elements in contact events are followed.
+        dense = solver.options.dense_contacts, solver.options.dense_interactions
+        self._events = min(_EVENTS, *dense, solver.elements.count - 1)
+        self._of_blocks: tuple[float, float] | None = None
 
     @cached_property
     def _first(self) -> ContactState:
@@ -123,7 +129,8 @@ class ForceSearch:
                 return self._solver.settled(contact, depth, target)
             else:
                 guess = None
-                self._below = self._below if self._below.count else self._first
+                if not self._below.count or not self._above:
+                    self._follow_events(target)
                 depth, largest_depth = self._guess(target, attempt)
             sought = None if self._above else (target, largest_depth)
             contact = self._solver.advance_reduced(self._below, depth, sought, guess)
@@ -154,23 +161,42 @@ class ForceSearch:
         blocks = _highest_of_blocks(solver.indenter)
         coarse = ContactSolver(blocks, _COARSE_TOLERANCE, solver.options, solver.threads, whole=False)
         try:
-            contact = ForceSearch(coarse).contact_at(target * solver.units.force)
+            search = ForceSearch(coarse)
+            contact = search.contact_at(target * solver.units.force)
         except ConvergenceError:
             return nothing
         unit = coarse.units.length / solver.units.length
-        likely, largest = (unit * contact.reduced_depth * (1 + c / contact.count**0.5) for c in (_LIKELY, _LARGEST))
-        if contact.count < _FEWEST_BLOCKS or likely <= below.reduced_depth:
+        depth, share = unit * contact.reduced_depth, contact.count**-0.5
+        least, likely, largest = (depth * (1 + c * share) for c in search.excess(contact))
+        if contact.count < _FEWEST_BLOCKS or least <= below.reduced_depth:
             return nothing
         pressure = np.zeros(blocks.heights.shape)
         pressure[coarse.elements.places_on_map(contact.members)] = unit * contact.reduced_pressure
-        solver.candidates(largest, largest)  # ranks them
+        largest = solver.depth_of_box(least, largest)  # ranks elements
+        likely = min(likely, largest)
         loads = _loads_in_blocks(solver.elements, pressure)
+        self._of_blocks = depth, share
         return ContactState(solver.units, likely, loads.members.size, target, 0.0, loads=loads), largest
+
+    def excess(self, contact: ContactState) -> tuple[float, ...]:
+        """A small, likely and large c for the indenter whose blocks this one has; contact : the one found last."""
+        if self._of_blocks is None:
+            return _EXCESS
+        depth, share = self._of_blocks
+        excess = max((contact.reduced_depth / depth - 1) / share, _LEAST_EXCESS)
+        return tuple(growth * excess for growth in _GROWTH_OF_EXCESS)
+
+    def _follow_events(self, target: float) -> None:
+        """Follow the contact events up to a force, beyond which the next element touches, while few are in contact."""
+        self._below = self._below if self._below.count else self._first
+        if self._below.fields is None and self._below.count < self._events:
+            self._below = self._solver.follow_events(self._below, self._events, target)[1]
 
     def _guess(self, target: float, attempt: int) -> tuple[float, float]:
         """Depth to solve next, and the largest one that is likely, from the contacts before."""
         depth = self._next_depth(target, attempt)
-        return depth, depth * (depth / self._below.reduced_depth) ** _UNCERTAINTY
+        largest = depth * (depth / self._below.reduced_depth) ** _UNCERTAINTY
+        return depth, largest if self._above else self._solver.depth_of_box(depth, largest)
 
     def _next_depth(self, target: float, attempt: int) -> float:
         """Depth to solve next, between the nearest contacts below and above the force."""
@@ -179,6 +205,8 @@ class ForceSearch:
         if below.count == self._solver.elements.count:
             return by_tangent
         if not self._above:
+            if self._below.fields is None and below.count < self._events and attempt < 2:
+                return by_tangent  # the events ended at the force
             # The power law through the last contact, whose exponent only grows where the contact does.
             exponent = below.pressure_sum / (below.tangent_sum * below.depth)
             ratio = (target / below.pressure_sum) ** exponent

@@ -33,6 +33,8 @@ from viscorough.types import Array
 # them, each of which takes two applications of the operator. A box that would cover more than this share of the whole
 # grid is replaced by the whole grid.
 _BOX_DEPTH_MARGIN, _LARGEST_BOX = 2.0, 0.8
+# Growth of the area of a box up to which it allows for more than the depth that is needed.
+_GROWTH_OF_BOX = 1.3
 # Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
 # multiple of the tolerance times the depth; a larger gap is an error.
 _LOST_CONTACT = 3
@@ -245,6 +247,19 @@ class ContactSolver:
         if depth > self.elements.ranked_depth:
             self.elements = self._ranking.up_to(self.elements, deepest)
         return int(np.searchsorted(self.elements.initial_gap, depth))
+
+    def depth_of_box(self, depth: float, deepest: float) -> float:
+        """A reduced depth up to the deepest one for which a box is hardly larger than for the first depth.
+
+        A single element far from all others, which hardly will touch, can make the box many times as large.
+        """
+        rank, reach = (max(self.candidates(u, deepest), 1) for u in (depth, deepest))
+        area = np.ones(reach - rank + 1)
+        for place in (self.elements.row, self.elements.column):
+            least, most = (find.accumulate(place[:reach])[rank - 1 :] for find in (np.minimum, np.maximum))
+            area *= most - least + 1
+        reach = rank + int(np.count_nonzero(area <= _GROWTH_OF_BOX * area[0])) - 1
+        return min(deepest, self.elements.next_gap(reach))
 
     def _is_small(self, candidates: int, contact: ContactState) -> bool:
         """Whether a dense evaluation is cheaper than the grid."""

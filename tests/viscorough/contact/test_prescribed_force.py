@@ -62,6 +62,31 @@ def test_the_last_correction_is_as_small_as_the_tolerance_asks():
         assert curve.stiffness == pytest.approx(sphere.stiffness(curve.depth), rel=tolerance)
 
 
+def test_while_few_elements_touch_the_force_is_met_at_once(monkeypatch):
+    """The contact events end at the force: the first contact, the one at the force, and no other are solved."""
+    depths, advance = [], ContactSolver.advance_reduced
+    monkeypatch.setattr(ContactSolver, "advance_reduced", lambda *args: depths.append(args[2]) or advance(*args))
+    disc = self_affine_disc(0.8, 129, seed=3)
+    search = ForceSearch(ContactSolver(disc, 1e-3))
+    contacts = [search.contact_at(force) for force in (0.01, 0.1, 0.2)]
+    assert [contact.count for contact in contacts] == sorted({contact.count for contact in contacts})
+    assert 100 < contacts[-1].count < 200
+    assert len(depths) == 4
+    exact = indent(disc, depths=[contact.depth for contact in contacts], tolerance=1e-9)
+    np.testing.assert_allclose(exact.force, [0.01, 0.1, 0.2], rtol=1e-12)
+
+
+def test_an_element_far_from_the_others_leaves_the_box_small():
+    """It lies a little deeper than the contact at the force, and the box may not span the map because of it."""
+    heights = np.pad(self_affine_square(0.8, 128, seed=1), ((0, 172), (0, 172)), constant_values=-9.0)
+    load = contact_at(Indenter(heights, 1.0), force=50.0, tolerance=1e-6)
+    heights[-1, -1] = heights.max() - 1.03 * load.depth
+    solver = ContactSolver(Indenter(heights, 1.0), 1e-6, GRID, whole=False)
+    contact = ForceSearch(solver).contact_at(50.0)
+    assert contact.depth == pytest.approx(load.depth, rel=1e-6)
+    assert np.count_nonzero(contact.fields.initial_gap < 1e9) <= 128**2
+
+
 def test_few_depths_are_solved(monkeypatch):
     """A force costs about as many solutions as it takes to come near it, and a force close by one or two."""
     depths, advance = [], ContactSolver.advance_reduced
@@ -126,10 +151,23 @@ def test_a_force_that_the_first_guess_meets_exactly():
     np.testing.assert_allclose(exact.force, curve.force, rtol=1e-6)
 
 
+def test_loads_of_blocks_that_are_exact(monkeypatch):
+    """A single element carries all: once the depth is adjusted to its load, no direction is left to search along."""
+    for name in ("_LARGE", "_FEWEST_BLOCKS"):
+        monkeypatch.setattr(prescribed_force, name, 1)
+    heights = np.full((1, 24), -1.0)
+    heights[0, 8] = 0.0
+    forces = np.array([1e-4, 6e-4, 3e-3])
+    options = SolverOptions(dense_interactions=0)
+    curve = indent(Indenter(heights - 1e-3 * np.arange(24), 1.0), forces=forces, tolerance=1e-6, options=options)
+    punch = indent(Indenter(np.zeros((1, 1)), 1.0), forces=forces)
+    np.testing.assert_allclose(curve.depth, punch.depth, rtol=1e-6)
+
+
 def test_a_force_that_is_not_met_is_named(monkeypatch):
-    monkeypatch.setattr(prescribed_force, "_MAX_ATTEMPTS", 2)
-    with pytest.raises(ConvergenceError, match=r"contact at F/G = 0\.5: the force is not met within 2 depths"):
-        contact_at(self_affine_disc(0.8, 65, seed=3), force=0.5)
+    monkeypatch.setattr(prescribed_force, "_MAX_ATTEMPTS", 1)
+    with pytest.raises(ConvergenceError, match=r"contact at F/G = 5: the force is not met within 1 depths"):
+        contact_at(self_affine_disc(0.8, 65, seed=3), force=5.0, options=SolverOptions(dense_contacts=10**4))
 
 
 def test_progress_is_reported_up_to_the_end():

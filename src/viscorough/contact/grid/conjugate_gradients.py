@@ -95,7 +95,8 @@ class ConjugateGradients:
         """
         deflection = self._deflect()
         _, of_gap, of_direction = self._sums()
-        length = gap.dtype.type(-of_gap / of_direction)  # in the precision of the fields, which the loops then keep to
+        # In the precision of the fields, which the loops then keep to; there is no direction where the guess was exact.
+        length = gap.dtype.type(-of_gap / of_direction if of_direction > 0 else 0.0)
         self._loops.update_gap(length, deflection, gap)
         self._limit = np.inf
         return any(self._over_set(kernels.update_pressure, length, self._direction, pressure))

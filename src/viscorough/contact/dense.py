@@ -102,7 +102,7 @@ def solve(
 
 def follow_events(
     elements: Elements, contact: ContactState, most: int, pressure_sum: float
-) -> tuple[ContactEvents, ContactState]:
+) -> tuple[ContactEvents, ContactState, bool]:
     """The contact events after a contact: the depths at which the next elements touch, computed one after the other.
 
     Until the next element touches, pressures grow at the constant tangent q, so that depths are exact. Every element
@@ -112,8 +112,8 @@ def follow_events(
     most : number of elements in contact at which to stop
     pressure_sum : reduced ΣP at which to stop
 
-    Returns ContactEvents after the given contact, and the ContactState at the last event. Elements that touch at the
-    same depth, to rounding, are one event.
+    Returns ContactEvents after the given contact, the ContactState at the last event, and whether ΣP exceeds its limit
+    before another element touches. Elements that touch at the same depth, to rounding, are one event.
     """
     with uninterrupted():
         depth, total, stiffness, members, factor = _follow(
@@ -125,14 +125,15 @@ def follow_events(
     complete = np.append(np.diff(depth) > ROUNDING * depth[1:], members.size == elements.count)
     complete[0] = False
     events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
+    ends_at_force = bool(total[-1] > pressure_sum)
     if events.depth.size == 0:
-        return events, contact
+        return events, contact, ends_at_force
     # The contact at the last event is solved again from the members and their Cholesky factor.
     last, last_depth = events.count[-1], events.depth[-1]
     solution = np.stack([last_depth - elements.initial_gap[members[:last]], np.ones(last)])
     solve_factored(factor[:last, :last], solution)
     order = np.argsort(members[:last])
-    return events, _exact_contact(contact.units, last_depth, members[order], *solution[:, order])
+    return events, _exact_contact(contact.units, last_depth, members[order], *solution[:, order]), ends_at_force
 
 
 def _deflections_at(elements: Elements, *loads_and_targets: Array | Integers) -> tuple[Array, Array]:

@@ -208,7 +208,7 @@ class _LoadingPath:
         if not self._is_unfinished() or contact.fields is not None or contact.count >= self._control.events:
             return
         most = min(self._control.events, int(np.ceil(self._until_count)))
-        events, self._contact = self._solver.follow_events(contact, most, self._until_pressure_sum)
+        events, self._contact, _ = self._solver.follow_events(contact, most, self._until_pressure_sum)
         if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
             self._levels.pop()  # more elements touch at exactly that depth
         self._levels += [Level(*event) for event in zip(*events, strict=True)]

@@ -9,6 +9,7 @@ that of the interpolant of a loading curve, in the triangle of chord and tangent
 last, small correction follows the tangent.
 """
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -129,8 +130,8 @@ class ForceSearch:
                 return self._solver.settled(contact, depth, target)
             else:
                 guess = None
-                if not self._below.count or not self._above:
-                    self._follow_events(target)
+                if not (self._below.count and self._above) and (contact := self._follow_events(target)):
+                    return contact
                 depth, largest_depth = self._guess(target, attempt)
             sought = None if self._above else (target, largest_depth)
             contact = self._solver.advance_reduced(self._below, depth, sought, guess)
@@ -169,6 +170,7 @@ class ForceSearch:
         depth, share = unit * contact.reduced_depth, contact.count**-0.5
         least, likely, largest = (depth * (1 + c * share) for c in search.excess(contact))
         if contact.count < _FEWEST_BLOCKS or least <= below.reduced_depth:
+            solver.candidates(largest, largest)  # ranks no more elements than that
             return nothing
         pressure = np.zeros(blocks.heights.shape)
         pressure[coarse.elements.places_on_map(contact.members)] = unit * contact.reduced_pressure
@@ -186,11 +188,22 @@ class ForceSearch:
         excess = max((contact.reduced_depth / depth - 1) / share, _LEAST_EXCESS)
         return tuple(growth * excess for growth in _GROWTH_OF_EXCESS)
 
-    def _follow_events(self, target: float) -> None:
-        """Follow the contact events up to a force, beyond which the next element touches, while few are in contact."""
+    def _follow_events(self, target: float) -> ContactState | None:
+        """Follow the contact events up to a force, while few elements are in contact.
+
+        Returns the contact at the force if no further element touches before it: the pressures grow at their tangent.
+        """
         self._below = self._below if self._below.count else self._first
-        if self._below.fields is None and self._below.count < self._events:
-            self._below = self._solver.follow_events(self._below, self._events, target)[1]
+        if self._below.fields or self._below.count >= self._events:
+            return None
+        _, below, ends_at_force = self._solver.follow_events(self._below, self._events, target)
+        self._below, loads = below, below.member_loads()
+        depth = below.reduced_depth + (target - below.pressure_sum) / below.tangent_sum
+        if not ends_at_force or depth > self._solver.elements.ranked_depth:
+            return None
+        pressure = loads.pressure + (depth - below.reduced_depth) * loads.tangent
+        loads = loads._replace(pressure=pressure)
+        return replace(below, reduced_depth=depth, pressure_sum=target, loads=loads)
 
     def _guess(self, target: float, attempt: int) -> tuple[float, float]:
         """Depth to solve next, and the largest one that is likely, from the contacts before."""
@@ -205,8 +218,6 @@ class ForceSearch:
         if below.count == self._solver.elements.count:
             return by_tangent
         if not self._above:
-            if self._below.fields is None and below.count < self._events and attempt < 2:
-                return by_tangent  # the events ended at the force
             # The power law through the last contact, whose exponent only grows where the contact does.
             exponent = below.pressure_sum / (below.tangent_sum * below.depth)
             ratio = (target / below.pressure_sum) ** exponent

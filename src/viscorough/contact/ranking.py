@@ -16,7 +16,7 @@ _SAMPLE, _MOST_RANGES = 1000, 8
 # The least number of elements to be ranked, and the share of them from which on all are.
 _LEAST, _MOST_SHARE = 1 << 12, 0.5
 # About how many elements are ranked at first where no depth is known, and the size of the sample that tells which.
-_FIRST, _DEPTH_SAMPLE = 1 << 12, 1 << 14
+_FIRST, _DEPTH_SAMPLE = 1 << 12, 1 << 12
 # Depth up to which elements are ranked next where only those of the largest height are, over the largest initial gap.
 _SMALLEST_DEPTH = 1e-3
 

@@ -185,12 +185,12 @@ class ContactSolver:
 
     def follow_events(
         self, contact: ContactState, most: int, pressure_sum: float
-    ) -> tuple[ContactEvents, ContactState]:
+    ) -> tuple[ContactEvents, ContactState, bool]:
         """Events at which the next elements touch, and the contact at the last one; see dense.follow_events."""
         while True:
-            events, last = dense.follow_events(self.elements, contact, most, pressure_sum)
+            events, last, ends_at_force = dense.follow_events(self.elements, contact, most, pressure_sum)
             if last.reduced_depth < self.elements.ranked_depth:
-                return events, last
+                return events, last, ends_at_force
             self.elements = self._ranking.up_to(self.elements, _BOX_DEPTH_MARGIN * last.reduced_depth)
 
     def gap_map(self, contact: ContactState) -> Array:

@@ -40,15 +40,17 @@ def test_events_end_at_the_force_and_ties_are_one_event():
     disc = self_affine_disc(0.7, 17, seed=2)
     solver = ContactSolver(disc, 1e-10)
     start = solver.advance_reduced(solver.unloaded_state(), solver.elements.initial_gap[1])
-    whole, _ = solver.follow_events(start, 40, np.inf)
+    whole, _, ends_at_force = solver.follow_events(start, 40, np.inf)
+    assert not ends_at_force
     until = 0.5 * (whole.pressure_sum[9] + whole.pressure_sum[10])
-    part, _ = solver.follow_events(start, 40, until)
+    part, _, ends_at_force = solver.follow_events(start, 40, until)
+    assert ends_at_force
     np.testing.assert_array_equal(part.depth, whole.depth[: part.depth.size])
     assert part.pressure_sum[-1] <= until
     corners = Indenter(np.array([[1.0, 0.5, 1.0], [0.5, 0.0, 0.5], [1.0, 0.5, 1.0]]), 1.0)
     solver = ContactSolver(corners, 1e-10)
     four = solver.advance_reduced(solver.unloaded_state(), 1e-6)
-    events, last = solver.follow_events(four, 9, np.inf)
+    events, last, _ = solver.follow_events(four, 9, np.inf)
     assert events.count.tolist() == [8, 9]  # the four sides touch at once
     assert last.count == 9
 

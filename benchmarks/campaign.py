@@ -16,11 +16,7 @@ from unittest.mock import patch
 import click
 import numpy as np
 from measuring import save
-from tqdm import tqdm
-
-from viscorough.contact import prescribed_force, ranking
-from viscorough.contact.halfspace import tiles
-from viscorough_study.robustness.random_curves import (
+from random_curves import (
     audit_failure,
     curve_failure,
     levels_failure,
@@ -28,6 +24,10 @@ from viscorough_study.robustness.random_curves import (
     random_curve,
     random_levels,
 )
+from tqdm import tqdm
+
+from viscorough.contact import prescribed_force, ranking
+from viscorough.contact.halfspace import tiles
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 

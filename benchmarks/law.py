@@ -3,7 +3,7 @@
     python benchmarks/law.py --cores 2 --output results/tables/law.csv
 
 For every Hurst exponent and grid, the law is fitted to so many discs and tested on as many others, which were drawn
-after its form had been chosen. The table has the columns of viscorough_study.fits.penetration_law.
+after its form had been chosen. The table has the columns of law_calibration.COLUMNS.
 """
 
 from functools import partial
@@ -12,10 +12,10 @@ from multiprocessing import Pool
 import click
 import numpy as np
 import pandas as pd
+from law_calibration import COLUMNS, calibrate, complete_curve
 from measuring import output_option, save_table
 from tqdm import tqdm
 
-from viscorough_study.fits.penetration_law import COLUMNS, calibrate, complete_curve
 from viscorough_study.run.seeds import law_disc_key, realization_seed
 
 HURST, ACROSS, SEED, RESAMPLES = (0.1, 0.4, 0.6, 0.9, 1.0), (257, 129), 2013, 200

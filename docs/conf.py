@@ -2,6 +2,8 @@
 
 import importlib
 import importlib.metadata
+import sys
+from pathlib import Path
 
 import click
 from docutils import nodes
@@ -9,6 +11,8 @@ from docutils.parsers.rst import Directive
 from docutils.utils.math import latex2mathml
 
 from viscorough.cli import subcommand
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))  # output.md has the columns of their tables
 
 project = "viscorough"
 release = importlib.metadata.version("viscorough")

@@ -4,8 +4,7 @@ import law
 import numpy as np
 import pandas as pd
 from click.testing import CliRunner
-
-from viscorough_study.fits.penetration_law import COLUMNS
+from law_calibration import COLUMNS
 
 
 def test_law_is_calibrated_for_every_exponent_and_grid(tmp_path, monkeypatch):

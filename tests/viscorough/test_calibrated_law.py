@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from law_calibration import COLUMNS
 from scipy.integrate import quad
 
 import viscorough
@@ -10,7 +11,6 @@ from support.documentation import ROOT
 from viscorough import calibrated_law
 from viscorough.calibrated_law import CONSTANTS, LARGEST_DEVIATION, interface_depth, interface_velocity
 from viscorough.reference import one_element_stiffness
-from viscorough_study.fits.penetration_law import COLUMNS
 
 HURST = [0.1, 0.4, 0.6, 0.9, 1.0]
 TABLE = pd.read_csv(ROOT / "src/viscorough/data/law.csv")

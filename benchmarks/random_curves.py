@@ -7,6 +7,7 @@ import warnings
 from dataclasses import dataclass
 
 import numpy as np
+from random_heights import random_heights, with_random_aspect
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
@@ -17,7 +18,6 @@ from viscorough.indenter import Indenter
 from viscorough.sum_rules import audit
 from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.integration.events import march_events
-from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
 from viscorough_study.robustness.stress_solutions import GRID_ONLY
 
 _LARGEST = 32  # elements across

@@ -2,11 +2,7 @@
 
 import numpy as np
 import pytest
-
-from viscorough.calibrated_law import CONSTANTS, interface_depth, interface_velocity
-from viscorough.sum_rules import audit
-from viscorough.surfaces import self_affine_disc
-from viscorough_study.fits.penetration_law import (
+from law_calibration import (
     COLUMNS,
     FIT_LOW,
     X,
@@ -15,6 +11,10 @@ from viscorough_study.fits.penetration_law import (
     fit_constants,
     law_integrals,
 )
+
+from viscorough.calibrated_law import CONSTANTS, interface_depth, interface_velocity
+from viscorough.sum_rules import audit
+from viscorough.surfaces import self_affine_disc
 
 LAW, ACROSS = (0.8, 0.35, 4.0, 2.0, 80.0), 129
 

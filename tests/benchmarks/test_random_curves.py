@@ -5,19 +5,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from viscorough.contact.loading_path import indent
-from viscorough.contact.options import SolverOptions
-from viscorough.contact.solver import ContactSolver
-from viscorough.errors import AccuracyWarning, ConvergenceError
-from viscorough.surfaces import self_affine_disc
-from viscorough_study.robustness.random_curves import (
+from random_curves import (
     RandomCurve,
     audit_failure,
     curve_failure,
     levels_failure,
     random_audit,
 )
+
+from viscorough.contact.loading_path import indent
+from viscorough.contact.options import SolverOptions
+from viscorough.contact.solver import ContactSolver
+from viscorough.errors import AccuracyWarning, ConvergenceError
+from viscorough.surfaces import self_affine_disc
 from viscorough_study.robustness.stress_solutions import GRID_ONLY
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 

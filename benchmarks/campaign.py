@@ -16,14 +16,7 @@ from unittest.mock import patch
 import click
 import numpy as np
 from measuring import save
-from random_curves import (
-    audit_failure,
-    curve_failure,
-    levels_failure,
-    random_audit,
-    random_curve,
-    random_levels,
-)
+from random_curves import audit_failure, curve_failure, levels_failure, random_audit, random_curve, random_levels
 from tqdm import tqdm
 
 from viscorough.contact import prescribed_force, ranking

@@ -21,13 +21,7 @@ from viscorough.sum_rules import complete_contact
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.interface import run_around
-from viscorough_study.fits.intervals import (
-    described,
-    mean_with_interval,
-    resampled_means,
-    three_columns,
-    with_interval,
-)
+from viscorough_study.fits.intervals import described, mean_with_interval, resampled_means, three_columns, with_interval
 
 X = abscissa(1e-6, 1e3, 10)
 TOLERANCE = 1e-5  # of the curves: at X = 30 few elements are left, and g is small

@@ -2,15 +2,7 @@
 
 import numpy as np
 import pytest
-from law_calibration import (
-    COLUMNS,
-    FIT_LOW,
-    X,
-    calibrate,
-    complete_curve,
-    fit_constants,
-    law_integrals,
-)
+from law_calibration import COLUMNS, FIT_LOW, X, calibrate, complete_curve, fit_constants, law_integrals
 
 from viscorough.calibrated_law import CONSTANTS, interface_depth, interface_velocity
 from viscorough.sum_rules import audit

@@ -5,13 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from random_curves import (
-    RandomCurve,
-    audit_failure,
-    curve_failure,
-    levels_failure,
-    random_audit,
-)
+from random_curves import RandomCurve, audit_failure, curve_failure, levels_failure, random_audit
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions

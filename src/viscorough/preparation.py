@@ -13,8 +13,8 @@ from viscorough.types import Array, Mask
 DETREND = ("none", "mean", "plane", "sphere")
 FILL = ("none", "harmonic")
 _NOTABLE_TILT = 6  # rise of the fitted plane over the rms height about it
-_FAR = 10  # distance of a suspicious value from all others, over the range of those
-_MARKS = (-9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
+_FAR = 10  # distance of a suspicious value from all others, over the range of those; 1 for a usual mark
+_MARKS = (9999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
 _SPIKE = 20  # height of a point above all its neighbours over the usual distance of neighbours
 _LARGEST_SLOPE = 0.99  # of a fitted sphere within the map
 _MAX_ITERATIONS = 20  # of the fit of a sphere
@@ -174,11 +174,12 @@ def _suspicious_values(heights: Array) -> Iterator[str]:
             gap = lowest - value if sign > 0 else value - highest
         span = highest - lowest
         is_mark = any(abs(value - mark) <= 1e-6 * abs(mark) for mark in _MARKS) or abs(value) >= 1e30
-        if gap > _FAR * span and (count > 1 or is_mark) and (span > 0 or is_mark):
+        if gap > (1 if is_mark else _FAR) * span and (is_mark or (count > 1 and span > 0)):
             share = 100 * count / (count + others.size)
+            exact = f"{value:g}" if float(f"{value:g}") == value else repr(value)
             yield (
-                f"{count} points ({share:.2g} %) have the value {value:g}, far from all others ({lowest:g} to "
-                f"{highest:g}): if it marks what was not measured, --nodata {value:g} removes it"
+                f"{count} points ({share:.2g} %) have the value {exact}, far from all others ({lowest:g} to "
+                f"{highest:g}): if it marks what was not measured, --nodata {exact} removes it"
             )
 
 

@@ -99,6 +99,8 @@ def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: s
     """
     if shear_modulus is not None:
         newtons, divisor = numbers(forces, "N", length_unit, name), shear_modulus * square_metres(length_unit)
+        if not divisor:
+            raise ValueError(f"{name}: the shear modulus {shear_modulus:g} is too small; a larger one is needed")
         return [force / divisor for force in newtons] if isinstance(newtons, list) else newtons / divisor
     for force in forces if isinstance(forces, list | tuple) else [forces]:
         if isinstance(force, str) or (isinstance(force, Quantity) and force.unit):

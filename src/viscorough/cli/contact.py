@@ -49,7 +49,7 @@ def contact(
     E/(1 - nu^2) = 4 G.
 
     \b
-    Example, a map in micrometres under F/G = 2 and under 3 square micrometres:
+    Example, a map in micrometres under F/G of 2 and of 3 square micrometres:
         viscorough contact heights.npy --spacing 0.5 --force 2,3 -o fields.nc
     """
     options.require((force is None) != (depth is None), "one of --force and --depth is needed")

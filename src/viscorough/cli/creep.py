@@ -29,10 +29,11 @@ def creep(
     """The medium of a half-space from the measured depth of the indenter whose loading curve is in CURVE.nc.
 
     RECORD.csv has two columns, times and depths, with units in a heading as t [s],u [um] or plain numbers in s and in
-    the unit of length of the curve. At a known depth the curve gives F/G, which is the creep, the integral of J(t - s)
-    dF(s): at once the compliance J(t) for a constant force, else by inversion. MEDIUM.yaml is a medium for viscorough
-    kinetics. A creep table stands in MEDIUM.csv, with the columns time, compliance, low and high: of all J that do not
-    decrease and are concave, the one that fits best, and its interval of 95 % from the scatter of the record.
+    the unit of length of the curve. At a known depth the curve gives F/G, which equals the creep response, the integral
+    of J(t - s) dF(s): at once the compliance J(t) for a constant force, else by inversion. MEDIUM.yaml is a medium for
+    viscorough kinetics. A creep table stands in MEDIUM.csv, with the columns time, compliance, low and high: of all J
+    that do not decrease and are concave, the one that fits best, and its interval of 95 % from the scatter of the
+    record.
 
     A depth that recedes by more than the scatter, or that leaves the curve, is refused.
 

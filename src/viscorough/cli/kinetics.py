@@ -70,7 +70,7 @@ def kinetics(
     from viscorough.io.motion import kinetics_to_content
     from viscorough.viscous import correspondence
 
-    files.check_output(output, force_history=force_history, medium=medium)
+    files.check_output(output, curve=curve, force_history=force_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
     load: Any

@@ -13,7 +13,7 @@ from viscorough.cli import files, messages, options, surface_options
 @surface_options.heights_input("file")
 @click.option("-o", "--output", type=options.FILE, required=True, metavar="FIGURE", help="A .png, .pdf or .svg file.")
 def plot(surface: surface_options.Surface, output: Path) -> None:
-    """Draw what is in FILE: what another command wrote (.nc, .csv), or a map of heights, read as by viscorough indent.
+    """Draw what is in FILE: what another command wrote (.nc), or a map of heights, read as by viscorough indent.
 
     A surface is a map of heights; fields of a contact are maps of pressure, gap and contact; a loading curve is force
     over depth, stiffness and contact fraction over force; a motion is depth and velocity over time. Maps have the first

@@ -18,6 +18,7 @@ _LAST_WORD = re.compile(
     r"(?:.*[\s_:;])?((?:[kMmunpµμ]|kilo|milli|micro|nano)?(?:[sN]|sec|seconds?|newtons?)"
     r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1|[munµμ]m)"
 )
+_LOAD, _TIME = (re.compile(rf"(?:{names})(?![^\W\d_])", re.IGNORECASE) for names in ("force|depth|f|u", "time|t"))
 _LETTER = re.compile(r"[^\W\d_]")
 _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
 # What spreadsheets write for a number that is missing, such as #N/A, looks like a comment.
@@ -80,6 +81,8 @@ def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[floa
     fields = [field.strip('# \t"') for field in heading.split(",")]
     if len(fields) != 2 or fields[0] == fields[1] or not all(map(_LETTER.search, fields)):
         raise ValueError(f"{heading[:40]!r} is neither two numbers nor the names of two columns")
+    if _LOAD.match(fields[0]) or _TIME.match(fields[1]):
+        raise ValueError(f"the heading {heading[:40]!r}: times are needed in the first column")
     factors = [1.0, 1.0]
     for i, (field, unit) in enumerate(zip(fields, wanted, strict=True)):
         stated = _unit_in(field)

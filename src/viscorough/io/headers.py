@@ -21,6 +21,11 @@ _NUMBER = r"[+-]?(?:\d+(?:[.,]\d+|\.)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _LENGTH = re.compile(rf"[(\[]?({_NUMBER})\s*[(\[]?([^\d\s,;()\[\]/]*)(?:/(?:px|pixel|point))?[)\]]?", re.IGNORECASE)
 _STATEMENT = re.compile(r"[\s#%/;!*\"'|]*([^\W\d_][^:=()\[\]\"]*?)\s*(?:[(\[]([^)\]]*)[)\]])?\"?\s*[:=](.*)")
 _COLUMN = re.compile(r"([xyz])(?:[\[(/_]([^\])]*)[\])]?)?", re.IGNORECASE)
+_FACTOR = re.compile(
+    r"(?:height|z|data|value)\W*(?:conversion|scal(?:e|ing))?\W*factor|(?:(?:height|z|data|value)\W*)?"
+    r"(?:scal(?:e|ing)|multiplier)(?:\W*factor)?$",
+    re.IGNORECASE,
+)
 _DEGREES = {"lon", "lat", "longitude", "latitude"}
 
 _STEPS = (
@@ -83,7 +88,7 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str) -> H
         key, value = match[1], match[3].strip(" \t,;|\"'")
         if role := _role(key):
             stated[role].append((line.strip()[:80], match[2] or "", value))
-        elif re.match(r"(?i)(?:height|z|data|value)\W*(?:conversion|scale)?\W*factor", key):
+        elif _FACTOR.match(key) and _LENGTH.match(value):
             text = "heights are the numbers times a factor; without this line, and with --scale, they are read"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")
         elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and units.is_length(_unit_text(value)):
@@ -194,6 +199,8 @@ def _columns(lines: Sequence[str], count: int) -> tuple[tuple[str, ...] | None, 
         text = re.sub(r"\s+(?=[\[(/])|(?<=/)\s+", "", line.strip("#%/;,!| \t").replace('"', ""))
         cells = [cell.strip() for cell in re.split(r"[,;\t]" if re.search(r"[,;\t]", text) else r"\s+", text)]
         matches = [_COLUMN.fullmatch(cell) for cell in cells]
+        if len(cells) == count == 3 and [m and m[1].lower() for m in matches] == ["x", "y", None]:  # z has another name
+            matches[2] = _COLUMN.fullmatch(re.sub(r"^[^\W\d_][^\[(/_]*", "z", cells[2]))
         axes = tuple(match[1].lower() if match else "" for match in matches)
         if names is None and len(cells) == count and sorted(filter(None, axes)) == ["x", "y", "z"]:
             names, found = axes, {match[1].lower(): match[2] for match in matches if match and match[2] is not None}

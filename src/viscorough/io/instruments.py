@@ -12,6 +12,9 @@ from viscorough.io.atomic import reason
 from viscorough.io.scan import Scan
 from viscorough.types import FilePath
 
+# Formats that hold plain arrays, with rows along y; SurfaceTopography's first index runs along x.
+_OF_ARRAYS = ("npy", "npz", "mat", "h5")
+
 
 def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
     """The Scan in a file of any format that SurfaceTopography knows; its formats are told apart by their contents.
@@ -21,8 +24,9 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 
     Raises a one-line ValueError for files of no known format, line scans and channels that hold no heights.
     """
-    if not Path(path).exists():
-        raise ValueError(f"{path}: not readable (No such file or directory); a file of heights is needed")
+    if not Path(path).exists() or not Path(path).stat().st_size:
+        fault = "it is empty" if Path(path).exists() else "No such file or directory"
+        raise ValueError(f"{path}: not readable ({fault}); a file of heights is needed")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about optional packages
@@ -34,16 +38,22 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         warnings.simplefilter("ignore")  # about the layout of files, which no user can change
         try:
             with open_topography(str(path)) as file:
+                kind, suffix = file.format(), Path(path).suffix.lower()
+                if kind == "hgt" and suffix != ".hgt":  # which any file of a suitable size could be
+                    raise ValueError("no known format")
                 chosen, others = _choose(file, channel)
                 # A size is required also where the file states none; it is not used then.
                 size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
                 topography = chosen.topography(**size)
                 heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
+                # HDF5 files that MATLAB wrote hold its arrays transposed.
+                if kind not in _OF_ARRAYS or (kind == "h5" and suffix == ".mat"):
+                    heights = heights.T
         except MemoryError:
             raise
         except Exception as error:  # each format raises other errors
-            kind = "no known format" if type(error).__name__ == "CannotDetectFileFormat" else reason(error)[:200]
-            raise ValueError(f"{path}: not readable ({kind}); a file of heights is needed") from error
+            fault = "no known format" if type(error).__name__ == "CannotDetectFileFormat" else reason(error)[:200]
+            raise ValueError(f"{path}: not readable ({fault}); a file of heights is needed") from error
     if others:
         text = f"the channel {chosen.channel_id!r} is read; --channel chooses another of {', '.join(map(repr, others))}"
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
@@ -52,9 +62,9 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     unit = chosen.unit or units.UNKNOWN
     if chosen.physical_sizes is None:
-        return Scan(heights.T, unit, None, unit)
+        return Scan(heights, unit, None, unit)
     dx, dy = map(float, chosen.pixel_size)
-    return Scan(heights.T, unit, (dx, dy), unit)
+    return Scan(heights, unit, (dx, dy), unit)
 
 
 def _choose(file: Any, wanted: str | None) -> Any:

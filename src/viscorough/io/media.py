@@ -95,6 +95,12 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
     return make(**{key: _values(key, mapping[key], length_unit) for key in keys})
 
 
+def creep_table_of(path: FilePath) -> Path | None:
+    """The file that a medium in a YAML file names, which may be missing; None for a medium without one."""
+    name = _mapping(path).get("file")
+    return Path(path).parent / name if isinstance(name, str) and name and "\0" not in name else None
+
+
 def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: Any) -> None:
     """Write an IdentifiedMedium as YAML for `read_medium`, atomically; of a creep table, J stands in a table beside it.
 

@@ -45,6 +45,8 @@ def read_text(path: FilePath) -> Scan:
     lines = _decoded(path).split("\n")
     if lines[0].startswith("Zygo XYZ Data File"):
         return zygo_scan(lines)
+    if any(line.startswith('# source: "viscorough') for line in lines[:100]):
+        raise ValueError("a table that viscorough wrote holds no map of heights; one is needed")
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
         almost = [f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)]
@@ -256,8 +258,10 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
 
 def _check_labels(table: Array) -> None:
     """Raise ValueError if the first column or row counts up evenly, unlike the others, so that it holds no heights."""
+    # Positions along both axes may have any number in the corner where they meet.
+    has_corner = min(table.shape) >= _LEAST_LABELS and _is_even(table[1:, 0]) and _is_even(table[0, 1:])
     for name, first, others in (("column", table[:, 0], table[:, 1:].T), ("row", table[0], table[1:])):
-        even = first.size >= _LEAST_LABELS and _is_even(first[1:] if np.isnan(first[0]) else first)
+        even = first.size >= _LEAST_LABELS and _is_even(first[1:] if has_corner or np.isnan(first[0]) else first)
         if even and len(others) and not any(map(_is_even, others)):
             text = "counts up evenly, unlike the others, as positions do"
             raise ValueError(f"the first {name} {text}; heights alone, or columns x, y, z, are needed")

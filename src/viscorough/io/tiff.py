@@ -43,6 +43,9 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
                 return read_instrument(path, channel)
             if page.samplesperpixel != 1:
                 raise ValueError(f"a picture of {page.samplesperpixel} colours; a map of heights is needed")
+            if page.photometric in (0, 3):
+                text = "in which low numbers are white" if page.photometric == 0 else "in false colours"
+                raise ValueError(f"a picture {text}; a map of heights is needed")
             is_calibrated = file.is_imagej and "cf" in (file.imagej_metadata or {})
             if is_calibrated or re.search('role="(scale|offset)"', _gdal_metadata(page)):
                 text = "its numbers are heights only after a scale and an offset are applied"

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.io
 
 from support.contract import refused
 from viscorough import AccuracyWarning, read_heights
@@ -65,11 +66,30 @@ def test_channels(tmp_path):
             read_heights(tmp_path / "a.h5", channel=channel)
 
 
+@pytest.mark.parametrize("name", ["a.mat", "a.npz", "a.bin", "a.h5"])
+def test_arrays_have_rows_along_y(tmp_path, name):
+    heights = np.random.default_rng(1).random((3, 5))
+    with open(tmp_path / name, "wb") as file:
+        if name == "a.mat":
+            scipy.io.savemat(file, {"heights": heights})
+        elif name == "a.npz":
+            np.savez(file, heights=heights)
+        elif name == "a.bin":
+            np.save(file, heights)
+        else:
+            h5py = pytest.importorskip("h5py")
+            with h5py.File(file, "w") as content:
+                content["heights"] = heights
+    np.testing.assert_array_equal(read_heights(tmp_path / name, 1.0).heights, heights)
+
+
 def test_bad_files_are_one_line(tmp_path):
     (tmp_path / "noise.x3p").write_bytes(bytes(range(256)) * 4)
+    (tmp_path / "square.raw").write_bytes(np.random.default_rng(1).bytes(2 * 50**2))
+    (tmp_path / "empty.x3p").touch()
     (tmp_path / "cut.top").write_bytes((FILES / "top-1.top").read_bytes()[:9000])
     (tmp_path / "lines.sdf").write_text("1.0 2.0\n1.5 2.5\n2.0 3.0\n")
-    for name in ("noise.x3p", "cut.top", "lines.sdf", "missing.plu"):
+    for name in ("noise.x3p", "square.raw", "empty.x3p", "cut.top", "lines.sdf", "missing.plu"):
         with refused(name) as error:
             read_heights(tmp_path / name, 1.0)
         assert len(str(error.value)) < 400

@@ -72,7 +72,10 @@ def test_units_of_creep_tables_are_converted(tmp_path):
     [
         *[f"{heading}\n0,1\n1,2\n" for heading in ("F [N],t [s]", "F mN,t ms", "t [Sek],F", "t,F [kp]", "t [],F")],
         *[f"{heading}\n0,1\n1,2\n" for heading in ("# time in ms", "# t [ms] F [mN]", "# t [ms],F [kp]", "t,F\nms,mN")],
-        *[f"{heading}\n0,1\n1,2\n" for heading in ("force", "t,F,u", "t,t", "t,", "-,-", "−1,−2", "#DIV/0!,-1")],
+        *[
+            f"{heading}\n0,1\n1,2\n"
+            for heading in ("force", "force,time", "F,t", "t,F,u", "t,t", "t,", "-,-", "−1,−2", "#DIV/0!,-1")
+        ],
         *["0,1\n# in kN\n1,2\n", "#N/A,1\n1,2\n2,3\n", "0,1\n#NV,2\n2,3\n3,4\n"],
         *["t;F\n0;1\n1;2\n", "0,5;1,5\n1,5;2,5\n", "0,0,1,5\n1,0,2,5\n", "0,5 1,5\n1,0 2,5\n", "0\t1\n1\t2\n"],
         *['"0","1"\n"1","2"\n', "0,1\n1,\n2,3\n", "0,1\n1\n2,3\n", "0,1_0\n1,2_0\n", "", "time,force\n0,1\n"],

@@ -161,7 +161,13 @@ BAD = [
         (f"{heading}\n{CORNERS}", "not stated")
         for heading in ("x y z\num um nm", "x in um, y in um, z in nm", "z [nm]")
     ],
-    (f"# Height conversion factor (-> m): 1e-9\n{SQUARE}", "times a factor"),
+    *[
+        (f"# {factor}\n{SQUARE}", "times a factor")
+        for factor in ("Height conversion factor (-> m): 1e-9", "Z-Scale: 0.001 um", "Multiplier = 10")
+    ],
+    ('# source: "viscorough 1.0.0"\ntime,depth\n0,1\n1,2\n', "holds no map of heights"),
+    ("9 0 1 2 3 4 5\n" + "".join(f"{i} 3 1 4 1 5 {i * i % 7}\n" for i in range(6)), "counts up evenly"),
+    ("x,y,height\n0,0,1\n1.1,0.3,2\n2.7,1.9,3\n", "form no grid"),
     (f"# dx=1 m, dy=1 m\n{SQUARE}", "not a length"),
     (f"# pixel size: 1,234 nm\n# unit: nm\n{SQUARE}", "1,234 is 1234 or 1.234"),
     (f"# dx: 1 nm\n# unit: nm\n{SQUARE}", "between rows is not stated"),

@@ -98,8 +98,11 @@ def test_bad_files_are_one_line(tmp_path):
     whole = geotiff(tmp_path / "fathoms.tif", PROJECTED, (3076, 9014), VERTICAL_METRES).read_bytes()
     (tmp_path / "cut.tif").write_bytes(whole[:-90])
     tifffile.imwrite(tmp_path / "colours.tif", np.zeros((5, 7, 3), "u1"), photometric="rgb")
+    tifffile.imwrite(tmp_path / "false.tif", np.zeros((5, 7), "u1"), colormap=np.zeros((3, 256), "u2"))
+    tifffile.imwrite(tmp_path / "white.tif", np.zeros((5, 7), "u1"), photometric="miniswhite")
     tifffile.imwrite(tmp_path / "several.tif", np.zeros((2, 5, 7)), photometric="minisblack")
     complaints = {"fathoms": "EPSG:9014", "cut": "not readable", "missing": "not readable", "colours": "3 colours"}
+    complaints |= {"false": "in false colours", "white": "low numbers are white"}
     for name, what in (complaints | {"several": "2 pages; --channel 0 to 1"}).items():
         with refused(f"{name}.tif.*{what}"):
             read_heights(tmp_path / f"{name}.tif", 1)

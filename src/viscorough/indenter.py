@@ -1,7 +1,6 @@
 """Rigid indenters: height maps and lines, with the spacing of their points."""
 
 import math
-import sys
 from dataclasses import dataclass
 from typing import Any
 
@@ -153,8 +152,6 @@ def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
             f"indenter spacing: {spacing:g} between columns and {row_spacing:g} between rows differ by more than "
             f"a factor of {LARGEST_ASPECT}, which is the largest allowed; resample the map"
         )
-    if not spacing * row_spacing >= sys.float_info.min:
-        raise ValueError(f"indenter spacing: {spacing:g} is too small to represent areas; a smaller unit is needed")
     return spacing, row_spacing
 
 

@@ -22,8 +22,9 @@ def test_rms_slope_and_element_of_a_plane():
 
 
 @pytest.mark.filterwarnings("error")
-def test_rms_slope_that_overflows_is_infinite():
-    assert Indenter(np.array([[0.0, 1e200]]), 1e-150).rms_slope == np.inf
+@pytest.mark.parametrize("spacing", [1e-200, 1e-300])
+def test_rms_slope_that_overflows_is_infinite(spacing):
+    assert Indenter(np.array([[0.0, 1e100]]), spacing).rms_slope == np.inf
 
 
 def test_spacings_and_units_out_of_range_are_refused():
@@ -31,7 +32,6 @@ def test_spacings_and_units_out_of_range_are_refused():
         (((1.0, 2.0, 3.0),), "must be one number or a pair"),
         (("1,2",), "must be a positive number"),
         ((np.nan,), "spacing: must be positive"),
-        ((1e-170,), "too small to represent areas"),
         (((1.0, -2.0),), "must be positive and finite, not -2"),
         ((1.0, 5.1), "differ by more than a factor of 5"),
         ((1.0, None, 3), "length_unit: must be a text"),

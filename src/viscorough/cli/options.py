@@ -100,7 +100,9 @@ viscosity = click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear
 medium = click.option(
     "--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity."
 )
-tolerance = click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy, 1e-12 or more.")
+tolerance = click.option(
+    "--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy, 1e-12 or more."
+)
 threads = click.option(
     "--threads",
     type=click.IntRange(1, 1024),

@@ -2,8 +2,8 @@
 
 The force is a convex function F(u) of the depth, and the contact solver gives F and its exact tangent k at any depth.
 The depth for a large map is first estimated from a map of the highest points of its blocks, solved in the same way.
-Otherwise the contact events are followed, which end at the force while few elements are in contact, and else give the
-exponent of a power law, and this a first guess. On a grid the depth is then adjusted while the contact is solved
+Where this does not help, contact events are followed: while few elements touch, they end at the force; else they give
+the exponent of a power law for a first guess. On a grid the depth is then adjusted while the contact is solved
 (grid.depth_adjustment). Where that is not accurate enough, the next depth lies between a contact below and one above:
 that of the interpolant of a loading curve, in the triangle of chord and tangents, or where the tangents put it. The
 last, small correction follows the tangent.
@@ -34,11 +34,12 @@ _TINY = 1e-300
 # Elements above which the depth is estimated on a map of blocks, their sides in elements, the tolerance there, and the
 # ratio of forces from the last contact from which on it is.
 _LARGE, _SIDE, _COARSE_TOLERANCE, _FAR = 1 << 15, 4, 1e-2, 4.0
-# Least number of blocks in contact for an estimate. The depth of the map exceeds that of the blocks by a share of c
-# over the square root of their number. Self-affine maps of all H had c from 0.6 to 3: a small, likely and large c.
-# Where the depth of the blocks was itself estimated from blocks of them, it tells their c, which is taken to be no less
-# than the last number here; the c of the map was 0.9 to 1.6 times as large.
-_FEWEST_BLOCKS, _EXCESS, _GROWTH_OF_EXCESS, _LEAST_EXCESS = 20, (0.6, 1.2, 2.5), (0.8, 1.1, 1.6), 0.3
+# Least number of blocks in contact for an estimate.
+_FEWEST_BLOCKS = 20
+# The depth of the map exceeds that of the blocks by a share of c over the square root of the number of blocks in
+# contact: a small, likely and large c (self-affine maps had 0.6 to 3). Where blocks of the blocks tell the c of the
+# blocks, or at least the last number, these are multiples of it (the c of the map was 0.9 to 1.6 times as large).
+_EXCESS, _GROWTH_OF_EXCESS, _LEAST_EXCESS = (0.6, 1.2, 2.5), (0.8, 1.1, 1.6), 0.3
 # Deflection of the centre of a square under a uniform pressure, over P.
 _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 
@@ -95,9 +96,9 @@ class ForceSearch:
     def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
         self._below, self._above = solver.unloaded_state(), ContactsAhead()
-        # Up to how many elements in contact events are followed.
+        # Up to how many elements in contact events are followed; the event of the last one may lie beyond the force.
         dense = solver.options.dense_contacts, solver.options.dense_interactions
-        self._events = min(_EVENTS, *dense, solver.elements.count - 1)
+        self._events = int(min(_EVENTS, *dense, solver.elements.count - 1))
         self._of_blocks: tuple[float, float] | None = None
 
     @cached_property
@@ -117,7 +118,7 @@ class ForceSearch:
         target = force / self._solver.units.force
         while self._above and self._above[-1].pressure_sum <= target:
             self._below = self._above.pop()
-        guess, largest_depth = self._estimate(target)
+        guess, sought = self._estimate(target)
         for attempt in range(_MAX_ATTEMPTS):
             if guess and attempt == 0:
                 depth = guess.reduced_depth
@@ -132,8 +133,7 @@ class ForceSearch:
                 guess = None
                 if not (self._below.count and self._above) and (contact := self._follow_events(target)):
                     return contact
-                depth, largest_depth = self._guess(target, attempt)
-            sought = None if self._above else (target, largest_depth)
+                depth, sought = self._guess(target, attempt)
             contact = self._solver.advance_reduced(self._below, depth, sought, guess)
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
             other = self._above[-1] if self._above else self._below
@@ -150,12 +150,12 @@ class ForceSearch:
             f"contact at F/G = {force:g}: the force is not met within {_MAX_ATTEMPTS} depths; choose a larger tolerance"
         )
 
-    def _estimate(self, target: float) -> tuple[ContactState | None, float]:
-        """A guess of the contact at a force, and a depth it hardly exceeds, from a map of blocks, if that helps.
+    def _estimate(self, target: float) -> tuple[ContactState | None, tuple[float, float] | None]:
+        """A guess of the contact at a force, and (force, depth it hardly exceeds), from a map of blocks, if that helps.
 
         An indenter that is nowhere lower carries a force at a smaller depth, so that this is estimated from below.
         """
-        solver, below, nothing = self._solver, self._below, (None, np.inf)
+        solver, below, nothing = self._solver, self._below, (None, None)
         is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
         if solver.elements.count <= _LARGE or is_near or solver.is_flat:
             return nothing
@@ -164,13 +164,13 @@ class ForceSearch:
         try:
             search = ForceSearch(coarse)
             contact = search.contact_at(target * solver.units.force)
-        except ConvergenceError:
+        except (ConvergenceError, ValueError):  # the highest points may be of one height to rounding
             return nothing
         unit = coarse.units.length / solver.units.length
         depth, share = unit * contact.reduced_depth, contact.count**-0.5
         least, likely, largest = (depth * (1 + c * share) for c in search.excess(contact))
         if contact.count < _FEWEST_BLOCKS or least <= below.reduced_depth:
-            solver.candidates(largest, largest)  # ranks no more elements than that
+            solver.candidates(largest, largest)  # so that the first contact does not rank more
             return nothing
         pressure = np.zeros(blocks.heights.shape)
         pressure[coarse.elements.places_on_map(contact.members)] = unit * contact.reduced_pressure
@@ -178,7 +178,7 @@ class ForceSearch:
         likely = min(likely, largest)
         loads = _loads_in_blocks(solver.elements, pressure)
         self._of_blocks = depth, share
-        return ContactState(solver.units, likely, loads.members.size, target, 0.0, loads=loads), largest
+        return ContactState(solver.units, likely, loads.members.size, target, 0.0, loads=loads), (target, largest)
 
     def excess(self, contact: ContactState) -> tuple[float, ...]:
         """A small, likely and large c for the indenter whose blocks this one has; contact : the one found last."""
@@ -202,14 +202,15 @@ class ForceSearch:
         if not ends_at_force or depth > self._solver.elements.ranked_depth:
             return None
         pressure = loads.pressure + (depth - below.reduced_depth) * loads.tangent
-        loads = loads._replace(pressure=pressure)
-        return replace(below, reduced_depth=depth, pressure_sum=target, loads=loads)
+        return replace(below, reduced_depth=depth, pressure_sum=target, loads=loads._replace(pressure=pressure))
 
-    def _guess(self, target: float, attempt: int) -> tuple[float, float]:
-        """Depth to solve next, and the largest one that is likely, from the contacts before."""
+    def _guess(self, target: float, attempt: int) -> tuple[float, tuple[float, float] | None]:
+        """Depth to solve next; with no contact above, also (force that is sought, largest likely depth)."""
         depth = self._next_depth(target, attempt)
+        if self._above:
+            return depth, None
         largest = depth * (depth / self._below.reduced_depth) ** _UNCERTAINTY
-        return depth, largest if self._above else self._solver.depth_of_box(depth, largest)
+        return depth, (target, self._solver.depth_of_box(depth, largest))
 
     def _next_depth(self, target: float, attempt: int) -> float:
         """Depth to solve next, between the nearest contacts below and above the force."""

@@ -16,7 +16,7 @@ _SAMPLE, _MOST_RANGES = 1000, 8
 # The least number of elements to be ranked, and the share of them from which on all are.
 _LEAST, _MOST_SHARE = 1 << 12, 0.5
 # About how many elements are ranked at first where no depth is known, and the size of the sample that tells which.
-_FIRST, _DEPTH_SAMPLE = 1 << 12, 1 << 12
+_FIRST, _DEPTH_SAMPLE = 1 << 12, 1 << 14
 # Depth up to which elements are ranked next where only those of the largest height are, over the largest initial gap.
 _SMALLEST_DEPTH = 1e-3
 
@@ -55,7 +55,10 @@ class Ranking:
 
     def small_depth(self) -> float:
         """A reduced depth up to which there are about as many elements as are ranked in no time."""
-        sample = self._heights.ravel()[:: max(self._count // _DEPTH_SAMPLE, 1)]
+        rows, columns = self._heights.shape
+        places = np.arange(_DEPTH_SAMPLE)  # spread evenly over the map by a quasi-random sequence (R2, Roberts 2018)
+        row, column = (places * 0.7548776662466927 % 1 * rows, places * 0.5698402909980532 % 1 * columns)
+        sample = self._heights[row.astype(int), column.astype(int)]
         gap = np.subtract(self.highest, sample[np.isfinite(sample)], dtype=float) / self.units.length
         return float(np.quantile(gap, min(_FIRST / self._count, 1.0))) if gap.size else np.inf
 

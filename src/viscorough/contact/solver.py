@@ -6,6 +6,7 @@ tangent q, the solution of K q = 1 on the contact set (a flat punch of its shape
 stiffness and P + Δu q the predictor for the depth u + Δu.
 """
 
+import sys
 import warnings
 from dataclasses import replace
 from typing import Any
@@ -49,6 +50,9 @@ def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int
     check_indenter(name, indenter)
     if indenter.heights.ndim != 2:
         raise ValueError(f"{name}: the indenter's heights must be two-dimensional (lines are for reduce)")
+    if indenter.spacing * indenter.row_spacing < sys.float_info.min:
+        text = f"a spacing of {indenter.spacing:g} is too small to represent areas"
+        raise ValueError(f"{name}: {text}; a smaller unit of length is needed")
     if not 1e-12 <= tolerance <= 0.1:
         raise ValueError(f"{name}: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
     require_threads(name, threads)
@@ -249,9 +253,10 @@ class ContactSolver:
         return int(np.searchsorted(self.elements.initial_gap, depth))
 
     def depth_of_box(self, depth: float, deepest: float) -> float:
-        """A reduced depth up to the deepest one for which a box is hardly larger than for the first depth.
+        """A reduced depth up to a deeper one for which a box is hardly larger than for the first one.
 
-        A single element far from all others, which hardly will touch, can make the box many times as large.
+        Elements are ranked up to the deeper one. A single element far from all others, which will hardly touch, can
+        make the box many times as large.
         """
         rank, reach = (max(self.candidates(u, deepest), 1) for u in (depth, deepest))
         area = np.ones(reach - rank + 1)

@@ -45,6 +45,7 @@ MISTAKES = [
     (f"{CONTACT_UM} --force '1 mN'", "a force needs --shear-modulus or --young"),
     (f"{CONTACT_UM} --force '1 Pa' --young 1", QUANTITY),
     (f"{CONTACT} --force '1 mN' --shear-modulus 1", NO_UNIT),
+    (f"{CONTACT.replace('--spacing 1', '--spacing 1e-170')} --depth 1", "too small to represent areas"),
     (f"{CONTACT} --depth 1e300", "up to which depths are allowed"),
     (f"{CONTACT} --force 1 --shear-modulus 1 --young 1", EXCLUDE),
     (f"{CONTACT} --force 1 --shear-modulus 1 --poisson 0.3", "--poisson is for use with --young"),

@@ -119,15 +119,16 @@ def test_hills_that_are_not_reached_stay_outside_the_box():
     assert np.count_nonzero(inside) < 0.1 * heights.size
 
 
-@pytest.mark.parametrize("hurst", [0.2, 0.8])
-def test_depth_of_blocks_tells_that_of_the_contact(hurst):
-    """From few elements in contact to complete contact; blocks at the edges have fewer elements."""
+@pytest.mark.parametrize(("hurst", "large"), [(0.2, 1 << 15), (0.8, 1 << 15), (0.8, 1 << 10)])
+def test_depth_of_blocks_tells_that_of_the_contact(hurst, large, monkeypatch):
+    """From few elements in contact to complete contact; blocks at the edges, or of blocks, have fewer elements."""
+    monkeypatch.setattr(prescribed_force, "_LARGE", large)
     rough = Indenter(self_affine_square(hurst, 403, seed=5)[:, :390], 1.0, 1.3)
     for force in (200.0, 2e3, 2e4):
         contact = contact_at(rough, force=force)
         least = contact_at(prescribed_force._highest_of_blocks(rough), force=force).depth
         solver = ContactSolver(rough, 1e-3)
-        guess, largest = ForceSearch(solver)._estimate(force / solver.units.force)
+        guess, (_, largest) = ForceSearch(solver)._estimate(force / solver.units.force)
         assert 0.7 * contact.depth < least < contact.depth < largest * solver.units.length < 1.4 * contact.depth
         assert guess.pressure.sum() * rough.spacing * rough.row_spacing == pytest.approx(force)
         exact = contact.pressure[solver.elements.places_on_map(guess.members)]
@@ -162,6 +163,14 @@ def test_loads_of_blocks_that_are_exact(monkeypatch):
     curve = indent(Indenter(heights - 1e-3 * np.arange(24), 1.0), forces=forces, tolerance=1e-6, options=options)
     punch = indent(Indenter(np.zeros((1, 1)), 1.0), forces=forces)
     np.testing.assert_allclose(curve.depth, punch.depth, rtol=1e-6)
+
+
+def test_blocks_of_one_height_to_rounding():
+    wave = np.sin(np.pi * np.arange(200) / 2) ** 2
+    contact = contact_at(Indenter(-np.add.outer(wave, wave), 1.0), force=1e3)
+    assert contact_at(Indenter(-np.add.outer(wave, wave), 1.0), depth=contact.depth).force == pytest.approx(
+        1e3, rel=1e-3
+    )
 
 
 def test_a_force_that_is_not_met_is_named(monkeypatch):

@@ -70,6 +70,14 @@ def test_elements_ranked_step_by_step_are_those_of_all_at_once(indenter, few_ran
             np.testing.assert_array_equal(getattr(elements, name), getattr(everything, name)[:ranked])
 
 
+@pytest.mark.parametrize("across", [1000, 1024, 4096])
+def test_few_elements_are_ranked_at_first_whatever_the_size(across):
+    x = np.linspace(-1, 1, across, dtype="f4")
+    steps = Ranking(Indenter(-np.add.outer(x**2, x**2), 1.0))
+    ranked = steps.up_to(steps.first(np.inf), steps.small_depth())
+    assert ranking._FIRST / 2 < ranked.initial_gap.size < 2 * ranking._FIRST
+
+
 @pytest.mark.parametrize("given", [{"depth": [0.02, 0.3, 1.0]}, {"force": [0.01, 1.0, 30.0]}])
 def test_contacts_are_those_with_all_elements_ranked(indenter, given, few_ranked, monkeypatch):
     tolerance = 1e-6

@@ -27,7 +27,7 @@ from viscorough_study.run.seeds import random_indenter_key, realization_seed
 def as_on_large_maps(case):
     """Failure of the curve of a case with restricted operators, estimates from blocks and few elements ranked."""
     with (
-        patch.multiple(ranking, _LEAST=50, _FIRST=50),
+        patch.multiple(ranking, _LEAST=50, _LEAST_OF_CURVES=50, _FIRST=50),
         patch.multiple(prescribed_force, _LARGE=1, _FEWEST_BLOCKS=1),
         patch.multiple(tiles, _LEAST=0, _LARGEST_SHARE=1, SIDE=8),
     ):

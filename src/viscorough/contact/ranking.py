@@ -13,8 +13,9 @@ from viscorough.types import Array, Integers
 
 # Sample size for choosing sort ranges, and the largest number of ranges.
 _SAMPLE, _MOST_RANGES = 1000, 8
-# The least number of elements to be ranked, and the share of them from which on all are.
-_LEAST, _MOST_SHARE = 1 << 12, 0.5
+# The least number of elements to be ranked, that for curves, which come to need all of them, and the share of them from
+# which on all are.
+_LEAST, _LEAST_OF_CURVES, _MOST_SHARE = 1 << 12, BLOCK, 0.5
 # About how many elements are ranked at first where no depth is known, and the size of the sample that tells which.
 _FIRST, _DEPTH_SAMPLE = 1 << 12, 1 << 14
 # Depth up to which elements are ranked next where only those of the largest height are, over the largest initial gap.
@@ -44,12 +45,15 @@ class Ranking:
             rows, columns = (int(last - first) + 1 for first, last in bounds)
             self._shape = rows, columns
 
-    def first(self, depth: float) -> Elements:
-        """The Elements up to a reduced depth; all of a small map, none of a large one where the depth is infinite."""
+    def first(self, depth: float, whole: bool = False) -> Elements:
+        """The Elements up to a reduced depth; all of a small map, none of a large one where the depth is infinite.
+
+        whole : whether all will be needed
+        """
         nothing = np.empty(0, np.int32)
         fixed = self._origin, self._shape, self._aspect
         elements = Elements(nothing, nothing, np.empty(0), *fixed, unranked=self._count, ranked_depth=-1.0)
-        if self._count <= _LEAST:
+        if self._count <= (_LEAST_OF_CURVES if whole else _LEAST):
             return self.up_to(elements, np.inf)
         return self.up_to(elements, depth) if np.isfinite(depth) else elements
 

@@ -107,7 +107,7 @@ class ContactSolver:
         self._grid: GridSolver | None = None
         self._reach, self._former_applications = 0, 0
         self._largest_depth = largest_depth / self.units.length
-        self.elements = self._ranking.first(self._largest_depth)
+        self.elements = self._ranking.first(self._largest_depth, whole)
 
     @property
     def operator_applications(self) -> int:

@@ -41,7 +41,7 @@ def indenter(request):
 @pytest.fixture
 def few_ranked(monkeypatch):
     """As on maps of millions of elements: few are ranked at first, operators restricted, and depths estimated."""
-    for name in ("_LEAST", "_FIRST"):
+    for name in ("_LEAST", "_LEAST_OF_CURVES", "_FIRST"):
         monkeypatch.setattr(ranking, name, 50)
     for name in ("_LARGE", "_FEWEST_BLOCKS"):
         monkeypatch.setattr(prescribed_force, name, 1)
@@ -104,7 +104,7 @@ def test_a_force_that_the_highest_terrace_carries_alone_is_met(few_ranked):
 
 def test_curves_are_those_with_all_elements_ranked(indenter, few_ranked, monkeypatch):
     curve = indent(indenter, until_fraction=0.4)
-    monkeypatch.setattr(ranking, "_LEAST", 10**6)
+    monkeypatch.setattr(ranking, "_LEAST_OF_CURVES", 10**6)
     expected = indent(indenter, until_fraction=0.4)
     inside = expected.force <= curve.force[-1]
     depth, _ = curve.at_force(expected.force[inside])

@@ -88,7 +88,7 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str) -> H
         key, value = match[1], match[3].strip(" \t,;|\"'")
         if role := _role(key):
             stated[role].append((line.strip()[:80], match[2] or "", value))
-        elif _FACTOR.match(key) and _LENGTH.match(value):
+        elif _FACTOR.match(key) and ("factor" in key.lower() or _LENGTH.match(value)):
             text = "heights are the numbers times a factor; without this line, and with --scale, they are read"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")
         elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and units.is_length(_unit_text(value)):

@@ -163,7 +163,12 @@ BAD = [
     ],
     *[
         (f"# {factor}\n{SQUARE}", "times a factor")
-        for factor in ("Height conversion factor (-> m): 1e-9", "Z-Scale: 0.001 um", "Multiplier = 10")
+        for factor in (
+            "Height conversion factor (-> m): 1e-9",
+            "Z factor: about 2",
+            "Z-Scale: 0.001 um",
+            "Multiplier = 10",
+        )
     ],
     ('# source: "viscorough 1.0.0"\ntime,depth\n0,1\n1,2\n', "holds no map of heights"),
     ("9 0 1 2 3 4 5\n" + "".join(f"{i} 3 1 4 1 5 {i * i % 7}\n" for i in range(6)), "counts up evenly"),

@@ -23,12 +23,14 @@ from viscorough_study.run.seeds import light_map_key, realization_seed
 
 # Other solvers are stopped after this many times our time, or after the shortest time.
 SLOWER, SHORTEST = 20, 2.0  # [s]
+# Most repetitions of our own solutions, of which a small map takes as many as last SHORTEST.
+MOST_REPEATS = 40
 # Corrections of the force towards a contact fraction, and the tolerance of the contacts that tell it.
 CORRECTIONS, TOLERANCE = 3, 1e-2
 COLUMNS = {
     "fraction": ("contact fraction that the load was chosen for", "1"),
     **{name: text for name, text in solver_comparison.COLUMNS.items() if name not in ("task", "levels", "force_error")},
-    "at_depth_s": ("time of our solution at the depth that was found instead of the force, median", "s"),
+    "over_depth": ("time of our solution on one thread over that at the depth instead, run in turn, of medians", "1"),
     "ranking_s": ("time of reading the map and ranking the elements that can touch, median", "s"),
 }
 
@@ -86,11 +88,10 @@ def time_light_contact(*, seed, hurst, residual, elements, fractions, threads, r
             table = solver_comparison.compare_solvers(load, racing, **limits)
             # One that did not finish is not waited for again on a larger map.
             stopped |= {(name, fraction) for name in racing if name not in set(table["solver"])}
-            others = {"at_depth_s": load.solve_at_depth, "ranking_s": load.rank}
-            medians = {
-                name: np.median([timing.timed(solve)[1] for _ in range(pairs)]) for name, solve in others.items()
-            }
-            tables.append(table.assign(fraction=fraction, **medians))
+            own = {"force": partial(load.solve, 1), "depth": load.solve_at_depth, "ranking": load.rank}
+            times = timing.interleaved(own, max(pairs, min(MOST_REPEATS, int(SHORTEST / seconds))))
+            at_force, at_depth, ranking = (times[name][0] for name in own)
+            tables.append(table.assign(fraction=fraction, over_depth=at_force / at_depth, ranking_s=ranking))
     return pd.concat(tables)[list(COLUMNS)]
 
 

@@ -1,8 +1,8 @@
 """Common part of the adapters of other contact solvers: request, timing of the levels, answer. Needs numpy only.
 
-viscorough_study.performance.other_solvers describes the request, the answer and their units: lengths are in element
-sides and pressures in shear moduli G; E = 3, ν = 1/2, E* = 4. A solver is a class that is called with a Problem and has
-the method `solve` (see answer_request).
+benchmarks/other_solvers.py describes the request, the answer and their units: lengths are in element sides and
+pressures in shear moduli G; E = 3, ν = 1/2, E* = 4. A solver is a class that is called with a Problem and has the
+method `solve` (see answer_request).
 """
 
 import resource

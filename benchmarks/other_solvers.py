@@ -1,6 +1,6 @@
 """Other public contact solvers, run on the same levels as the elastic loading path, in separate environments.
 
-Each solver is driven by an adapter (workflow/peers), a script for the Python of the solver's environment, which lacks
+Each solver is driven by an adapter (peers/), a script for the Python of the solver's environment, which lacks
 this package. Request and answer are .npz files, whose names are arguments of the adapter. Lengths are in element sides
 and pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and E* = E/(1 − ν²) = 4.
 
@@ -29,11 +29,22 @@ import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
+import click
 import numpy as np
 from scipy.fft import next_fast_len
 
 from viscorough.contact.halfspace.operator import Halfspace
 
+ROOT = Path(__file__).resolve().parents[1]
+# {solver: environment that `make peers` builds, adapter in peers/, and its mode}
+ADAPTERS = {
+    "ASPHER": (".venv-peers", "aspher", "levels"),
+    "ASPHER nested": (".venv-peers", "aspher", "nested"),
+    "ASPHER active set": (".venv-peers", "aspher", "active_set"),
+    "ContactMechanics": (".venv-peers", "contactmechanics"),
+    "SlipPY": (".venv-slippy", "slippy"),
+    "Tamaas": (".venv-peers", "tamaas"),
+}
 # Variables of the number of threads, which libraries read on loading.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -56,6 +67,19 @@ class Solution:
     wall_s: float
     processor_s: float
     memory: float
+
+
+def installed(names):
+    """{solver: command that runs its adapter} of the solvers whose environments exist; a message names the others."""
+    commands = {}
+    for name in names:
+        environment, adapter, *mode = ADAPTERS[name]
+        python = ROOT / environment / "bin/python"
+        if python.is_file():
+            commands[name] = [str(python), str(ROOT / f"peers/{adapter}_adapter.py"), *mode]
+        else:
+            click.echo(f"{name} is not installed and is omitted (make peers installs it)", err=True)
+    return commands
 
 
 def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, threads=1):

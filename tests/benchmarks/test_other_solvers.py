@@ -5,19 +5,16 @@ factor in the adapter shows in the forces. In the comparison itself it would sho
 from the pressures of every solver.
 """
 
-import os
 import sys
 
 import numpy as np
+import other_solvers
 import pytest
 
 from support import dense_contact
 from support.workflow import HANGS, ROOT
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
-from viscorough_study.performance import other_solvers
-
-ADAPTERS, SUPPORT = ROOT / "workflow/peers", ROOT / "tests/support"
 
 
 @pytest.fixture(scope="module")
@@ -28,21 +25,11 @@ def indenter():
     return Indenter(heights, 0.7)
 
 
-@pytest.fixture
-def stand_in(tmp_path, monkeypatch):
-    """The stand-in on the path of other processes, with its version."""
-    metadata = tmp_path / "aspher-4.5.dist-info/METADATA"
-    metadata.parent.mkdir()
-    metadata.write_text("Metadata-Version: 2.1\nName: aspher\nVersion: 4.5\n")
-    paths = (tmp_path, SUPPORT, SUPPORT / "other_solvers")
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(map(str, paths)))
-
-
-@pytest.mark.usefixtures("stand_in")
+@pytest.mark.usefixtures("aspher")
 @pytest.mark.parametrize("mode", ["levels", "nested", "active_set"])
 def test_adapter_solves_the_problem_of_the_request(mode, indenter):
     exact = indent(indenter, tolerance=1e-11, depths=[0.1, 0.2, 1.0])
-    command = [sys.executable, str(ADAPTERS / "aspher_adapter.py"), mode]
+    command = [sys.executable, str(ROOT / "peers/aspher_adapter.py"), mode]
     levels = "aspher", command, indenter, exact.depth, exact.force
     fine, coarse = (other_solvers.solve(*levels, tolerance, time_limit=HANGS) for tolerance in (1e-12, 1e-3))
     assert fine.version == "4.5"
@@ -57,3 +44,18 @@ def test_adapter_solves_the_problem_of_the_request(mode, indenter):
     assert 0 < fine.wall_s < HANGS
     assert other_solvers.solve(*levels, 1e-12, time_limit=1e-6) is None
     assert 1e7 < fine.memory < 1e9
+
+
+def test_pressure_outside_the_indenter_is_no_solution(indenter):
+    pressure = np.zeros(indenter.heights.shape)
+    pressure[0, 0] = 1.0
+    assert other_solvers.contact_residual(indenter.initial_gap / indenter.spacing, pressure) == np.inf
+    assert other_solvers.padded_size(17) == 24
+
+
+def test_solvers_that_are_not_installed_are_named(tmp_path, monkeypatch, capsys):
+    adapters = {"absent": (tmp_path, "aspher"), "present": (sys.prefix, "tamaas", "mode")}
+    monkeypatch.setattr(other_solvers, "ADAPTERS", adapters)
+    (command,) = other_solvers.installed(adapters).values()
+    assert command == [f"{sys.prefix}/bin/python", str(ROOT / "peers/tamaas_adapter.py"), "mode"]
+    assert capsys.readouterr().err == "absent is not installed and is omitted (make peers installs it)\n"

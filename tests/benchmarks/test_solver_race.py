@@ -1,13 +1,18 @@
-"""Other solvers: their processes, residuals, and the comparison on one task, with solutions made here."""
+"""The race: the comparison on one task with solutions made here, and a small race with a stand-in for a solver."""
 
+import json
 import sys
 
 import numpy as np
+import other_solvers
+import pandas as pd
 import pytest
+import solver_race
+import xarray as xr
+from click.testing import CliRunner
 
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces import self_affine_disc
-from viscorough_study.performance import other_solvers, solver_comparison
 
 
 @pytest.fixture(scope="module")
@@ -36,15 +41,8 @@ def stand_in(monkeypatch):
 
 def compared(disc, exact, solvers, pairs=1, **task):
     """Table of the solvers and the path, at the three levels to a residual of 1e-4."""
-    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4, **task)
-    return solver_comparison.compare_solvers(task, solvers, pairs=pairs, time_limit=20)
-
-
-def test_pressure_outside_the_indenter_is_no_solution(disc):
-    pressure = np.zeros(disc.heights.shape)
-    pressure[0, 0] = 1.0
-    assert other_solvers.contact_residual(disc.initial_gap / disc.spacing, pressure) == np.inf
-    assert other_solvers.padded_size(len(pressure)) == 24
+    task = solver_race.Task("three levels", 0.7, disc, exact.depth, 1e-4, **task)
+    return solver_race.compare_solvers(task, solvers, pairs=pairs, time_limit=20)
 
 
 def test_a_solver_that_fails_is_reported_and_left_out_and_one_that_is_late_left_out(disc, exact, tmp_path):
@@ -57,12 +55,11 @@ def test_a_solver_that_fails_is_reported_and_left_out_and_one_that_is_late_left_
         table = compared(disc, exact, solvers)
     assert len(warned) == 1
     assert table["solver"].tolist() == ["viscorough"]
-    assert solver_comparison.installed_solvers({"absent": [str(tmp_path / "python")]} | solvers) == solvers
 
 
 def test_comparison_uses_the_loosest_tolerance_that_meets_the_residual(disc, exact, stand_in):
     table = compared(disc, exact, {"stand-in": stand_in()}, pairs=3, threads=(1, 2))
-    assert list(table.columns) == list(solver_comparison.COLUMNS)
+    assert list(table.columns) == list(solver_race.COLUMNS)
     assert table["solver"].tolist() == ["viscorough", "viscorough", "stand-in", "stand-in"]
     np.testing.assert_allclose(table["tolerance"], 1e-4)  # three times that would leave 1.8e-4
     assert (table["met"] == 1).all()
@@ -85,10 +82,33 @@ def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):
     table = compared(disc, exact, {"stand-in": stand_in(least=0.01)})
     assert table["met"].tolist() == [1, 0]
     assert table[["wall_s", "ratio"]].isna().all(axis=1).tolist() == [False, True]
-    assert table["tolerance"][1] == pytest.approx(min(solver_comparison.TOLERANCE_RATIOS) * 1e-4)
+    assert table["tolerance"][1] == pytest.approx(min(solver_race.TOLERANCE_RATIOS) * 1e-4)
 
 
 def test_a_task_is_at_the_contact_fractions_asked_for():
-    task = solver_comparison.disc_task("few", 0.7, 33, [0.05, 0.3], 1e-4, seed=2, threads=[1, 2])
+    task = solver_race.disc_task("few", 0.7, 33, [0.05, 0.3], (1, 2), seed=2)
     curve = indent(task.indenter, tolerance=1e-6, depths=task.depths)
     np.testing.assert_allclose(curve.contact_fraction, [0.05, 0.3], rtol=0.1)
+
+
+@pytest.mark.usefixtures("aspher")
+def test_small_race(tmp_path, monkeypatch):
+    monkeypatch.setattr(solver_race, "HURST", (0.4, 0.8))
+    monkeypatch.setattr(solver_race, "TASKS", {"two levels": (9, 2, (0.1, 0.5), (1,))})
+    monkeypatch.setattr(solver_race, "PAIRS", 1)
+    monkeypatch.setattr(solver_race, "SOLVERS", ("ASPHER", "Tamaas"))
+    adapters = {"ASPHER": (sys.prefix, "aspher", "levels"), "Tamaas": (tmp_path, "tamaas")}
+    monkeypatch.setattr(other_solvers, "ADAPTERS", adapters)
+    output = tmp_path / "tables/other_solvers.csv"
+    done = CliRunner().invoke(solver_race.main, ["--output", str(output)])
+    assert done.exit_code == 0, done.output
+    assert "Tamaas is not installed and is omitted" in done.output
+    table = pd.read_csv(output)
+    assert table["solver"].tolist() == 2 * ["viscorough", "ASPHER"]
+    assert (table[["levels", "met"]] == [2, 1]).all(axis=None)
+    assert (table[["wall_s", "ratio", "memory"]] > 0).all(axis=None)
+    assert (table["force_error"] < 1e-5).all()
+    with xr.open_dataset(output.with_suffix(".nc")) as recorded:
+        assert set(recorded.variables) == set(table) == set(solver_race.COLUMNS)
+        assert json.loads(recorded.attrs["machine"])["cores"] >= 1
+        assert json.loads(recorded.attrs["settings"])["tasks"] == {"two levels": [9, 2, [0.1, 0.5], [1]]}

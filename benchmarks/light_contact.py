@@ -7,10 +7,8 @@ reading the map and ranking the elements that can touch. Solvers that `make peer
 table has the columns of COLUMNS; a NetCDF file beside it also records settings and machine. `make light` runs it.
 """
 
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from types import SimpleNamespace
 
 import click
 import numpy as np
@@ -49,23 +47,12 @@ COLUMNS = {
 }
 
 
-@dataclass(frozen=True)
 class LightLoad(solver_race.Task):
-    """A load on a map; depths : of the contact, shape (1,); force : F/G."""
-
-    force: float = 0.0
-
-    def exact_forces(self):
-        """The load itself."""
-        return np.array([self.force])
+    """A load on a map, the only one of `forces`; depths : of the contact, shape (1,)."""
 
     def solve(self, threads):
         """The Contact under the load, with its maps."""
-        return contact_at(self.indenter, force=self.force, tolerance=self.residual, threads=threads)
-
-    def solve_at_depth(self):
-        """The Contact at the depth, on one thread."""
-        return contact_at(self.indenter, depth=self.depths[0], tolerance=self.residual)
+        return contact_at(self.indenter, force=self.forces[0], tolerance=self.residual, threads=threads)
 
     def rank(self):
         """What no solution can do without: the elements that can touch, in order."""
@@ -76,7 +63,7 @@ class LightLoad(solver_race.Task):
         """Residual, by the measure of all solvers, and force; the number of iterations is not reported."""
         gap = self.indenter.initial_gap / self.indenter.spacing
         residual = other_solvers.contact_residual(gap, np.nan_to_num(solution.pressure))
-        return SimpleNamespace(residual=np.array([residual]), force=np.array([solution.force]), iterations=-1)
+        return np.array([residual]), np.array([solution.force]), -1
 
 
 def time_light_contact():
@@ -95,10 +82,11 @@ def time_light_contact():
             table = solver_race.compare_solvers(load, racing, pairs=PAIRS, time_limit=limit)
             # One that did not finish is not waited for again on a larger map.
             stopped |= {(name, fraction) for name in racing if name not in set(table["solver"])}
-            own = {"force": partial(load.solve, 1), "depth": load.solve_at_depth, "ranking": load.rank}
+            at_depth = partial(contact_at, indenter, depth=load.depths[0], tolerance=RESIDUAL)
+            own = {"force": partial(load.solve, 1), "depth": at_depth, "ranking": load.rank}
             times = timing.interleaved(own, max(PAIRS, min(MOST_REPEATS, int(SHORTEST / seconds))))
-            at_force, at_depth, ranking = (times[name][0] for name in own)
-            tables.append(table.assign(fraction=fraction, over_depth=at_force / at_depth, ranking_s=ranking))
+            force, depth, ranking = (times[name][0] for name in own)
+            tables.append(table.assign(fraction=fraction, over_depth=force / depth, ranking_s=ranking))
     return pd.concat(tables, ignore_index=True)[list(COLUMNS)]
 
 
@@ -114,7 +102,7 @@ def light_load(indenter, fraction):
         force *= fraction / contact.contact_fraction
     depth = contact_at(indenter, force=force, tolerance=TOLERANCE).depth
     name = f"{100 * fraction:g} % at {len(indenter.heights)}"
-    return LightLoad(name, HURST, indenter, np.array([depth]), RESIDUAL, THREADS, force=force)
+    return LightLoad(name, HURST, indenter, np.array([depth]), np.array([force]), RESIDUAL, THREADS)
 
 
 @style.figure

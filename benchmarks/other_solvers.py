@@ -26,8 +26,8 @@ import signal
 import subprocess
 import tempfile
 import warnings
-from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import click
 import numpy as np
@@ -47,26 +47,6 @@ ADAPTERS = {
 }
 # Variables of the number of threads, which libraries read on loading.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-
-
-@dataclass(frozen=True)
-class Solution:
-    """Levels solved by another solver; arrays of shape (levels,), forces in the user's unit of length.
-
-    force : F/G of its pressures
-    residual : largest |gap| in contact or overlap outside it, over the depth, computed from its pressures
-    iterations : of all levels, -1 if not reported
-    wall_s, processor_s : for all levels, without set-up; memory : peak memory of its process [bytes]
-    version : of the solver
-    """
-
-    version: str
-    force: np.ndarray
-    residual: np.ndarray
-    iterations: int
-    wall_s: float
-    processor_s: float
-    memory: float
 
 
 def installed(names):
@@ -89,8 +69,13 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
     depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver uses one or the other
     tolerance : the solver's own; time_limit : seconds after which the run is abandoned
 
-    Returns None where there is no solution. If the solver's process fails, warns with the last line of its standard
-    error.
+    Returns None where there is no solution, otherwise the fields
+        force, residual : arrays of shape (levels,) from its pressures: F/G in the user's unit of length; largest |gap|
+            in contact or overlap outside it, over the depth
+        iterations : of all levels, -1 if not reported
+        wall_s, processor_s : for all levels, without set-up; memory : peak memory of its process [bytes]
+        version : of the solver
+    If the solver's process fails, warns with the last line of its standard error.
     """
     gap = indenter.initial_gap / indenter.spacing
     request = {
@@ -114,7 +99,7 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
             return None
         with np.load(paths[1]) as answer:
             pressures = answer["pressures"]
-            return Solution(
+            return SimpleNamespace(
                 version=str(answer["version"]),
                 force=pressures.sum(axis=(1, 2)) * indenter.spacing**2,
                 residual=np.array([contact_residual(gap, pressure) for pressure in pressures]),

@@ -10,7 +10,6 @@ are left out. The table has the columns of COLUMNS; a NetCDF file beside it also
 
 from dataclasses import dataclass
 from functools import partial
-from types import SimpleNamespace
 
 import click
 import numpy as np
@@ -70,18 +69,16 @@ class Task:
     """Depths of an indenter at which the contact is to be solved to a residual, by solvers with `threads` threads.
 
     hurst : Hurst exponent of the indenter; residual : largest |gap| in contact or overlap outside it, over the depth
+    forces : F/G at the depths, for solvers at given force, and to compare forces with
     """
 
     name: str
     hurst: float
     indenter: Indenter
     depths: np.ndarray
+    forces: np.ndarray
     residual: float
     threads: tuple = (1,)
-
-    def exact_forces(self):
-        """F/G at the depths, for solvers at given force, and to compare forces with."""
-        return indent(self.indenter, tolerance=REFERENCE_TOLERANCE, depths=self.depths).force
 
     def solve(self, threads):
         """What is timed: the solution of this package."""
@@ -89,19 +86,7 @@ class Task:
 
     def outcome(self, solution):
         """Residual and force of that solution by level, and iterations; not timed."""
-        applications = solution.operator_applications
-        return SimpleNamespace(residual=solution.residual, force=solution.force, iterations=applications)
-
-
-def time_other_solvers():
-    """`compare_solvers` on every task for every Hurst exponent, with the installed solvers."""
-    solvers, tables = other_solvers.installed(SOLVERS), []
-    for number, (name, (elements, levels, ends, threads)) in enumerate(TASKS.items()):
-        for hurst in HURST:
-            seed = realization_seed(SEED, *solver_race_key(number, hurst))
-            task = disc_task(name, hurst, elements, np.geomspace(*ends, levels), threads, seed)
-            tables.append(compare_solvers(task, solvers, pairs=PAIRS, time_limit=LONGEST))
-    return pd.concat(tables, ignore_index=True)
+        return solution.residual, solution.force, solution.operator_applications
 
 
 def disc_task(name, hurst, elements, fractions, threads, seed):
@@ -109,7 +94,8 @@ def disc_task(name, hurst, elements, fractions, threads, seed):
     disc = self_affine_disc(hurst, elements, seed=seed)
     coarse = indent(disc, tolerance=1e-2, until_fraction=min(1.0, 1.2 * max(fractions)))
     depths = np.interp(fractions, coarse.contact_fraction, coarse.depth)
-    return Task(name, hurst, disc, depths, RESIDUAL, threads)
+    forces = indent(disc, tolerance=REFERENCE_TOLERANCE, depths=depths).force
+    return Task(name, hurst, disc, depths, forces, RESIDUAL, threads)
 
 
 def compare_solvers(task, solvers, *, pairs, time_limit):
@@ -123,13 +109,16 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
     Solutions that miss the residual are not timed. Returns a pandas.DataFrame with the columns of `COLUMNS`: the path
     on each number of threads, then one row per solver and number of threads.
     """
-    exact = task.exact_forces()
     paths = {threads: partial(task.solve, threads) for threads in task.threads}
-    own_rows = [_row_of_path(task, path, threads, exact) for threads, path in paths.items()]
-    own_times, rows, fastest = {threads: [] for threads in paths}, [], np.inf
+    own_rows, own_times, rows, fastest = [], {threads: [] for threads in paths}, [], np.inf
+    for threads, path in paths.items():
+        solution, memory = timing.with_memory(path)
+        named = {"solver": "viscorough", "version": __version__, "threads": threads, "tolerance": task.residual}
+        own_rows.append(_row(task, *task.outcome(solution), memory) | named)
     for name, command in solvers.items():
         click.echo(f"{task.name}, H = {task.hurst:g}: {name}")
-        ask = partial(other_solvers.solve, name, command, task.indenter, task.depths, exact, time_limit=time_limit)
+        levels = task.indenter, task.depths, task.forces
+        ask = partial(other_solvers.solve, name, command, *levels, time_limit=time_limit)
         tolerance, solution = _loosest_tolerance(ask, task.residual)
         if solution is None:
             continue
@@ -138,7 +127,8 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
         number = pairs if solution.wall_s < min(MAX_REPEATED, HOPELESS * fastest) else 1
         for threads, path in paths.items():
             named = {"solver": name, "version": solution.version, "threads": threads, "tolerance": tolerance}
-            rows.append(_row(task, exact, solution, solution.memory) | named)
+            outcome = solution.residual, solution.force, solution.iterations, solution.memory
+            rows.append(_row(task, *outcome) | named)
             if met:
                 own, other = _race(path, partial(ask, tolerance, threads=threads), number)
                 rows[-1] |= _times(other) | _ratios(other[:, 0] / own[:, 0])
@@ -172,15 +162,9 @@ def _ratios(ratios):
     return {"ratio": np.median(ratios)} | ends
 
 
-def _row_of_path(task, path, threads, exact):
-    solution, memory = timing.with_memory(path)
-    named = {"solver": "viscorough", "version": __version__, "threads": threads, "tolerance": task.residual}
-    return _row(task, exact, task.outcome(solution), memory) | named
-
-
-def _row(task, exact, outcome, memory):
-    """Task, accuracy and cost of an outcome; exact : forces of the levels."""
-    residual = outcome.residual.max()
+def _row(task, residual, force, iterations, memory):
+    """Task, accuracy and cost of a solution; residual, force : of the levels."""
+    residual = residual.max()
     return {
         "task": task.name,
         "hurst": task.hurst,
@@ -188,17 +172,17 @@ def _row(task, exact, outcome, memory):
         "levels": len(task.depths),
         "residual": residual,
         "met": int(residual <= task.residual),
-        "force_error": np.abs(outcome.force / exact - 1).max(),
-        "iterations": outcome.iterations,
+        "force_error": np.abs(force / task.forces - 1).max(),
+        "iterations": iterations,
         "memory": memory,
     }
 
 
 def _loosest_tolerance(ask, required):
-    """Loosest tolerance with which a solver meets the required residual, otherwise its best one, and the Solution.
+    """Loosest tolerance with which a solver meets the required residual, otherwise its best one, and the solution.
 
-    ask : returns the solver's Solution for a tolerance, None where it has none; tighter ones are then not tried
-    Tolerance and Solution are None if no tolerance gave a solution.
+    ask : returns the solver's solution for a tolerance, None where it has none; tighter ones are then not tried
+    Tolerance and solution are None if no tolerance gave a solution.
     """
     best, least = (None, None), np.inf
     for ratio in TOLERANCE_RATIOS:
@@ -214,8 +198,14 @@ def _loosest_tolerance(ask, required):
 @click.command(help=__doc__.splitlines()[0])
 @output_option
 def main(output):
+    solvers, tables = other_solvers.installed(SOLVERS), []
+    for number, (name, (elements, levels, ends, threads)) in enumerate(TASKS.items()):
+        for hurst in HURST:
+            seed = realization_seed(SEED, *solver_race_key(number, hurst))
+            task = disc_task(name, hurst, elements, np.geomspace(*ends, levels), threads, seed)
+            tables.append(compare_solvers(task, solvers, pairs=PAIRS, time_limit=LONGEST))
     settings = {"hurst": HURST, "residual": RESIDUAL, "seed": SEED, "pairs": PAIRS, "longest": LONGEST, "tasks": TASKS}
-    save_times(time_other_solvers(), output, COLUMNS, "Comparison with other solvers", settings)
+    save_times(pd.concat(tables), output, COLUMNS, "Comparison with other solvers", settings)
 
 
 if __name__ == "__main__":

@@ -5,11 +5,18 @@ factor in the adapter shows in the forces. In the comparison itself it would sho
 from the pressures of every solver.
 """
 
+import json
+import os
 import sys
+from unittest.mock import patch
 
 import numpy as np
 import other_solvers
+import pandas as pd
 import pytest
+import solver_race
+import xarray as xr
+from click.testing import CliRunner
 
 from support import dense_contact
 from support.workflow import HANGS, ROOT
@@ -23,6 +30,16 @@ def indenter():
     heights = 0.1 * np.random.default_rng(4).random((5, 6)) - 0.2 * np.hypot(*np.mgrid[-2:3, -2.5:3])
     heights[[0, 0, -1, -1], [0, -1, 0, -1]] = np.nan
     return Indenter(heights, 0.7)
+
+
+@pytest.fixture
+def aspher(tmp_path, monkeypatch):
+    """The stand-in on the path of other processes, with its version."""
+    metadata = tmp_path / "aspher-4.5.dist-info/METADATA"
+    metadata.parent.mkdir()
+    metadata.write_text("Metadata-Version: 2.1\nName: aspher\nVersion: 4.5\n")
+    paths = (tmp_path, ROOT / "tests/support", ROOT / "tests/support/other_solvers")
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(map(str, paths)))
 
 
 @pytest.mark.usefixtures("aspher")
@@ -53,9 +70,24 @@ def test_pressure_outside_the_indenter_is_no_solution(indenter):
     assert other_solvers.padded_size(17) == 24
 
 
-def test_solvers_that_are_not_installed_are_named(tmp_path, monkeypatch, capsys):
-    adapters = {"absent": (tmp_path, "aspher"), "present": (sys.prefix, "tamaas", "mode")}
-    monkeypatch.setattr(other_solvers, "ADAPTERS", adapters)
-    (command,) = other_solvers.installed(adapters).values()
-    assert command == [f"{sys.prefix}/bin/python", str(ROOT / "peers/tamaas_adapter.py"), "mode"]
-    assert capsys.readouterr().err == "absent is not installed and is omitted (make peers installs it)\n"
+@pytest.mark.usefixtures("aspher")
+def test_small_race(tmp_path):
+    """With the stand-in, whose adapter answers as in the whole race, and a solver that is not installed."""
+    adapters = {"ASPHER": (sys.prefix, "aspher", "levels"), "Tamaas": (tmp_path, "tamaas")}
+    tasks = {"two levels": (9, 2, (0.1, 0.5), (1,))}
+    output = tmp_path / "tables/other_solvers.csv"
+    with (
+        patch.multiple(solver_race, TASKS=tasks, PAIRS=1, SOLVERS=tuple(adapters)),
+        patch.object(other_solvers, "ADAPTERS", adapters),
+    ):
+        done = CliRunner().invoke(solver_race.main, ["--output", str(output)])
+    assert done.exit_code == 0, done.output
+    assert "Tamaas is not installed and is omitted" in done.output
+    table = pd.read_csv(output)
+    assert table["solver"].tolist() == 2 * ["viscorough", "ASPHER"]
+    assert (table[["levels", "met"]] == [2, 1]).all(axis=None)
+    assert (table[["wall_s", "ratio", "memory"]] > 0).all(axis=None)
+    with xr.open_dataset(output.with_suffix(".nc")) as recorded:
+        assert set(recorded.variables) == set(table) == set(solver_race.COLUMNS)
+        assert json.loads(recorded.attrs["machine"])["cores"] >= 1
+        assert json.loads(recorded.attrs["settings"])["pairs"] == 1

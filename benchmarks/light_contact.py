@@ -17,13 +17,11 @@ import pandas as pd
 import solver_race
 from measuring import LARGE_PAGES, output_option, run_timed, save_times
 
-from viscorough.contact.one_contact import contact_at
+from viscorough import Indenter, contact_at
 from viscorough.contact.ranking import Ranking
-from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_square
 from viscorough_study.figures import style
-from viscorough_study.performance import timing
-from viscorough_study.performance.costs import fit_cost
+from viscorough_study.performance import costs, timing
 from viscorough_study.run.seeds import light_map_key, realization_seed
 
 # Elements across the maps, one map of each size, and contact fractions that the loads on them are chosen for.
@@ -66,8 +64,49 @@ class LightLoad(solver_race.Task):
         return np.array([residual]), np.array([solution.force]), -1
 
 
-def time_light_contact():
-    """Table of the columns `COLUMNS` of one load for every map and contact fraction, with the installed solvers."""
+def light_load(indenter, fraction):
+    """The LightLoad for a contact fraction, which nearly is proportional to the force.
+
+    The first guess is that of light contact between rough surfaces, F = ½ E* h′ A with E* = 4G, contact area A and rms
+    slope h′ (Persson 2001, Hyun et al. 2004).
+    """
+    force = 2 * indenter.rms_slope * fraction * indenter.elements * indenter.spacing**2
+    for _ in range(CORRECTIONS):
+        contact = contact_at(indenter, force=force, tolerance=TOLERANCE)
+        force *= fraction / contact.contact_fraction
+    depth = contact_at(indenter, force=force, tolerance=TOLERANCE).depth
+    name = f"{100 * fraction:g} % at {len(indenter.heights)}"
+    return LightLoad(name, HURST, indenter, np.array([depth]), np.array([force]), RESIDUAL, THREADS)
+
+
+@style.figure
+def plot_light_contact(table):
+    """Wall time on one thread against the elements of the map, with the time of ranking them.
+
+    table : with the columns of `COLUMNS`
+    Exponents are fitted to the larger half of the sizes.
+    """
+    own = table.query("solver == 'viscorough' and threads == 1 and met == 1 and fraction in @FRACTIONS")
+    own = own.assign(number=own["elements"] ** 2.0)
+    looks = style.series_looks(own["fraction"].unique())
+    figure = style.new_figure(85, style.NARROW)
+    axes = figure.subplots()
+    for fraction, rows in own.groupby("fraction"):
+        larger = rows[min(len(rows) // 2, len(rows) - 2) :]
+        exponent, _ = costs.fit_cost(larger["number"], larger["wall_s"])
+        label = f"contact of {100 * fraction:g} %, $N^{{{exponent:.2f}}}$"
+        axes.plot(rows["number"], rows["wall_s"], **looks[fraction], label=label)
+    ranking = own.groupby("number")["ranking_s"].min()
+    axes.plot(ranking.index, ranking, "--", color=style.GREY, label="reading and ranking the map")
+    axes.set(xscale="log", yscale="log", xlabel="elements of the map", ylabel="wall time (s)")
+    figure.legend(loc="outside lower center")
+    return figure
+
+
+@click.command(help=__doc__.splitlines()[0])
+@output_option
+@click.option("--figure", type=click.Path(path_type=Path), required=True, help="PNG file to draw; also as PDF.")
+def main(output, figure):
     solvers, stopped, tables = other_solvers.installed(SOLVERS), set(), []
     for across in ELEMENTS:
         seed = realization_seed(SEED, *light_map_key(HURST, across, 0))
@@ -87,59 +126,9 @@ def time_light_contact():
             times = timing.interleaved(own, max(PAIRS, min(MOST_REPEATS, int(SHORTEST / seconds))))
             force, depth, ranking = (times[name][0] for name in own)
             tables.append(table.assign(fraction=fraction, over_depth=force / depth, ranking_s=ranking))
-    return pd.concat(tables, ignore_index=True)[list(COLUMNS)]
-
-
-def light_load(indenter, fraction):
-    """The LightLoad for a contact fraction, which nearly is proportional to the force.
-
-    The first guess is that of light contact between rough surfaces, F = ½ E* h′ A with E* = 4G, contact area A and rms
-    slope h′ (Persson 2001, Hyun et al. 2004).
-    """
-    force = 2 * indenter.rms_slope * fraction * indenter.elements * indenter.spacing**2
-    for _ in range(CORRECTIONS):
-        contact = contact_at(indenter, force=force, tolerance=TOLERANCE)
-        force *= fraction / contact.contact_fraction
-    depth = contact_at(indenter, force=force, tolerance=TOLERANCE).depth
-    name = f"{100 * fraction:g} % at {len(indenter.heights)}"
-    return LightLoad(name, HURST, indenter, np.array([depth]), np.array([force]), RESIDUAL, THREADS)
-
-
-@style.figure
-def plot_light_contact(table):
-    """Wall time against the elements of the map, with the time of ranking them.
-
-    table : of time_light_contact
-    Times are on one thread, medians over the maps of one size; exponents are fitted to the larger half of the sizes.
-    """
-    own = table[(table["solver"] == "viscorough") & (table["threads"] == 1) & (table["met"] == 1)]
-    own = own.assign(number=own["elements"] ** 2.0)
-    medians = own.groupby(["fraction", "number"], as_index=False)[["wall_s", "ranking_s"]].median()
-    sizes = medians.groupby("fraction")["number"].transform("size")
-    grown = medians[sizes == sizes.max()]  # other loads are on few maps only
-    looks = style.series_looks(grown["fraction"].unique())
-    figure = style.new_figure(85, style.NARROW)
-    axes = figure.subplots()
-    for fraction, costs in grown.groupby("fraction"):
-        larger = costs[min(len(costs) // 2, len(costs) - 2) :]
-        exponent, _ = fit_cost(larger["number"], larger["wall_s"])
-        note = "" if np.isnan(exponent) else f", $N^{{{exponent:.2f}}}$"
-        label = f"contact of {100 * fraction:g} %{note}"
-        axes.plot(costs["number"], costs["wall_s"], **looks[fraction], label=label)
-    ranking = grown.groupby("number")["ranking_s"].min()
-    axes.plot(ranking.index, ranking, "--", color=style.GREY, label="reading and ranking the map")
-    axes.set(xscale="log", yscale="log", xlabel="elements of the map", ylabel="wall time (s)")
-    figure.legend(loc="outside lower center")
-    return figure
-
-
-@click.command(help=__doc__.splitlines()[0])
-@output_option
-@click.option("--figure", type=click.Path(path_type=Path), required=True, help="PNG file to draw; also as PDF.")
-def main(output, figure):
+    table = pd.concat(tables, ignore_index=True)[list(COLUMNS)]
     maps = {"elements": ELEMENTS, "fractions": FRACTIONS, "race": [RACE_ELEMENTS, RACE_FRACTIONS]}
     settings = {"hurst": HURST, "residual": RESIDUAL, "seed": SEED, "pairs": PAIRS, "threads": THREADS, **maps}
-    table = time_light_contact()
     save_times(table, output, COLUMNS, "One light load on large maps", settings)
     figure.parent.mkdir(parents=True, exist_ok=True)
     style.save_figure(plot_light_contact(table), figure, figure.with_suffix(".pdf"))

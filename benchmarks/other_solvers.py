@@ -15,8 +15,8 @@ The answer holds
     version : of the solver
     pressures : p/G, shape (levels, rows, columns)
     iterations : of all levels, -1 if not reported
-    wall, cpu : seconds without set-up
-    memory_mb : peak memory of the process in MB
+    wall_s, processor_s : for all levels, without set-up
+    memory : peak memory of the process in bytes
 
 Convergence is judged here, by the residual of the pressures, in the same way for every solver.
 """
@@ -36,14 +36,14 @@ from scipy.fft import next_fast_len
 from viscorough.contact.halfspace.operator import Halfspace
 
 ROOT = Path(__file__).resolve().parents[1]
-# {solver: environment that `make peers` builds, adapter in peers/, and its mode}
+# {solver: command that runs its adapter, in this folder, whether or not `make peers` has installed the solver}
 ADAPTERS = {
-    "ASPHER": (".venv-peers", "aspher", "levels"),
-    "ASPHER nested": (".venv-peers", "aspher", "nested"),
-    "ASPHER active set": (".venv-peers", "aspher", "active_set"),
-    "ContactMechanics": (".venv-peers", "contactmechanics"),
-    "SlipPY": (".venv-slippy", "slippy"),
-    "Tamaas": (".venv-peers", "tamaas"),
+    "ASPHER": (".venv-peers/bin/python", "peers/aspher_adapter.py", "levels"),
+    "ASPHER nested": (".venv-peers/bin/python", "peers/aspher_adapter.py", "nested"),
+    "ASPHER active set": (".venv-peers/bin/python", "peers/aspher_adapter.py", "active_set"),
+    "ContactMechanics": (".venv-peers/bin/python", "peers/contactmechanics_adapter.py"),
+    "SlipPY": (".venv-slippy/bin/python", "peers/slippy_adapter.py"),
+    "Tamaas": (".venv-peers/bin/python", "peers/tamaas_adapter.py"),
 }
 # Variables of the number of threads, which libraries read on loading.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -51,15 +51,10 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 def installed(names):
     """{solver: command that runs its adapter} of the solvers whose environments exist; a message names the others."""
-    commands = {}
-    for name in names:
-        environment, adapter, *mode = ADAPTERS[name]
-        python = ROOT / environment / "bin/python"
-        if python.is_file():
-            commands[name] = [str(python), str(ROOT / f"peers/{adapter}_adapter.py"), *mode]
-        else:
-            click.echo(f"{name} is not installed and is omitted (make peers installs it)", err=True)
-    return commands
+    missing = [name for name in names if not (ROOT / ADAPTERS[name][0]).is_file()]
+    for name in missing:
+        click.echo(f"{name} is not installed and is omitted (make peers installs it)", err=True)
+    return {name: ADAPTERS[name] for name in names if name not in missing}
 
 
 def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, threads=1):
@@ -69,12 +64,10 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
     depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver uses one or the other
     tolerance : the solver's own; time_limit : seconds after which the run is abandoned
 
-    Returns None where there is no solution, otherwise the fields
-        force, residual : arrays of shape (levels,) from its pressures: F/G in the user's unit of length; largest |gap|
-            in contact or overlap outside it, over the depth
-        iterations : of all levels, -1 if not reported
-        wall_s, processor_s : for all levels, without set-up; memory : peak memory of its process [bytes]
-        version : of the solver
+    Returns None where there is no solution, otherwise version, iterations, wall_s, processor_s and memory of the
+    answer and, of shape (levels,), from its pressures
+        force : F/G, in the user's unit of length
+        residual : largest |gap| in contact or overlap outside it, over the depth
     If the solver's process fails, warns with the last line of its standard error.
     """
     gap = indenter.initial_gap / indenter.spacing
@@ -91,7 +84,7 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
         paths = Path(folder) / "request.npz", Path(folder) / "answer.npz"
         np.savez(paths[0], **request)
         variables = os.environ | dict.fromkeys(THREADS, str(threads))
-        done = subprocess.run([*command, *paths], env=variables, capture_output=True, text=True)
+        done = subprocess.run([*command, *paths], cwd=ROOT, env=variables, capture_output=True, text=True)
         if done.returncode == -signal.SIGALRM:  # the time was over
             return None
         if not paths[1].is_file():
@@ -99,15 +92,9 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
             return None
         with np.load(paths[1]) as answer:
             pressures = answer["pressures"]
-            return SimpleNamespace(
-                version=str(answer["version"]),
-                force=pressures.sum(axis=(1, 2)) * indenter.spacing**2,
-                residual=np.array([contact_residual(gap, pressure) for pressure in pressures]),
-                iterations=int(answer["iterations"]),
-                wall_s=float(answer["wall"]),
-                processor_s=float(answer["cpu"]),
-                memory=float(answer["memory_mb"]) * 1e6,
-            )
+            told = {name: answer[name].item() for name in ("version", "iterations", "wall_s", "processor_s", "memory")}
+            residual = np.array([contact_residual(gap, pressure) for pressure in pressures])
+            return SimpleNamespace(force=pressures.sum(axis=(1, 2)) * indenter.spacing**2, residual=residual, **told)
 
 
 def contact_residual(gap, pressure):

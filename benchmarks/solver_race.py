@@ -17,10 +17,7 @@ import other_solvers
 import pandas as pd
 from measuring import LARGE_PAGES, output_option, run_timed, save_times
 
-from viscorough import __version__
-from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
+from viscorough import Indenter, __version__, indent, self_affine_disc
 from viscorough_study.performance import timing
 from viscorough_study.run.seeds import realization_seed, solver_race_key
 

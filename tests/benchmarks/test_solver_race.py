@@ -8,8 +8,7 @@ import other_solvers
 import pytest
 import solver_race
 
-from viscorough.contact.loading_path import indent
-from viscorough.surfaces import self_affine_disc
+from viscorough import indent, self_affine_disc
 
 
 @pytest.fixture(scope="module")

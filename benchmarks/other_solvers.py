@@ -1,8 +1,8 @@
 """Other public contact solvers, run on the same levels as the elastic loading path, in separate environments.
 
-Each solver is driven by an adapter (peers/), a script for the Python of the solver's environment, which lacks
-this package. Request and answer are .npz files, whose names are arguments of the adapter. Lengths are in element sides
-and pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and E* = E/(1 − ν²) = 4.
+Each solver is driven by an adapter in peers/, a script for the Python of the solver's environment, which lacks this
+package. Request and answer are .npz files, whose names are arguments of the adapter. Lengths are in element sides and
+pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and E* = E/(1 − ν²) = 4.
 
 The request holds
     gap : initial gap of the indenter's elements to its highest point, nan outside it, shape (rows, columns)
@@ -36,7 +36,7 @@ from scipy.fft import next_fast_len
 from viscorough.contact.halfspace.operator import Halfspace
 
 ROOT = Path(__file__).resolve().parents[1]
-# {solver: command that runs its adapter, in this folder, whether or not `make peers` has installed the solver}
+# {solver: command that runs its adapter, from ROOT, whether or not `make peers` has installed it}
 ADAPTERS = {
     "ASPHER": (".venv-peers/bin/python", "peers/aspher_adapter.py", "levels"),
     "ASPHER nested": (".venv-peers/bin/python", "peers/aspher_adapter.py", "nested"),

@@ -139,7 +139,6 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
 
 def _race(path, other, pairs):
     """(wall, processor) seconds of the path and of another solver, each of shape (pairs, 2), in alternating order."""
-
     seconds = []
     for number in range(pairs):
         before = timing.timed(path)[1:] if number % 2 == 0 else None

@@ -38,7 +38,7 @@ help:
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"
 	@echo "make clean       remove results and caches, keep the environment"
-	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, light, stability, sizes, large."
+	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, stability, sizes, large."
 
 environment: .venv/package-installed
 
@@ -74,7 +74,6 @@ paper: reproduce
 # Includes the targets beside `all` that were made.
 report: settings
 	$(SNAKEMAKE) --report results/report.html -- all \
-		$(if $(wildcard results/figures/other_solvers.png),speed) \
 		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,sizes large)))
 
 # Written in full each time (-E): pages that are kept would hide the warnings of an earlier run.
@@ -105,15 +104,18 @@ test: environment docs
 bench: environment
 	$(BIN)/python benchmarks/curves.py --output results/benchmarks.json
 
-speed light stability: SETTINGS = config/methods.yaml
+speed stability: SETTINGS = config/methods.yaml
 sizes: SETTINGS = config/sizes.yaml
 large: SETTINGS = config/large.yaml
 
 speed: settings
 	$(SNAKEMAKE) -- speed
+	$(BIN)/python benchmarks/solver_race.py --output results/tables/other_solvers.csv
+	$(MAKE) light
 
-light: settings
-	$(SNAKEMAKE) -- light_contact
+light: environment
+	$(BIN)/python benchmarks/light_contact.py --output results/tables/light_contact.csv \
+		--figure results/figures/light_contact.png
 
 stability: settings
 	$(SNAKEMAKE) -- stability

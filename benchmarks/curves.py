@@ -7,9 +7,7 @@ Times are medians of repeats in one run; the repeats of what is compared are int
 """
 
 import contextlib
-import os
 import pkgutil
-import sys
 from functools import partial
 from unittest.mock import patch
 
@@ -17,7 +15,7 @@ import click
 import numpy as np
 import pandas as pd
 from ducc0 import fft
-from measuring import output_option, save
+from measuring import output_option, run_timed, save
 
 from viscorough import Indenter, contact_at, indent, self_affine_disc
 from viscorough.lines import SelfAffineLines
@@ -25,12 +23,6 @@ from viscorough.mdr import reduce_heights
 from viscorough.surfaces import self_affine_square
 from viscorough_study.performance import timing
 
-# One thread, and the settings of the allocator of the workflow, both of which a process reads when it starts.
-ENVIRONMENT = {
-    **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"),
-    "MALLOC_MMAP_THRESHOLD_": str(2**25),
-    "MALLOC_TRIM_THRESHOLD_": str(10**9),
-}
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
 POINTS = 4_000_000  # of a line
 # {function whose share of the time is measured: part of the computation that it is}
@@ -144,8 +136,6 @@ def shares(compute):
 @click.option("--repeats", type=click.IntRange(1), default=5, show_default=True)
 @output_option
 def main(repeats, output):
-    if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
-        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | ENVIRONMENT)
     content = {
         "parts": parts(),
         "line": lines((0.1, 0.6, 0.9), 3 * repeats),
@@ -157,4 +147,4 @@ def main(repeats, output):
 
 
 if __name__ == "__main__":
-    main()
+    run_timed(main)

@@ -1,5 +1,7 @@
-"""Common parts of the benchmarks: option and content of the output file."""
+"""Common parts of the benchmarks: environment of what is timed, option and content of the output file."""
 
+import os
+import sys
 from pathlib import Path
 
 import click
@@ -7,9 +9,25 @@ import click
 import viscorough
 from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
-from viscorough_study.run.tables import write_json
+from viscorough_study.run.tables import recorded, write_json, write_table
+
+# One thread, and the settings of the allocator of the workflow, both of which a process reads when it starts.
+ENVIRONMENT = {
+    **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"),
+    "MALLOC_MMAP_THRESHOLD_": str(2**25),
+    "MALLOC_TRIM_THRESHOLD_": str(10**9),
+}
+LARGE_PAGES = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}  # where the system has them; also of the workflow
 
 output_option = click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write.")
+
+
+def run_timed(main, **variables):
+    """Run a command with ENVIRONMENT and further variables, in a process that takes the place of this one if needed."""
+    wanted = ENVIRONMENT | variables
+    if any(os.environ.get(name) != value for name, value in wanted.items()):
+        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | wanted)
+    main()
 
 
 def save(content, output):
@@ -23,4 +41,16 @@ def save_table(table, output):
     output.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(output) as temporary:
         table.to_csv(temporary, index=False, lineterminator="\n")
+    click.echo(f"written to {output}")
+
+
+def save_times(table, output, columns, title, settings):
+    """Write a table of times as a CSV file, and beside it as a NetCDF file with settings and machine, each atomically.
+
+    columns : as of write_table
+    """
+    output.parent.mkdir(parents=True, exist_ok=True)
+    attributes = recorded(settings=settings, machine=timing.machine())
+    described = {"columns": columns, "dimension": "measurement", "title": title, "attributes": attributes}
+    write_table(table, output, output.with_suffix(".nc"), **described)
     click.echo(f"written to {output}")

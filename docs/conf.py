@@ -12,7 +12,7 @@ from docutils.utils.math import latex2mathml
 
 from viscorough.cli import subcommand
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))  # output.md has the columns of their tables
+sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))  # pages have the columns of their tables
 
 project = "viscorough"
 release = importlib.metadata.version("viscorough")

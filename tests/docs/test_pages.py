@@ -34,7 +34,7 @@ def test_what_is_named_exists(page):
         for target in targets.split():
             assert re.search(rf"^{target}:", makefiles, re.MULTILINE), target
     for folder, name in re.findall(r"`results/(figures|tables)/(\w+)", text):
-        assert name in FIGURES or name in TABLES or f"results/{folder}/{name}." in WORKFLOW, name
+        assert name in FIGURES or name in TABLES or f"results/{folder}/{name}." in WORKFLOW + makefiles, name
     for path in re.findall(r"`((?:src|workflow|config|resources|benchmarks|profiles|examples|peers)/[\w./]+)`", text):
         assert (ROOT / path).exists() or f"\n`{path}`:\n" in text, path
     for command in re.findall(r"`snakemake ([^`]*)`", text):

@@ -119,7 +119,6 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),
     "large": (published("large"),),
     "level_placement": (published("level_placement").assign(reached=lambda table: table["choice"] != "naive"),),
-    "light_contact": (published("light_contact"),),
     "mdr_lambda": (published("mdr_lambda"), published("mdr_exponents")),
     "media": (media_table(),),
     "reduction": (published("reduction"),),

@@ -19,7 +19,7 @@ TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, ta
 FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
 HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
 TARGETS = {"all", "article", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large"}
-TARGETS |= {"costs", "light_contact", "measured", *(f"figure_{number}" for number in range(1, 5))}
+TARGETS |= {"costs", "measured", *(f"figure_{number}" for number in range(1, 5))}
 
 
 def copy_project(folder):

@@ -146,26 +146,6 @@ def combinations():
     return {name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()}
 
 
-LIGHT_ONLY = ("ASPHER active set",)  # solvers, or their modes, for maps on which few elements touch
-
-
-def other_solvers():
-    """{solver: command that runs its adapter}, whether or not `make peers` has built the environments."""
-    modern, slippy = (str(PROJECT / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
-    commands = {
-        "ASPHER": (modern, "aspher", "levels"),
-        "ASPHER nested": (modern, "aspher", "nested"),
-        "ContactMechanics": (modern, "contactmechanics"),
-        "SlipPY": (slippy, "slippy"),
-        "Tamaas": (modern, "tamaas"),
-        "ASPHER active set": (modern, "aspher", "active_set"),
-    }
-    return {
-        name: [python, str(WORKFLOW / "peers" / f"{adapter}_adapter.py"), *mode]
-        for name, (python, adapter, *mode) in commands.items()
-    }
-
-
 def article_digests():
     """Digests of the texts of the article, and of what it quotes, that are not results of the run."""
     texts = [*sorted((WORKFLOW / "article").iterdir()), PROJECT / "CITATION.cff"]
@@ -180,11 +160,6 @@ def page_digests():
     texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
     texts += [PROJECT / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
-
-
-def adapter_digests():
-    """Digests of the adapters of the other solvers, which run in separate environments."""
-    return [SOURCES.digest(path) for path in sorted((WORKFLOW / "peers").glob("*.py"))]
 
 
 # ---- report

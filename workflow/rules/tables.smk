@@ -41,17 +41,6 @@ TABLE_PARAMS = {
         **SEED,
     },
     "compare_level_placement": config["methods"]["scenes"] | chosen("methods", "repeats") | SEED,
-    "time_other_solvers": {
-        **{name: config["methods"][name] for name in ("pairs", "longest", "tasks")},
-        "hursts": config["methods"]["hurst"],
-        "seed": config["seed"],
-        "peers": {name: paths for name, paths in other_solvers().items() if name not in LIGHT_ONLY},
-    },
-    "time_light_contact": {
-        **config["methods"]["light"],
-        **SEED,
-        "peers": {name: other_solvers()[name] for name in ("Tamaas", "ContactMechanics", *LIGHT_ONLY)},
-    },
     "map_failures": config["stability"] | {"hurst_min": number(paper("numbers"), "agreement", "beta_hurst_min")} | SEED,
     "fit_sizes": config["scaling"] | chosen("sizes", "windows") | SEED,
     "compare_grids": chosen("scaling", "elements_min") | chosen("figures", "rms_convention"),
@@ -93,7 +82,6 @@ for name, made in TABULATIONS.items():
         resources:
             mem_mb=made["memory"],
         params:
-            adapter_digests() if name in ("time_other_solvers", "time_light_contact") else [],
             functions=table_functions(made),
             tables={
                 table: {key: entry[key] for key in ("label", "dimension")} for table, entry in made["tables"].items()

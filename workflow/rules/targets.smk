@@ -44,16 +44,10 @@ rule measured:
 
 
 rule speed:
-    """Speed against accuracy of every method, and of other solvers."""
+    """Speed against accuracy of every method, and the placement of levels."""
     input:
-        [plot.output for plot in (rules.plot_speed, rules.plot_level_placement, *plots_of("speed"))],
-        table_files("speed"),
-
-
-rule light_contact:
-    """One light load on large maps, by this and other solvers: a part of `speed`."""
-    input:
-        rules.plot_light_contact.output,
+        rules.plot_speed.output,
+        rules.plot_level_placement.output,
 
 
 rule stability:

@@ -41,7 +41,7 @@ def method_problem_key(hurst, elements):
 
 
 def solver_race_key(task, hurst):
-    """Rough disc on which other solvers are timed; task : its position in the settings."""
+    """Rough disc on which other solvers are timed; task : its position in the race."""
     return _key(5, task, _millionths(hurst))
 
 

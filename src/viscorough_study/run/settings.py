@@ -112,9 +112,6 @@ def _empty_range(settings):
     }
     ranges = [(name, ends, 10) for name, ends in decades.items()]
     ranges.append(("scaling.stiffness_range", settings["scaling"]["stiffness_range"], 1.01))
-    for task in settings["methods"]["tasks"]:
-        factor = 1.1 if task["levels"] > 1 else 1
-        ranges.append((f"fractions of {task['name']} in methods.tasks", task["fractions"], factor))
     for name, (low, high), factor in ranges:
         if high < factor * low * (1 - 1e-9):  # rounding
             yield f"{name}: {low} and {high} are too close; allowed: the second from {factor} times the first"

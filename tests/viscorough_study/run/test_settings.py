@@ -12,8 +12,6 @@ from viscorough_study.run.settings import check_settings
 
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 
-
-TASK = {"name": "few", "elements": 33, "levels": 8, "fractions": [0.01, 0.5], "residual": 1e-6, "threads": [1]}
 COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
 FLUID = {"name": "fluid", "kind": "newtonian", "viscosity": 1.0}
 WRONG = [
@@ -38,8 +36,7 @@ WRONG = [
     ({"variants": {"cases": [{"name": "nothing"}]}}, "variants.cases[0] is {'name': 'nothing'}; allowed: type"),
     ({"variants": {"cases": [{"name": "sizes", "period": 2.0}]}}, "variants.cases[0].name is 'sizes'; allowed"),
     ({"variants": {"cases": [{"name": "wider\n", "period": 2.0}]}}, r"variants.cases[0].name is 'wider\n'; allowed"),
-    ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.5]}]}}, "0.5 are too close; allowed: the second from 1.1"),
-    ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.4], "levels": 1}]}}, "fractions of few in methods.tasks: 0.5"),
+    ({"methods": {"tasks": []}}, "unknown key 'tasks' in methods; allowed: bodies, bodies_elements, elements"),
     ({"methods": {"elements": [33, 33]}}, "methods.elements: 33 occurs twice; allowed: once"),
     ({"media": {"cases": [FLUID | {"kind": "maxwell"}]}}, "fluid in media.cases: lacks shear_modulus; maxwell needs"),
     ({"media": {"cases": [FLUID | {"exponent": 0.5}]}}, "fluid in media.cases: unknown key 'exponent'; allowed for"),

@@ -1,25 +1,37 @@
-"""The elastic loading path compared with other solvers: the same levels of one indenter, to the same residual.
+"""Compare the elastic loading path with other solvers: the same levels of one indenter, to the same residual.
+
+    python benchmarks/solver_race.py --output results/tables/other_solvers.csv
 
 The time of the path includes its set-up and the exact stiffness at every level; that of another solver includes
-neither. Other solvers start every level from the previous one, if they can.
+neither. Other solvers start every level from the previous one, if they can. Those that `make peers` has not installed
+are left out. The table has the columns of COLUMNS; a NetCDF file beside it also records settings and machine.
+`make speed` runs it.
 """
 
-import logging
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
-from types import SimpleNamespace
 
+import click
 import numpy as np
+import other_solvers
 import pandas as pd
-from threadpoolctl import threadpool_limits
+from measuring import LARGE_PAGES, output_option, run_timed, save_times
 
-from viscorough import __version__
-from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
-from viscorough_study.performance import other_solvers, timing
+from viscorough import Indenter, __version__, indent, self_affine_disc
+from viscorough_study.performance import timing
 from viscorough_study.run.seeds import realization_seed, solver_race_key
+
+SOLVERS = ("ASPHER", "ASPHER nested", "ContactMechanics", "SlipPY", "Tamaas")
+# Exponents of the discs, residual to be reached, root seed, pairs of runs of the path and another solver.
+HURST, RESIDUAL, SEED, PAIRS = (0.4, 0.8), 1e-6, 2013, 5
+LONGEST = 60.0  # seconds after which a run of another solver is abandoned
+# {task: elements across the disc, levels, contact fractions of the first and the last of them, threads}
+TASKS = {
+    "eight levels": (257, 8, (0.001, 0.5), (1,)),
+    "thirty levels": (257, 30, (0.001, 0.5), (1,)),
+    "one level at 1025": (1025, 1, (0.025, 0.025), (1, 2)),
+    "one level at 2049": (2049, 1, (0.025, 0.025), (1, 2)),
+}
 
 # Tolerances of other solvers, over the residual required, from loose to tight: each solver defines its own measure of
 # the tolerance.
@@ -54,18 +66,16 @@ class Task:
     """Depths of an indenter at which the contact is to be solved to a residual, by solvers with `threads` threads.
 
     hurst : Hurst exponent of the indenter; residual : largest |gap| in contact or overlap outside it, over the depth
+    forces : F/G at the depths, for solvers at given force, and to compare forces with
     """
 
     name: str
     hurst: float
     indenter: Indenter
     depths: np.ndarray
+    forces: np.ndarray
     residual: float
     threads: tuple = (1,)
-
-    def exact_forces(self):
-        """F/G at the depths, for solvers at given force, and to compare forces with."""
-        return indent(self.indenter, tolerance=REFERENCE_TOLERANCE, depths=self.depths).force
 
     def solve(self, threads):
         """What is timed: the solution of this package."""
@@ -73,41 +83,16 @@ class Task:
 
     def outcome(self, solution):
         """Residual and force of that solution by level, and iterations; not timed."""
-        applications = solution.operator_applications
-        return SimpleNamespace(residual=solution.residual, force=solution.force, iterations=applications)
+        return solution.residual, solution.force, solution.operator_applications
 
 
-def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
-    """`compare_solvers` on every task for every Hurst exponent, with the installed solvers.
-
-    tasks : setting of that name; peers : {solver: command that runs its adapter}
-    longest : seconds after which a run of another solver is abandoned
-    """
-    tables, installed = [], installed_solvers(peers)
-    threadpool_limits(1)  # of linear algebra; Snakemake gives the job all cores, so that no other job runs
-    for number, task in enumerate(tasks):
-        fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
-        for hurst in hursts:
-            disc = {"seed": realization_seed(seed, *solver_race_key(number, hurst)), "threads": task["threads"]}
-            levels = disc_task(task["name"], hurst, task["elements"], fractions, task["residual"], **disc)
-            tables.append(compare_solvers(levels, installed, pairs=pairs, time_limit=longest))
-    return pd.concat(tables)
-
-
-def installed_solvers(peers):
-    """The solvers whose environments exist; a warning names the others."""
-    missing = [name for name, command in peers.items() if not Path(command[0]).is_file()]
-    for name in missing:
-        logging.warning("%s is not installed and is omitted (make peers installs it)", name)
-    return {name: command for name, command in peers.items() if name not in missing}
-
-
-def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,)):
+def disc_task(name, hurst, elements, fractions, threads, seed):
     """A self-affine disc at the depths of the given contact fractions; elements : across the disc."""
     disc = self_affine_disc(hurst, elements, seed=seed)
     coarse = indent(disc, tolerance=1e-2, until_fraction=min(1.0, 1.2 * max(fractions)))
     depths = np.interp(fractions, coarse.contact_fraction, coarse.depth)
-    return Task(name, hurst, disc, depths, residual, tuple(threads))
+    forces = indent(disc, tolerance=REFERENCE_TOLERANCE, depths=depths).force
+    return Task(name, hurst, disc, depths, forces, RESIDUAL, threads)
 
 
 def compare_solvers(task, solvers, *, pairs, time_limit):
@@ -121,13 +106,16 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
     Solutions that miss the residual are not timed. Returns a pandas.DataFrame with the columns of `COLUMNS`: the path
     on each number of threads, then one row per solver and number of threads.
     """
-    exact = task.exact_forces()
     paths = {threads: partial(task.solve, threads) for threads in task.threads}
-    own_rows = [_row_of_path(task, path, threads, exact) for threads, path in paths.items()]
-    own_times, rows, fastest = {threads: [] for threads in paths}, [], np.inf
+    own_rows, own_times, rows, fastest = [], {threads: [] for threads in paths}, [], np.inf
+    for threads, path in paths.items():
+        solution, memory = timing.with_memory(path)
+        named = {"solver": "viscorough", "version": __version__, "threads": threads, "tolerance": task.residual}
+        own_rows.append(_row(task, *task.outcome(solution), memory) | named)
     for name, command in solvers.items():
-        logging.info("%s, H = %g: %s", task.name, task.hurst, name)
-        ask = partial(other_solvers.solve, name, command, task.indenter, task.depths, exact, time_limit=time_limit)
+        click.echo(f"{task.name}, H = {task.hurst:g}: {name}")
+        levels = task.indenter, task.depths, task.forces
+        ask = partial(other_solvers.solve, name, command, *levels, time_limit=time_limit)
         tolerance, solution = _loosest_tolerance(ask, task.residual)
         if solution is None:
             continue
@@ -136,7 +124,8 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
         number = pairs if solution.wall_s < min(MAX_REPEATED, HOPELESS * fastest) else 1
         for threads, path in paths.items():
             named = {"solver": name, "version": solution.version, "threads": threads, "tolerance": tolerance}
-            rows.append(_row(task, exact, solution, solution.memory) | named)
+            outcome = solution.residual, solution.force, solution.iterations, solution.memory
+            rows.append(_row(task, *outcome) | named)
             if met:
                 own, other = _race(path, partial(ask, tolerance, threads=threads), number)
                 rows[-1] |= _times(other) | _ratios(other[:, 0] / own[:, 0])
@@ -150,7 +139,6 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
 
 def _race(path, other, pairs):
     """(wall, processor) seconds of the path and of another solver, each of shape (pairs, 2), in alternating order."""
-
     seconds = []
     for number in range(pairs):
         before = timing.timed(path)[1:] if number % 2 == 0 else None
@@ -170,15 +158,9 @@ def _ratios(ratios):
     return {"ratio": np.median(ratios)} | ends
 
 
-def _row_of_path(task, path, threads, exact):
-    solution, memory = timing.with_memory(path)
-    named = {"solver": "viscorough", "version": __version__, "threads": threads, "tolerance": task.residual}
-    return _row(task, exact, task.outcome(solution), memory) | named
-
-
-def _row(task, exact, outcome, memory):
-    """Task, accuracy and cost of an outcome; exact : forces of the levels."""
-    residual = outcome.residual.max()
+def _row(task, residual, force, iterations, memory):
+    """Task, accuracy and cost of a solution; residual, force : of the levels."""
+    residual = residual.max()
     return {
         "task": task.name,
         "hurst": task.hurst,
@@ -186,17 +168,17 @@ def _row(task, exact, outcome, memory):
         "levels": len(task.depths),
         "residual": residual,
         "met": int(residual <= task.residual),
-        "force_error": np.abs(outcome.force / exact - 1).max(),
-        "iterations": outcome.iterations,
+        "force_error": np.abs(force / task.forces - 1).max(),
+        "iterations": iterations,
         "memory": memory,
     }
 
 
 def _loosest_tolerance(ask, required):
-    """Loosest tolerance with which a solver meets the required residual, otherwise its best one, and the Solution.
+    """Loosest tolerance with which a solver meets the required residual, otherwise its best one, and the solution.
 
-    ask : returns the solver's Solution for a tolerance, None where it has none; tighter ones are then not tried
-    Tolerance and Solution are None if no tolerance gave a solution.
+    ask : returns the solver's solution for a tolerance, None where it has none; tighter ones are then not tried
+    Tolerance and solution are None if no tolerance gave a solution.
     """
     best, least = (None, None), np.inf
     for ratio in TOLERANCE_RATIOS:
@@ -207,3 +189,20 @@ def _loosest_tolerance(ask, required):
         if residual <= required:
             break
     return best
+
+
+@click.command(help=__doc__.splitlines()[0])
+@output_option
+def main(output):
+    solvers, tables = other_solvers.installed(SOLVERS), []
+    for number, (name, (elements, levels, ends, threads)) in enumerate(TASKS.items()):
+        for hurst in HURST:
+            seed = realization_seed(SEED, *solver_race_key(number, hurst))
+            task = disc_task(name, hurst, elements, np.geomspace(*ends, levels), threads, seed)
+            tables.append(compare_solvers(task, solvers, pairs=PAIRS, time_limit=LONGEST))
+    settings = {"hurst": HURST, "residual": RESIDUAL, "seed": SEED, "pairs": PAIRS, "longest": LONGEST, "tasks": TASKS}
+    save_times(pd.concat(tables), output, COLUMNS, "Comparison with other solvers", settings)
+
+
+if __name__ == "__main__":
+    run_timed(main, **LARGE_PAGES)

@@ -1,35 +1,26 @@
 """Common part of the adapters of other contact solvers: request, timing of the levels, answer. Needs numpy only.
 
-viscorough_study.performance.other_solvers describes the request, the answer and their units: lengths are in element
-sides and pressures in shear moduli G; E = 3, ν = 1/2, E* = 4. A solver is a class that is called with a Problem and has
-the method `solve` (see answer_request).
+benchmarks/other_solvers.py describes the request, the answer and their units: lengths are in element sides and
+pressures in shear moduli G; E = 3, ν = 1/2, E* = 4. A solver is a class that is called with a problem and has the
+method `solve` (see answer_request).
 """
 
 import resource
 import signal
 import sys
 import time
-from dataclasses import dataclass
 from importlib import metadata
+from types import SimpleNamespace
 
 import numpy as np
-
-
-@dataclass
-class Problem:
-    """Initial gap on the padded grid, finite everywhere; levels given by depths and by forces F/G."""
-
-    gap: np.ndarray
-    depths: np.ndarray
-    forces: np.ndarray
-    threads: int
 
 
 def answer_request(distribution, solver_class):
     """Read the request, the last argument but one of the command line, and write the answer, the last argument.
 
     distribution : name under which the solver is installed, for its version
-    solver_class : solver_class(problem) sets up everything that does not depend on the level. Its
+    solver_class : solver_class(problem) sets up everything that does not depend on the level. Problems have the fields
+        `gap`, on the padded grid, finite everywhere; `depths` and `forces`, F/G, of the levels; and `threads`. Its
         `solve(level, tolerance, start)` returns the pressure on the padded grid and the number of iterations (-1 if not
         reported); `start` is the pressure of the level before, None at the first level.
 
@@ -37,24 +28,25 @@ def answer_request(distribution, solver_class):
     """
     request = np.load(sys.argv[-2])
     rows, columns = request["gap"].shape
-    problem = Problem(_padded(request), request["depths"], request["forces"], int(request["threads"]))
+    levels, threads = {name: request[name] for name in ("depths", "forces")}, int(request["threads"])
+    problem = SimpleNamespace(gap=_padded(request), threads=threads, **levels)
     solver, pressures, iterations, start = solver_class(problem), [], 0, None
     signal.setitimer(signal.ITIMER_REAL, float(request["maximum_seconds"]))
-    wall, cpu = time.perf_counter(), time.process_time()
+    wall, processor = time.perf_counter(), time.process_time()
     for level in range(len(problem.depths)):
         start, count = solver.solve(level, float(request["tolerance"]), start)
         pressures.append(start[:rows, :columns])
         iterations += count
-    wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+    wall, processor = time.perf_counter() - wall, time.process_time() - processor
     signal.setitimer(signal.ITIMER_REAL, 0)
     np.savez(
         sys.argv[-1],
         version=metadata.version(distribution),
         pressures=pressures,
-        wall=wall,
-        cpu=cpu,
+        wall_s=wall,
+        processor_s=processor,
         iterations=max(iterations, -1),
-        memory_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6,
+        memory=1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
     )
 
 

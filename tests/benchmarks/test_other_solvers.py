@@ -7,17 +7,19 @@ from the pressures of every solver.
 
 import os
 import sys
+from unittest.mock import patch
 
 import numpy as np
+import other_solvers
+import pandas as pd
 import pytest
+import solver_race
+from click.testing import CliRunner
 
 from support import dense_contact
 from support.workflow import HANGS, ROOT
-from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
-from viscorough_study.performance import other_solvers
-
-ADAPTERS, SUPPORT = ROOT / "workflow/peers", ROOT / "tests/support"
+from viscorough import Indenter, indent
+from viscorough_study.run.tables import read_recorded
 
 
 @pytest.fixture(scope="module")
@@ -29,20 +31,20 @@ def indenter():
 
 
 @pytest.fixture
-def stand_in(tmp_path, monkeypatch):
+def aspher(tmp_path, monkeypatch):
     """The stand-in on the path of other processes, with its version."""
     metadata = tmp_path / "aspher-4.5.dist-info/METADATA"
     metadata.parent.mkdir()
     metadata.write_text("Metadata-Version: 2.1\nName: aspher\nVersion: 4.5\n")
-    paths = (tmp_path, SUPPORT, SUPPORT / "other_solvers")
+    paths = (tmp_path, ROOT / "tests/support", ROOT / "tests/support/other_solvers")
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(map(str, paths)))
 
 
-@pytest.mark.usefixtures("stand_in")
+@pytest.mark.usefixtures("aspher")
 @pytest.mark.parametrize("mode", ["levels", "nested", "active_set"])
 def test_adapter_solves_the_problem_of_the_request(mode, indenter):
     exact = indent(indenter, tolerance=1e-11, depths=[0.1, 0.2, 1.0])
-    command = [sys.executable, str(ADAPTERS / "aspher_adapter.py"), mode]
+    command = [sys.executable, "peers/aspher_adapter.py", mode]
     levels = "aspher", command, indenter, exact.depth, exact.force
     fine, coarse = (other_solvers.solve(*levels, tolerance, time_limit=HANGS) for tolerance in (1e-12, 1e-3))
     assert fine.version == "4.5"
@@ -57,3 +59,32 @@ def test_adapter_solves_the_problem_of_the_request(mode, indenter):
     assert 0 < fine.wall_s < HANGS
     assert other_solvers.solve(*levels, 1e-12, time_limit=1e-6) is None
     assert 1e7 < fine.memory < 1e9
+
+
+def test_pressure_outside_the_indenter_is_no_solution(indenter):
+    pressure = np.zeros(indenter.heights.shape)
+    pressure[0, 0] = 1.0
+    assert other_solvers.contact_residual(indenter.initial_gap / indenter.spacing, pressure) == np.inf
+    assert other_solvers.padded_size(17) == 24
+
+
+@pytest.mark.usefixtures("aspher")
+def test_small_race(tmp_path):
+    """With the stand-in, whose adapter answers as in the whole race, and a solver that is not installed."""
+    adapters = {"ASPHER": (sys.executable, "peers/aspher_adapter.py", "levels"), "Tamaas": ("absent/python", "")}
+    tasks = {"two levels": (9, 2, (0.1, 0.5), (1,))}
+    output = tmp_path / "tables/other_solvers.csv"
+    with (
+        patch.multiple(solver_race, TASKS=tasks, PAIRS=1, SOLVERS=tuple(adapters)),
+        patch.object(other_solvers, "ADAPTERS", adapters),
+    ):
+        done = CliRunner().invoke(solver_race.main, ["--output", str(output)])
+    assert done.exit_code == 0, done.output
+    assert "Tamaas is not installed and is omitted" in done.output
+    table = pd.read_csv(output)
+    assert table["solver"].tolist() == 2 * ["viscorough", "ASPHER"]
+    assert (table[["levels", "met"]] == [2, 1]).all(axis=None)
+    assert (table[["wall_s", "ratio", "memory"]] > 0).all(axis=None)
+    assert list(table) == list(solver_race.COLUMNS)
+    assert read_recorded(output.with_suffix(".nc"), "machine")["cores"] >= 1
+    assert read_recorded(output.with_suffix(".nc"), "settings")["pairs"] == 1

@@ -1,13 +1,14 @@
-"""Other solvers: their processes, residuals, and the comparison on one task, with solutions made here."""
+"""The comparison with other solvers on one task, with solutions made here."""
 
 import sys
+from types import SimpleNamespace
 
 import numpy as np
+import other_solvers
 import pytest
+import solver_race
 
-from viscorough.contact.loading_path import indent
-from viscorough.surfaces import self_affine_disc
-from viscorough_study.performance import other_solvers, solver_comparison
+from viscorough import indent, self_affine_disc
 
 
 @pytest.fixture(scope="module")
@@ -26,9 +27,9 @@ def stand_in(monkeypatch):
     """Makes solvers whose residual is `least`, and 0.6 of their tolerance more; `in_time` : whether they end."""
 
     def solve(name, made, indenter, depths, forces, tolerance, *, time_limit, threads=1):
-        residual = np.full(len(depths), made["least"] + 0.6 * tolerance)
-        solution = other_solvers.Solution("1.2", forces, residual, -1, made["seconds"] * threads, 0.25, 3e6)
-        return solution if made["in_time"] else None
+        residual, wall = np.full(len(depths), made["least"] + 0.6 * tolerance), made["seconds"] * threads
+        times = {"iterations": -1, "wall_s": wall, "processor_s": 0.25, "memory": 3e6}
+        return SimpleNamespace(version="1.2", force=forces, residual=residual, **times) if made["in_time"] else None
 
     monkeypatch.setattr(other_solvers, "solve", solve)
     return lambda seconds=0.5, least=0.0, in_time=True: {"seconds": seconds, "least": least, "in_time": in_time}
@@ -36,15 +37,8 @@ def stand_in(monkeypatch):
 
 def compared(disc, exact, solvers, pairs=1, **task):
     """Table of the solvers and the path, at the three levels to a residual of 1e-4."""
-    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4, **task)
-    return solver_comparison.compare_solvers(task, solvers, pairs=pairs, time_limit=20)
-
-
-def test_pressure_outside_the_indenter_is_no_solution(disc):
-    pressure = np.zeros(disc.heights.shape)
-    pressure[0, 0] = 1.0
-    assert other_solvers.contact_residual(disc.initial_gap / disc.spacing, pressure) == np.inf
-    assert other_solvers.padded_size(len(pressure)) == 24
+    task = solver_race.Task("three levels", 0.7, disc, exact.depth, exact.force, 1e-4, **task)
+    return solver_race.compare_solvers(task, solvers, pairs=pairs, time_limit=20)
 
 
 def test_a_solver_that_fails_is_reported_and_left_out_and_one_that_is_late_left_out(disc, exact, tmp_path):
@@ -57,12 +51,11 @@ def test_a_solver_that_fails_is_reported_and_left_out_and_one_that_is_late_left_
         table = compared(disc, exact, solvers)
     assert len(warned) == 1
     assert table["solver"].tolist() == ["viscorough"]
-    assert solver_comparison.installed_solvers({"absent": [str(tmp_path / "python")]} | solvers) == solvers
 
 
 def test_comparison_uses_the_loosest_tolerance_that_meets_the_residual(disc, exact, stand_in):
     table = compared(disc, exact, {"stand-in": stand_in()}, pairs=3, threads=(1, 2))
-    assert list(table.columns) == list(solver_comparison.COLUMNS)
+    assert list(table.columns) == list(solver_race.COLUMNS)
     assert table["solver"].tolist() == ["viscorough", "viscorough", "stand-in", "stand-in"]
     np.testing.assert_allclose(table["tolerance"], 1e-4)  # three times that would leave 1.8e-4
     assert (table["met"] == 1).all()
@@ -85,10 +78,10 @@ def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):
     table = compared(disc, exact, {"stand-in": stand_in(least=0.01)})
     assert table["met"].tolist() == [1, 0]
     assert table[["wall_s", "ratio"]].isna().all(axis=1).tolist() == [False, True]
-    assert table["tolerance"][1] == pytest.approx(min(solver_comparison.TOLERANCE_RATIOS) * 1e-4)
+    assert table["tolerance"][1] == pytest.approx(min(solver_race.TOLERANCE_RATIOS) * 1e-4)
 
 
 def test_a_task_is_at_the_contact_fractions_asked_for():
-    task = solver_comparison.disc_task("few", 0.7, 33, [0.05, 0.3], 1e-4, seed=2, threads=[1, 2])
+    task = solver_race.disc_task("few", 0.7, 33, [0.05, 0.3], (1, 2), seed=2)
     curve = indent(task.indenter, tolerance=1e-6, depths=task.depths)
     np.testing.assert_allclose(curve.contact_fraction, [0.05, 0.3], rtol=0.1)

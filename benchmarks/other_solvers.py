@@ -1,8 +1,8 @@
 """Other public contact solvers, run on the same levels as the elastic loading path, in separate environments.
 
-Each solver is driven by an adapter (workflow/peers), a script for the Python of the solver's environment, which lacks
-this package. Request and answer are .npz files, whose names are arguments of the adapter. Lengths are in element sides
-and pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and E* = E/(1 − ν²) = 4.
+Each solver is driven by an adapter in peers/, a script for the Python of the solver's environment, which lacks this
+package. Request and answer are .npz files, whose names are arguments of the adapter. Lengths are in element sides and
+pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and E* = E/(1 − ν²) = 4.
 
 The request holds
     gap : initial gap of the indenter's elements to its highest point, nan outside it, shape (rows, columns)
@@ -15,8 +15,8 @@ The answer holds
     version : of the solver
     pressures : p/G, shape (levels, rows, columns)
     iterations : of all levels, -1 if not reported
-    wall, cpu : seconds without set-up
-    memory_mb : peak memory of the process in MB
+    wall_s, processor_s : for all levels, without set-up
+    memory : peak memory of the process in bytes
 
 Convergence is judged here, by the residual of the pressures, in the same way for every solver.
 """
@@ -26,36 +26,35 @@ import signal
 import subprocess
 import tempfile
 import warnings
-from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
+import click
 import numpy as np
 from scipy.fft import next_fast_len
 
 from viscorough.contact.halfspace.operator import Halfspace
 
+ROOT = Path(__file__).resolve().parents[1]
+# {solver: command that runs its adapter, from ROOT, whether or not `make peers` has installed it}
+ADAPTERS = {
+    "ASPHER": (".venv-peers/bin/python", "peers/aspher_adapter.py", "levels"),
+    "ASPHER nested": (".venv-peers/bin/python", "peers/aspher_adapter.py", "nested"),
+    "ASPHER active set": (".venv-peers/bin/python", "peers/aspher_adapter.py", "active_set"),
+    "ContactMechanics": (".venv-peers/bin/python", "peers/contactmechanics_adapter.py"),
+    "SlipPY": (".venv-slippy/bin/python", "peers/slippy_adapter.py"),
+    "Tamaas": (".venv-peers/bin/python", "peers/tamaas_adapter.py"),
+}
 # Variables of the number of threads, which libraries read on loading.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-@dataclass(frozen=True)
-class Solution:
-    """Levels solved by another solver; arrays of shape (levels,), forces in the user's unit of length.
-
-    force : F/G of its pressures
-    residual : largest |gap| in contact or overlap outside it, over the depth, computed from its pressures
-    iterations : of all levels, -1 if not reported
-    wall_s, processor_s : for all levels, without set-up; memory : peak memory of its process [bytes]
-    version : of the solver
-    """
-
-    version: str
-    force: np.ndarray
-    residual: np.ndarray
-    iterations: int
-    wall_s: float
-    processor_s: float
-    memory: float
+def installed(names):
+    """{solver: command that runs its adapter} of the solvers whose environments exist; a message names the others."""
+    missing = [name for name in names if not (ROOT / ADAPTERS[name][0]).is_file()]
+    for name in missing:
+        click.echo(f"{name} is not installed and is omitted (make peers installs it)", err=True)
+    return {name: ADAPTERS[name] for name in names if name not in missing}
 
 
 def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, threads=1):
@@ -65,8 +64,11 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
     depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver uses one or the other
     tolerance : the solver's own; time_limit : seconds after which the run is abandoned
 
-    Returns None where there is no solution. If the solver's process fails, warns with the last line of its standard
-    error.
+    Returns None where there is no solution, otherwise version, iterations, wall_s, processor_s and memory of the
+    answer and, of shape (levels,), from its pressures
+        force : F/G, in the user's unit of length
+        residual : largest |gap| in contact or overlap outside it, over the depth
+    If the solver's process fails, warns with the last line of its standard error.
     """
     gap = indenter.initial_gap / indenter.spacing
     request = {
@@ -82,7 +84,7 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
         paths = Path(folder) / "request.npz", Path(folder) / "answer.npz"
         np.savez(paths[0], **request)
         variables = os.environ | dict.fromkeys(THREADS, str(threads))
-        done = subprocess.run([*command, *paths], env=variables, capture_output=True, text=True)
+        done = subprocess.run([*command, *paths], cwd=ROOT, env=variables, capture_output=True, text=True)
         if done.returncode == -signal.SIGALRM:  # the time was over
             return None
         if not paths[1].is_file():
@@ -90,15 +92,9 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
             return None
         with np.load(paths[1]) as answer:
             pressures = answer["pressures"]
-            return Solution(
-                version=str(answer["version"]),
-                force=pressures.sum(axis=(1, 2)) * indenter.spacing**2,
-                residual=np.array([contact_residual(gap, pressure) for pressure in pressures]),
-                iterations=int(answer["iterations"]),
-                wall_s=float(answer["wall"]),
-                processor_s=float(answer["cpu"]),
-                memory=float(answer["memory_mb"]) * 1e6,
-            )
+            told = {name: answer[name].item() for name in ("version", "iterations", "wall_s", "processor_s", "memory")}
+            residual = np.array([contact_residual(gap, pressure) for pressure in pressures])
+            return SimpleNamespace(force=pressures.sum(axis=(1, 2)) * indenter.spacing**2, residual=residual, **told)
 
 
 def contact_residual(gap, pressure):

@@ -1,0 +1,139 @@
+"""Time one light load on square maps, as on a scan: growth of the cost with the size of the map, and other solvers.
+
+    python benchmarks/light_contact.py --output results/light_contact.csv --figure results/light_contact.png
+
+The whole map is read, and pressure and gap are computed everywhere. The time that no solver can do without is that of
+reading the map and ranking the elements that can touch. Solvers that `make peers` has not installed are left out. The
+table has the columns of COLUMNS; a NetCDF file beside it also records settings and machine. `make light` runs it.
+"""
+
+from functools import partial
+from pathlib import Path
+
+import click
+import numpy as np
+import other_solvers
+import pandas as pd
+import solver_race
+from measuring import LARGE_PAGES, output_option, run_timed, save_times
+
+from viscorough import Indenter, contact_at
+from viscorough.contact.ranking import Ranking
+from viscorough.surfaces import self_affine_square
+from viscorough_study.figures import style
+from viscorough_study.performance import costs, timing
+from viscorough_study.run.seeds import light_map_key, realization_seed
+
+# Elements across the maps, one map of each size, and contact fractions that the loads on them are chosen for.
+ELEMENTS, FRACTIONS = (256, 512, 1024, 2048, 4096, 8192), (5e-4, 5e-3)
+# Those that other solvers compute, too: solvers or their modes, maps, and fractions of the loads on these.
+SOLVERS = ("Tamaas", "ContactMechanics", "ASPHER active set")
+RACE_ELEMENTS, RACE_FRACTIONS = (2048, 4096), (5e-4, 5e-3, 0.025, 0.3)
+# Exponent of the maps, residual to be reached, root seed, pairs of runs of this and another solver, their threads.
+HURST, RESIDUAL, SEED, PAIRS, THREADS = 0.8, 3e-5, 2013, 3, (1, 2)
+# Other solvers are stopped after this many times our time, or after the shortest time.
+SLOWER, SHORTEST = 20, 2.0  # [s]
+# Most repetitions of our own solutions, of which a small map takes as many as last SHORTEST.
+MOST_REPEATS = 40
+# Corrections of the force towards a contact fraction, and the tolerance of the contacts that tell it.
+CORRECTIONS, TOLERANCE = 3, 1e-2
+COLUMNS = {
+    "fraction": ("contact fraction that the load was chosen for", "1"),
+    **{name: text for name, text in solver_race.COLUMNS.items() if name not in ("task", "levels", "force_error")},
+    "over_depth": ("time of our solution on one thread over that at the depth instead, run in turn, of medians", "1"),
+    "ranking_s": ("time of reading the map and ranking the elements that can touch, median", "s"),
+}
+
+
+class LightLoad(solver_race.Task):
+    """A load on a map, the only one of `forces`; depths : of the contact, shape (1,)."""
+
+    def solve(self, threads):
+        """The Contact under the load, with its maps."""
+        return contact_at(self.indenter, force=self.forces[0], tolerance=self.residual, threads=threads)
+
+    def rank(self):
+        """What no solution can do without: the elements that can touch, in order."""
+        ranking = Ranking(self.indenter)
+        return ranking.first(self.depths[0] / ranking.units.length)
+
+    def outcome(self, solution):
+        """Residual, by the measure of all solvers, and force; the number of iterations is not reported."""
+        gap = self.indenter.initial_gap / self.indenter.spacing
+        residual = other_solvers.contact_residual(gap, np.nan_to_num(solution.pressure))
+        return np.array([residual]), np.array([solution.force]), -1
+
+
+def light_load(indenter, fraction):
+    """The LightLoad for a contact fraction, which nearly is proportional to the force.
+
+    The first guess is that of light contact between rough surfaces, F = ½ E* h′ A with E* = 4G, contact area A and rms
+    slope h′ (Persson 2001, Hyun et al. 2004).
+    """
+    force = 2 * indenter.rms_slope * fraction * indenter.elements * indenter.spacing**2
+    for _ in range(CORRECTIONS):
+        contact = contact_at(indenter, force=force, tolerance=TOLERANCE)
+        force *= fraction / contact.contact_fraction
+    depth = contact_at(indenter, force=force, tolerance=TOLERANCE).depth
+    name = f"{100 * fraction:g} % at {len(indenter.heights)}"
+    return LightLoad(name, HURST, indenter, np.array([depth]), np.array([force]), RESIDUAL, THREADS)
+
+
+@style.figure
+def plot_light_contact(table):
+    """Wall time on one thread against the elements of the map, with the time of ranking them.
+
+    table : with the columns of `COLUMNS`
+    Exponents are fitted to the larger half of the sizes.
+    """
+    own = table.query("solver == 'viscorough' and threads == 1 and met == 1 and fraction in @FRACTIONS")
+    own = own.assign(number=own["elements"] ** 2.0)
+    looks = style.series_looks(own["fraction"].unique())
+    figure = style.new_figure(85, style.NARROW)
+    axes = figure.subplots()
+    for fraction, rows in own.groupby("fraction"):
+        larger = rows[min(len(rows) // 2, len(rows) - 2) :]
+        exponent, _ = costs.fit_cost(larger["number"], larger["wall_s"])
+        label = f"contact of {100 * fraction:g} %, $N^{{{exponent:.2f}}}$"
+        axes.plot(rows["number"], rows["wall_s"], **looks[fraction], label=label)
+    ranking = own.groupby("number")["ranking_s"].min()
+    axes.plot(ranking.index, ranking, "--", color=style.GREY, label="reading and ranking the map")
+    axes.set(xscale="log", yscale="log", xlabel="elements of the map", ylabel="wall time (s)")
+    figure.legend(loc="outside lower center")
+    return figure
+
+
+@click.command(help=__doc__.splitlines()[0])
+@output_option
+@click.option("--figure", type=click.Path(path_type=Path), required=True, help="PNG file to draw; also as PDF.")
+def main(output, figure):
+    solvers, stopped, tables = other_solvers.installed(SOLVERS), set(), []
+    for across in ELEMENTS:
+        seed = realization_seed(SEED, *light_map_key(HURST, across, 0))
+        indenter = Indenter(self_affine_square(HURST, across, seed=seed), 1.0)
+        raced = RACE_FRACTIONS if across in RACE_ELEMENTS else ()
+        for fraction in sorted({*FRACTIONS, *raced}):
+            click.echo(f"{across} x {across} elements, contact of {fraction:g}")
+            load = light_load(indenter, fraction)
+            _, seconds, _ = timing.timed(partial(load.solve, 1))
+            names = [name for name in solvers if fraction in raced and (name, fraction) not in stopped]
+            racing, limit = {name: solvers[name] for name in names}, max(SHORTEST, SLOWER * seconds)
+            table = solver_race.compare_solvers(load, racing, pairs=PAIRS, time_limit=limit)
+            # One that did not finish is not waited for again on a larger map.
+            stopped |= {(name, fraction) for name in racing if name not in set(table["solver"])}
+            at_depth = partial(contact_at, indenter, depth=load.depths[0], tolerance=RESIDUAL)
+            own = {"force": partial(load.solve, 1), "depth": at_depth, "ranking": load.rank}
+            times = timing.interleaved(own, max(PAIRS, min(MOST_REPEATS, int(SHORTEST / seconds))))
+            force, depth, ranking = (times[name][0] for name in own)
+            tables.append(table.assign(fraction=fraction, over_depth=force / depth, ranking_s=ranking))
+    table = pd.concat(tables, ignore_index=True)[list(COLUMNS)]
+    maps = {"elements": ELEMENTS, "fractions": FRACTIONS, "race": [RACE_ELEMENTS, RACE_FRACTIONS]}
+    settings = {"hurst": HURST, "residual": RESIDUAL, "seed": SEED, "pairs": PAIRS, "threads": THREADS, **maps}
+    save_times(table, output, COLUMNS, "One light load on large maps", settings)
+    figure.parent.mkdir(parents=True, exist_ok=True)
+    style.save_figure(plot_light_contact(table), figure, figure.with_suffix(".pdf"))
+    click.echo(f"drawn in {figure}")
+
+
+if __name__ == "__main__":
+    run_timed(main, **LARGE_PAGES)

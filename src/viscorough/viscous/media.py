@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, read_only
+from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.types import Array
 from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
 from viscorough.viscous.spectra import retardation_spectrum
@@ -87,9 +87,8 @@ class _Exponential(Medium):
         """Raise ValueError if spectra cannot be held in double precision."""
         with np.errstate(all="ignore"):
             rates = 1 / self.relaxation.times, 1 / self.retardation.times
-            values: list[Any] = [*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates]
-            finite = all(np.isfinite(value).all() for value in values)
-        if not finite:
+            values = np.hstack([*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates])
+        if not np.isfinite(values).all():
             name = type(self).__name__
             raise ValueError(f"{name}: its values are too far apart for double precision; closer ones are allowed")
 
@@ -198,18 +197,14 @@ class StandardLinearSolid(_Exponential):
     relaxed_modulus: float
     relaxation_time: float
 
-    def __post_init__(self) -> None:
-        _keep_positive(self)
-        if not self.relaxed_modulus < self.instantaneous_modulus:
+    @cached_property
+    def relaxation(self) -> RelaxationSpectrum:
+        branch = self.instantaneous_modulus - self.relaxed_modulus
+        if not branch > 0:
             raise ValueError(
                 f"StandardLinearSolid: relaxed_modulus {self.relaxed_modulus:g}; "
                 f"allowed: below instantaneous_modulus, {self.instantaneous_modulus:g}"
             )
-        self._check_spectra()
-
-    @cached_property
-    def relaxation(self) -> RelaxationSpectrum:
-        branch = self.instantaneous_modulus - self.relaxed_modulus
         return RelaxationSpectrum(0.0, self.relaxed_modulus, np.array([branch]), np.array([self.relaxation_time]))
 
 
@@ -360,19 +355,14 @@ class CreepTable(ReadOnlyArrays, Medium):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        times, values = self.times, self.compliances
-        if times.ndim != 1 or times.shape != values.shape or times.size < 2:
-            raise ValueError(
-                f"CreepTable: shapes {times.shape} and {values.shape}; allowed: two rows of equal length, 2+"
-            )
-        if not all(array.dtype.kind in "iuf" and np.isfinite(array).all() for array in (times, values)):
-            raise ValueError("CreepTable: allowed are finite real numbers")
+        times = increasing("CreepTable: times", self.times)
+        if times[0] != 0 or times.size < 2 or self.compliances.dtype.kind not in "iuf":
+            raise ValueError("CreepTable: allowed are two or more times that start with 0, and real compliances")
+        values = samples("CreepTable: compliances", self.compliances, times)
         for name, array in (("times", times), ("compliances", values)):
-            object.__setattr__(self, name, read_only(array.astype(float)))
-        if times[0] != 0 or not (np.diff(times) > 0).all():
-            raise ValueError("CreepTable: allowed are times that start with 0 and increase")
+            object.__setattr__(self, name, read_only(array))
         slopes = self._slopes
-        if not (values[0] >= 0 and (slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
+        if not ((slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
             raise ValueError("CreepTable: allowed is a compliance that starts at 0 or more, grows and never decreases")
         rounding = _LAST_DIGITS * values[1:-1] / np.minimum(np.diff(times)[1:], np.diff(times)[:-1])
         if (steeper := slopes[1:] > slopes[:-1] * (1 + _TABLE_ROUNDING) + rounding).any():

@@ -147,14 +147,20 @@ def kinetics(
     if times is None and isinstance(force, ForceHistory):
         times = force.times
     load: Any = consistent_force(force, curve.length_unit)
-    constant = np.ndim(load) == 0
-    if constant and not (np.isfinite(load) and load > 0):
-        raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
-    if times is None:
-        if not constant:
-            raise ValueError("times: missing; a force given as samples needs the time of each sample")
-        times = _spread_times(curve, load, medium)
-    times, creep, rate = _creep(load, medium, times)
+    if np.ndim(load) == 0:
+        if not (np.isfinite(load) and load > 0):
+            raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
+        times = impulses(load, _spread_times(curve, load, medium) if times is None else times).times
+        if times[-1] > medium.last_time:
+            text = f"allowed: up to the last time of the table, {medium.last_time:g}"
+            raise ValueError(f"times: up to {times[-1]:g}; {text}")
+        with np.errstate(over="ignore"):
+            creep, rate = load * medium.creep_compliance(times), load * medium.creep_rate(times)
+    elif times is None:
+        raise ValueError("times: missing; a force given as samples needs the time of each sample")
+    else:
+        history, place = resampled(load, times)
+        times, creep, rate = (values[place] for values in (history.times, *creep_response(medium, history)))
     depth, stiffness = _at_elastic_force(curve, creep, times)
     # Where nothing moves the velocity is 0 even before the first level, where the stiffness is nan.
     velocity = np.where(rate <= 0, 0.0, rate / stiffness)
@@ -197,20 +203,6 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     times = np.geomspace(ends[0], ends[1], _SPREAD)
     springs = at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
     return np.append(0.0, times) if springs else times
-
-
-def _creep(force: ForceHistory | Any, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:
-    """Times, Φ and dΦ/dt there."""
-    if np.ndim(force) > 0:
-        history, place = resampled(force, times)
-        creep, rate = creep_response(medium, history)
-        return history.times[place], creep[place], rate[place]
-    load: Any = force
-    times = impulses(load, times).times
-    if times[-1] > medium.last_time:
-        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
-    with np.errstate(over="ignore"):
-        return times, load * medium.creep_compliance(times), load * medium.creep_rate(times)
 
 
 def resampled(force: ForceHistory | Any, times: ArrayLike) -> tuple[ForceHistory, Integers]:

@@ -139,7 +139,7 @@ def identify_medium(
         if not (0 < force < np.inf and times[0] >= 0):
             raise ValueError(f"force: {force:g} from time 0 on, record from {times[0]:g} on; allowed: both above 0")
         force = impulses([force, force], [0.0, times[-1]])
-    history, place = resampled(force if isinstance(force, ForceHistory) else impulses(force, times), times)
+    history, place = resampled(force, times)
     lags = times - history.times[0]
     knots = lags[lags > 0]
     if knots.size > _KNOTS:  # a subset at equal ratios
@@ -202,8 +202,7 @@ def _check_growth(times: Array, depth: Array) -> None:
     scatter = 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6)
     resolution = abs(steps[steps != 0]).min(initial=np.inf) if (steps == 0).any() else 0.0
     resolution = resolution if np.isfinite(resolution) else 0.0
-    size = 1
-    while size <= depth.size // 2:
+    for size in (2**k for k in range(depth.size.bit_length() - 1)):
         count = depth.size // size
         mean = depth[: count * size].reshape(count, size).mean(axis=1)
         drop = np.maximum.accumulate(mean) - mean
@@ -214,17 +213,13 @@ def _check_growth(times: Array, depth: Array) -> None:
                 f"record: at time {times[where * size]:.6g} the depth has receded by {drop[where]:.3g}, more than its "
                 f"scatter, {scatter:.3g}, explains; allowed: depths that grow, under which the contact does not recede"
             )
-        size *= 2
 
 
 def _impulse(history: ForceHistory, time: Array) -> Array:
     """∫F dt up to times of any shape, exactly: quadratic between samples, 0 before them."""
-    last = history.times.size - 1
-    k = np.clip(np.searchsorted(history.times, time, side="right") - 1, 0, max(last - 1, 0))
+    k = np.maximum(np.searchsorted(history.times, time, side="right") - 1, 0)
     offset = np.maximum(time - history.times[k], 0)
-    length = history.times[np.minimum(k + 1, last)] - history.times[k]
-    slope = np.divide(np.diff(history.force, append=0)[k], length, out=np.zeros(length.shape), where=length > 0)
-    return history.impulse[k] + offset * (history.force[k] + 0.5 * slope * offset)
+    return history.impulse[k] + 0.5 * offset * (history.force[k] + np.interp(time, history.times, history.force))
 
 
 class _Record:

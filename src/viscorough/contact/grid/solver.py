@@ -93,14 +93,10 @@ class GridSolver:
 
     def fields(self, contact: ContactState) -> GridFields:
         """GridFields of a contact from elsewhere on this grid; costs two applications of the operator."""
-        search = self._search
+        search, loads = self._search, contact.member_loads()
         inside, pressure, tangent = search.zeros(bool), search.zeros(), search.zeros()
-        if contact.fields:
-            self._loops.transfer(contact.fields, self.place, inside, pressure, tangent)
-        else:
-            loads = contact.member_loads()
-            place = self.place[loads.members]
-            inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
+        place = self.place[loads.members]
+        inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
         change, tangent_gap = search.gap_change(pressure, contact.reduced_depth), search.tangent_gap(tangent)
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 

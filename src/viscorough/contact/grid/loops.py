@@ -54,29 +54,6 @@ class GridLoops:
 
     # Over the elements, by rank.
 
-    def place_elements(
-        self, box: tuple[int, ...], row: Integers, column: Integers, initial_gap: Array, field: Array
-    ) -> Integers:
-        """Indices of the elements in a flat field for the elements in a box, where their initial gaps are stored.
-
-        box : (first row, first column, rows, columns)
-
-        Elements that are not in the box have the index 0, the entry of which is kept.
-        """
-        top, left, rows, columns = box
-        width, kept = columns + 2 * kernels.REACH, field[0]
-        place: Integers = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
-
-        def store(i: int, j: int) -> None:
-            in_rows, in_columns = row[i:j].astype(place.dtype) - top, column[i:j] - left
-            inside = (in_rows >= 0) & (in_rows < rows) & (in_columns >= 0) & (in_columns < columns)
-            place[i:j] = inside * ((in_rows + kernels.REACH) * width + in_columns + kernels.REACH)
-            field[place[i:j]] = initial_gap[i:j]
-
-        self.over(row, store)
-        field[0] = kept
-        return place
-
     def new_members(self, after: GridFields, before: GridFields) -> Integers:
         """Ranks of the elements in contact in GridFields, but not in other ones, which may be of another grid."""
 

@@ -210,17 +210,13 @@ class ContactSearch:
         return ContactSet(inside, *self._loops.contact_places(inside, self._width, self._halfspace.load.shape[1]))
 
     def gap_change(self, pressure: Array, depth: float) -> BoundedField:
-        """e − g = K P − u of a pressure as a BoundedField."""
+        """e − g = K P − u of a pressure as a BoundedField; e_q = K q − 1 of a tangent with a depth of 1."""
         change = BoundedField(self.zeros(), self.field_rounding * depth)
         if pressure.any():
             self._deflect(pressure, depth, change)
         else:
             self._loops.fill(change.values, -depth)
         return change
-
-    def tangent_gap(self, tangent: Array) -> BoundedField:
-        """e_q = K q − 1 of a tangent as a BoundedField."""
-        return self.gap_change(tangent, 1)
 
     def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
         """A flat field of zeros; its memory is allocated by the loop that fills it, on the threads of that loop."""

@@ -16,9 +16,10 @@ from viscorough.contact.grid import kernels
 from viscorough.contact.grid.depth_adjustment import PrescribedForce
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.search import ContactSearch
-from viscorough.contact.grid.tangent_start import Loads, initial_tangent
+from viscorough.contact.grid.tangent_start import initial_tangent
 from viscorough.contact.halfspace.tiles import tiles_of_part
 from viscorough.contact.options import LATE, SolverOptions
+from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields, Units
 from viscorough.types import Array, Integers, Mask
 
@@ -72,9 +73,24 @@ class GridSolver:
         self.place_elements(row[placed], column[placed], initial_gap[placed])
 
     def place_elements(self, row: Integers, column: Integers, initial_gap: Array) -> None:
-        """Place the elements of the arrays, which begin with those placed before."""
-        box, row, column = self._oriented(row, column)
-        self.place = self._loops.place_elements(box, row, column, initial_gap, self.initial_gap)
+        """Place the elements of the arrays, which begin with those placed before, and store their initial gaps.
+
+        Elements that are not in the box have the place 0, the entry of which is kept.
+        """
+        (top, left, rows, columns), row, column = self._oriented(row, column)
+        field, width = self.initial_gap, columns + 2 * REACH
+        outside = field[0]
+        place: Integers = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
+
+        def store(i: int, j: int) -> None:
+            in_rows, in_columns = row[i:j].astype(place.dtype) - top, column[i:j] - left
+            inside = (in_rows >= 0) & (in_rows < rows) & (in_columns >= 0) & (in_columns < columns)
+            place[i:j] = inside * ((in_rows + REACH) * width + in_columns + REACH)
+            field[place[i:j]] = initial_gap[i:j]
+
+        self._loops.over(row, store)
+        field[0] = outside
+        self.place = place
 
     def _oriented(self, row: Integers, column: Integers) -> tuple[tuple[int, ...], Integers, Integers]:
         """Box, rows and columns of elements, exchanged in a transposed grid."""
@@ -97,7 +113,7 @@ class GridSolver:
         inside, pressure, tangent = search.zeros(bool), search.zeros(), search.zeros()
         place = self.place[loads.members]
         inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
-        change, tangent_gap = search.gap_change(pressure, contact.reduced_depth), search.tangent_gap(tangent)
+        change, tangent_gap = search.gap_change(pressure, contact.reduced_depth), search.gap_change(tangent, 1)
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
     def solve(self, contact: ContactState, depth: float, force: tuple[float, float] | None = None) -> ContactState:
@@ -114,7 +130,7 @@ class GridSolver:
         pressure, change, inside = predicted
         prescribed = PrescribedForce(*force, self._loops) if force else None
         contact_set, depth = search.solve_pressure(pressure, change, inside, depth, prescribed)
-        now = Loads(pressure, change, depth)
+        now = pressure, change, depth
         tangent, tangent_gap = initial_tangent(now, last_depth, before, contact_set, search.inner, self._loops)
         search.solve_tangent(contact_set, tangent, tangent_gap)
         solution = contact_set.inside, pressure, change, tangent, tangent_gap

@@ -174,7 +174,8 @@ class ContactSolver:
             raise ValueError(f"{text} initial gap, up to which depths are allowed")
         deepest = force[1] if force else max(min(_BOX_DEPTH_MARGIN * depth, self._largest_depth), depth)
         candidates = self.candidates(depth, deepest)
-        if contact.fields is None and self._is_small(candidates, contact):
+        # A dense evaluation of few interactions is cheaper than the grid.
+        if contact.fields is None and candidates * contact.count <= self.options.dense_interactions:
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
                 return self._checked(contact, solution)
@@ -265,10 +266,6 @@ class ContactSolver:
             area *= most - least + 1
         reach = rank + int(np.count_nonzero(area <= _GROWTH_OF_BOX * area[0])) - 1
         return min(deepest, self.elements.next_gap(reach))
-
-    def _is_small(self, candidates: int, contact: ContactState) -> bool:
-        """Whether a dense evaluation is cheaper than the grid."""
-        return candidates * contact.count <= self.options.dense_interactions
 
     def _grid_up_to(self, rank: int, deepest: float) -> GridSolver:
         """The grid solver of a box around the elements up to a rank: the current one, or else one with a larger box.

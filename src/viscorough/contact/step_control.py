@@ -12,9 +12,9 @@ import numpy as np
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
-from viscorough.contact.state import ContactState, GridFields
+from viscorough.contact.state import ContactState
 from viscorough.loading_curve import interpolate_between
-from viscorough.types import Array, Integers
+from viscorough.types import Array
 
 # Finest tolerance of interpolation: a smaller one would require every contact event as a level, as in direct
 # integration.
@@ -191,22 +191,16 @@ def _predicted_touches(before: ContactState, after: ContactState, share: Array, 
     """
     if before.fields is None or after.fields is None:  # the one after may have been solved from an earlier contact
         return None
-    place, pressure, tangent = _new_elements(before.fields, after.fields, threads)
+    loops = GridLoops(threads)
+    if after.fields.initial_gap is before.fields.initial_gap:
+        place = place_after = loops.difference(after.fields.inside, before.fields.inside)
+    else:
+        members, places = loops.new_members(after.fields, before.fields), before.fields.place
+        # Place 0, outside the grid, for elements that were not ranked.
+        place, place_after = np.append(places, 0)[np.minimum(members, places.size)], after.fields.place[members]
     if place.size < _PREDICTED_COUNT or not place.all():  # place 0 is outside the grid of the contact before
         return None
     fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
     width = after.reduced_depth - before.reduced_depth
-    sums = GridLoops(threads).each(kernels.touch_sums, (*fields, width, share), place, pressure, tangent)
-    return sum(sums)
-
-
-def _new_elements(before: GridFields, after: GridFields, threads: int) -> tuple[Integers, Array, Array]:
-    """Elements that join a contact: their places on the grid of the GridFields before, and P and q after."""
-    loops = GridLoops(threads)
-    if after.initial_gap is before.initial_gap:
-        place = places_before = loops.difference(after.inside, before.inside)
-    else:
-        members = loops.new_members(after, before)
-        # Place 0, outside the grid, for elements that were not ranked.
-        place, places_before = after.place[members], np.append(before.place, 0)[np.minimum(members, before.place.size)]
-    return places_before, after.pressure[place].astype(float), after.tangent[place].astype(float)
+    loads = (load[place_after].astype(float) for load in (after.fields.pressure, after.fields.tangent))
+    return sum(loops.each(kernels.touch_sums, (*fields, width, share), place, *loads))

@@ -144,8 +144,6 @@ def kinetics(
     (True, True)
     """
     medium = medium_of(medium, curve.length_unit)
-    if times is None and isinstance(force, ForceHistory):
-        times = force.times
     load: Any = consistent_force(force, curve.length_unit)
     if np.ndim(load) == 0:
         if not (np.isfinite(load) and load > 0):
@@ -156,7 +154,7 @@ def kinetics(
             raise ValueError(f"times: up to {times[-1]:g}; {text}")
         with np.errstate(over="ignore"):
             creep, rate = load * medium.creep_compliance(times), load * medium.creep_rate(times)
-    elif times is None:
+    elif times is None and not isinstance(load, ForceHistory):
         raise ValueError("times: missing; a force given as samples needs the time of each sample")
     else:
         history, place = resampled(load, times)
@@ -205,15 +203,14 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     return np.append(0.0, times) if springs else times
 
 
-def resampled(force: ForceHistory | Any, times: ArrayLike) -> tuple[ForceHistory, Integers]:
+def resampled(force: ForceHistory | Any, times: ArrayLike | None) -> tuple[ForceHistory, Integers]:
     """The ForceHistory with samples at `times` added, and the indices of those; after a step, where one is.
 
-    force, times : as of `impulses`, or a ForceHistory and times within it
+    force, times : as of `impulses`, or a ForceHistory and times within it, or None for those of its samples
     """
     if not isinstance(force, ForceHistory):
-        history = impulses(force, times)
-        return history, np.arange(history.times.size)
-    if times is force.times:
+        force, times = impulses(force, times), None
+    if times is None or times is force.times:
         return force, np.arange(force.times.size)
     times = increasing("times", times)
     if times[0] < force.times[0] or times[-1] > force.times[-1]:

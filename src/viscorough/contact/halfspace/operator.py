@@ -33,13 +33,7 @@ def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
 def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: bool = True, threads: int = 1) -> Array:
     """What a Halfspace multiplies transforms with, in double precision; its arguments are those of Halfspace."""
     of_grid = convolution_lengths(rows, columns), None if padding else (rows, columns), aspect
-    return _kept_spectrum(*of_grid) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
-
-
-@lru_cache(maxsize=6)
-def _kept_spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float) -> Array:
-    """The same as `_spectrum`, cached for grids with these lengths."""
-    return _spectrum(lengths, period, aspect, threads=1)
+    return _kept_spectrum(*of_grid, 1) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
 
 
 def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float, threads: int) -> Array:
@@ -55,6 +49,9 @@ def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspe
         return influence_table(row, column, aspect)
 
     return spectrum_of_kernel(lengths, kernel, threads)
+
+
+_kept_spectrum = lru_cache(maxsize=6)(_spectrum)  # the same, cached for grids with these lengths
 
 
 def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array], Array], threads: int = 1) -> Array:
@@ -95,22 +92,19 @@ class _RowTransforms:
     def __init__(self, rows: int, columns: int, length: int, precision: DTypeLike, threads: int) -> None:
         self._length, self._threads = length, threads
         self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
-        is_one = self._block >= rows
-        self.width = (length if is_one else columns) + _ROW_PADDING
+        self._is_one = self._block >= rows
+        self.width = (length if self._is_one else columns) + _ROW_PADDING
         # Two blocks of rows: with their padding, and as they result from inverse transforms.
-        buffers = Buffers((2, self._block, length + _ROW_PADDING), precision)
-        self._columns, self._buffers = columns, None if is_one else buffers
+        self._columns, self._buffers = columns, Buffers((2, self._block, length + _ROW_PADDING), precision)
 
     def forward(self, data: Array, out: Complex) -> None:
         """Transform the rows of `data`."""
-        if self._buffers is None:
+        if self._is_one:
             ducc0.fft.r2c(data[:, : self._length], axes=[1], out=out)
             return
 
-        buffers = self._buffers
-
         def transform(start: int, stop: int) -> None:
-            with buffers.one() as (padded, _):
+            with self._buffers.one() as (padded, _):
                 padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
                 ducc0.fft.r2c(padded[: stop - start, : self._length], axes=[1], out=out[start:stop])
 
@@ -118,14 +112,12 @@ class _RowTransforms:
 
     def backward(self, data: Complex, out: Array) -> None:
         """The inverse of `forward`, which overwrites `data`; the columns of `out` beyond the grid are undefined."""
-        if self._buffers is None:
+        if self._is_one:
             self._inverse(data, out)
             return
 
-        buffers = self._buffers
-
         def transform(start: int, stop: int) -> None:
-            with buffers.one() as (_, rows):
+            with self._buffers.one() as (_, rows):
                 self._inverse(data[start:stop], rows[: stop - start])
                 out[start:stop, : self._columns] = rows[: stop - start, : self._columns]
 

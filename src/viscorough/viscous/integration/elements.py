@@ -42,12 +42,6 @@ class MapElements(Elements):
         row, column = self.row[members], self.column[members]
         return self.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
 
-    def pressure_map(self, load: Array) -> Array:
-        """Pressure p = 4π Q/d on the grid, nan where there is no element."""
-        pressure = np.full(self.shape, np.nan)
-        pressure[self.row, self.column] = 4 * np.pi / self.side * load
-        return pressure
-
 
 def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
     """The MapElements of an indenter. Raises ValueError, which starts with the caller, unless it is a map."""

@@ -142,8 +142,10 @@ def march_medium(
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
+    last_pressure = np.full(elements.shape, np.nan)
+    last_pressure[elements.row, elements.column] = 4 * np.pi / elements.side * pressure
     moved = times, depths, forces * area, counts.astype(int), indenter.length_unit
-    return MediumMotion(*moved, read_only(elements.pressure_map(pressure)), float(receding))
+    return MediumMotion(*moved, read_only(last_pressure), float(receding))
 
 
 def spectrum_of(caller: str, medium: Medium | float | str, length_unit: str) -> RelaxationSpectrum:

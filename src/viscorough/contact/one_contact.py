@@ -86,8 +86,7 @@ def contact_at(
     check_solvable("contact_at", indenter, tolerance, threads)
     if (depth is None) == (force is None):
         raise ValueError("contact_at: either depth or force must be given")
-    by_depth = force is None
-    unit = indenter.length_unit
+    by_depth, unit = force is None, indenter.length_unit
     if shear_modulus is not None:
         shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
     given: Any
@@ -97,16 +96,37 @@ def contact_at(
         given = units.forces_over_modulus(force, shear_modulus, unit, "force")
     values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", np.atleast_1d(given), above_zero=True)
     # Pressures that add up to the force exactly take the other half of the tolerance.
-    most: dict[str, Any] = {"largest_depth": float(values[-1])} if by_depth else {}
-    solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False, **most)
+    largest_depth = float(values[-1]) if by_depth else np.inf
+    solver = ContactSolver(indenter, tolerance / 2, options, threads, largest_depth=largest_depth, whole=False)
     progress = progress or (lambda done: None)
     states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
     contacts = []
     for state, value in zip(states, values.tolist(), strict=True):
         if not np.isfinite(state.force):
             raise ValueError("contact_at: the force is too large to represent; a larger unit of length is needed")
-        stated = {"depth" if by_depth else "force": value, "shear_modulus": shear_modulus}
-        contacts.append(_contact(indenter, tolerance, solver, state, stated))
+        gap, loads = solver.gap_map(state), state.member_loads()
+        pressure = np.where(np.isnan(gap), np.nan, 0.0)
+        pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
+        contact = pressure > 0
+        for array in (pressure, gap, contact):
+            array.flags.writeable = False  # so that they need not be copied
+        contacts.append(
+            Contact(
+                pressure=pressure,
+                gap=gap,
+                contact=contact,
+                # What was given instead of its rounded value.
+                depth=value if by_depth else state.depth,
+                force=state.force if by_depth else value,
+                stiffness=state.stiffness,
+                residual=state.residual,
+                tolerance=tolerance,
+                spacing=indenter.spacing,
+                row_spacing=indenter.row_spacing,
+                length_unit=unit,
+                shear_modulus=shear_modulus,
+            )
+        )
         progress(len(contacts) / values.size)
     last = contacts[-1]
     warn_beyond_theory("contact_at", indenter, last.depth)
@@ -134,30 +154,3 @@ def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) 
             progress((number + _SHARE_OF_APPROACH * share) / forces.size)
 
         yield search.contact_at(force, report)
-
-
-def _contact(
-    indenter: Indenter, tolerance: float, solver: ContactSolver, state: ContactState, given: dict[str, Any]
-) -> Contact:
-    """The Contact of a ContactState, with the depth or force that was given instead of its rounded value."""
-    gap, pressure = solver.gap_map(state), np.zeros(indenter.heights.shape)
-    np.copyto(pressure, np.nan, where=np.isnan(gap))
-    loads = state.member_loads()
-    place = solver.elements.places_on_map(loads.members)
-    pressure[place] = loads.pressure * solver.units.pressure
-    contact = np.zeros(pressure.shape, bool)
-    contact[place] = loads.pressure > 0
-    for array in (pressure, gap, contact):
-        array.flags.writeable = False  # so that they need not be copied
-    quantities: dict[str, Any] = {"depth": state.depth, "force": state.force, "stiffness": state.stiffness} | given
-    return Contact(
-        pressure=pressure,
-        gap=gap,
-        contact=contact,
-        residual=state.residual,
-        tolerance=tolerance,
-        spacing=indenter.spacing,
-        row_spacing=indenter.row_spacing,
-        length_unit=indenter.length_unit,
-        **quantities,
-    )

@@ -9,7 +9,7 @@ from numpy.typing import DTypeLike
 
 from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
 from viscorough.contact.halfspace.influence import influence_table
-from viscorough.contact.parallel import BLOCK, Buffers, run_blocks
+from viscorough.contact.parallel import BLOCK, Buffer, run_blocks
 from viscorough.types import Array, Complex
 
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
@@ -90,12 +90,12 @@ class _RowTransforms:
     """
 
     def __init__(self, rows: int, columns: int, length: int, precision: DTypeLike, threads: int) -> None:
-        self._length, self._threads = length, threads
+        self._columns, self._length, self._threads = columns, length, threads
         self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
         self._is_one = self._block >= rows
         self.width = (length if self._is_one else columns) + _ROW_PADDING
         # Two blocks of rows: with their padding, and as they result from inverse transforms.
-        self._columns, self._buffers = columns, Buffers((2, self._block, length + _ROW_PADDING), precision)
+        self._buffer = Buffer((2, 0 if self._is_one else self._block, length + _ROW_PADDING), precision)
 
     def forward(self, data: Array, out: Complex) -> None:
         """Transform the rows of `data`."""
@@ -104,9 +104,9 @@ class _RowTransforms:
             return
 
         def transform(start: int, stop: int) -> None:
-            with self._buffers.one() as (padded, _):
-                padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
-                ducc0.fft.r2c(padded[: stop - start, : self._length], axes=[1], out=out[start:stop])
+            padded, _ = self._buffer.array
+            padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
+            ducc0.fft.r2c(padded[: stop - start, : self._length], axes=[1], out=out[start:stop])
 
         run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
 
@@ -117,9 +117,9 @@ class _RowTransforms:
             return
 
         def transform(start: int, stop: int) -> None:
-            with self._buffers.one() as (_, rows):
-                self._inverse(data[start:stop], rows[: stop - start])
-                out[start:stop, : self._columns] = rows[: stop - start, : self._columns]
+            _, rows = self._buffer.array
+            self._inverse(data[start:stop], rows[: stop - start])
+            out[start:stop, : self._columns] = rows[: stop - start, : self._columns]
 
         run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
 

@@ -277,25 +277,23 @@ class ContactSolver:
         if self._grid is None or rank > self._reach:
             # The box allows for larger depths to come, or is the whole grid where it would save little.
             reach = max(rank, self.candidates(deepest, deepest))
-            gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
-            first, last = ([pick(place[:reach]) for place in (row, column)] for pick in (np.min, np.max))
+            places = self.elements.row[:reach], self.elements.column[:reach]
+            first, last = ([pick(place) for place in places] for pick in (np.min, np.max))
             box = tuple(int(n) for n in (*first, *np.subtract(last, first) + 1))
             rows, columns = self.elements.shape
             if box[2] * box[3] > _LARGEST_BOX * rows * columns:
-                reach, box = gap.size, (0, 0, rows, columns)
+                reach, box = self.elements.initial_gap.size, (0, 0, rows, columns)
             self._reach = reach
             if self._grid and self._grid.box == box and not self._grid.is_restricted:
-                self._grid.place_elements(row, column, gap)
+                self._grid.place_elements(self.elements)
                 return self._grid
             self._former_applications = self.operator_applications
             self._grid = None  # its memory is free for the larger one
             require_for_box(self.indenter.heights, box, **self._of_memory)
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
-            self._grid = GridSolver(
-                box, row, column, gap, self.tolerance, self.options,
-                aspect=self.elements.aspect, threads=self.threads, reach=reach,
-            )  # fmt: skip
+            of_grid: dict[str, Any] = {"threads": self.threads, "reach": reach}
+            self._grid = GridSolver(box, self.elements, self.tolerance, self.options, **of_grid)
         return self._grid
 
     def _checked(self, before: ContactState, after: ContactState) -> ContactState:

@@ -32,7 +32,7 @@ ACCURACY = 1e-7
 _MARGIN = 4
 # Number of elements of a grid, and share of its tiles, for which this takes less time than one transform of the whole
 # grid; largest ratio of the sides of elements.
-_LEAST, _LARGEST_SHARE, _LARGEST_ASPECT = 1 << 18, 0.5, 2.0
+_LEAST, LARGEST_SHARE, _LARGEST_ASPECT = 1 << 18, 0.5, 2.0
 
 
 def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float) -> bool:
@@ -49,15 +49,6 @@ def tiles_with(row: Integers, column: Integers, shape: tuple[int, int]) -> Mask:
     tiles: Mask = np.zeros([-(-n // SIDE) for n in shape], bool)
     tiles[row // SIDE, column // SIDE] = True
     return tiles
-
-
-def tiles_of_part(
-    row: Integers, column: Integers, shape: tuple[int, int], aspect: float, tolerance: float
-) -> Mask | None:
-    """The tiles with elements if it takes less time to consider these alone and `is_suitable` says so, or else None."""
-    tiles = tiles_with(row, column, shape)
-    is_part = np.count_nonzero(tiles) <= _LARGEST_SHARE * tiles.size
-    return tiles if is_part and is_suitable(shape, aspect, tolerance) else None
 
 
 def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:

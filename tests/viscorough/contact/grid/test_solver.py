@@ -18,7 +18,7 @@ DOUBLE = SolverOptions(precision="double", exact_gap_below=0.0)
 def whole_grid(indenter, tolerance, options=DEFAULT):
     elements, units = elements_of(indenter)
     box = 0, 0, *elements.shape
-    return elements, units, GridSolver(box, elements.row, elements.column, elements.initial_gap, tolerance, options)
+    return elements, units, GridSolver(box, elements, tolerance, options)
 
 
 def contact_on(grid, indenter, depth):

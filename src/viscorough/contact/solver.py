@@ -326,7 +326,7 @@ class ContactSolver:
             lost = np.setdiff1d(before.members, after.members, assume_unique=True)
         if lost.size == 0:
             return 0, 0.0
-        return lost.size, after.fields.gap_at(lost).max() if after.fields else np.inf
+        return lost.size, after.fields.gap(after.fields.place[lost]).max() if after.fields else np.inf
 
 
 def _has_fields_on(grid: GridSolver, contact: ContactState) -> bool:

@@ -160,10 +160,6 @@ class GridFields:
         """Reduced gap e at places of the flat arrays."""
         return self.gap_change.values[places] + self.initial_gap[places]
 
-    def gap_at(self, ranks: Integers) -> Array:
-        """Reduced gap e at the elements of given ranks."""
-        return self.gap(self.place[ranks])
-
     def member_loads(self) -> MemberLoads:
         """The MemberLoads, in double precision."""
         members = np.flatnonzero(self.inside[self.place])

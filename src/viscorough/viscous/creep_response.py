@@ -172,9 +172,8 @@ def sums_over_the_past(
         lag = np.maximum((times[sample[chunk]] + offset[chunk])[:, None] - times, 0)
         past_jumps = (place <= sample[chunk, None]) & (jumps != 0)
         past_intervals = (place[1:] <= sample[chunk, None]) & (slopes != 0)
-        at_jumps = np.where(past_jumps, jumps, 0.0) * np.where(past_jumps, of_jump(lag), 0.0)
-        responses = np.where(past_intervals, of_interval(lag[:, 1:], lag[:, :-1]), 0.0)
-        over_intervals = np.where(past_intervals, slopes, 0.0) * responses
+        at_jumps = jumps * np.where(past_jumps, of_jump(lag), 0.0)
+        over_intervals = slopes * np.where(past_intervals, of_interval(lag[:, 1:], lag[:, :-1]), 0.0)
         for total, clip in ((positive, np.maximum), (negative, np.minimum)):
             total[chunk] = clip(at_jumps, 0).sum(axis=1) + clip(over_intervals, 0).sum(axis=1)
     return positive, negative

@@ -51,37 +51,34 @@ class _Exponential(Medium):
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """J at times t ≥ 0, any shape; J(0+) at time 0."""
-        time = np.asarray(time, dtype=float)
         instantaneous, fluidity, compliances, times = self.retardation
-        delayed = -(compliances * np.expm1(-time[..., None] / times)).sum(axis=-1)
-        return instantaneous + fluidity * time + delayed
+        delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
+        return instantaneous + np.multiply(fluidity, time) + delayed
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """dJ/dt at times t ≥ 0, any shape."""
-        time = np.asarray(time, dtype=float)
         _, fluidity, compliances, times = self.retardation
-        return fluidity + (compliances / times * np.exp(-time[..., None] / times)).sum(axis=-1)
+        return fluidity + (compliances / times * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫J dt from start ≥ 0 to end ≥ start."""
-        start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
         instantaneous, fluidity, compliances, times = self.retardation
-        x, length = (end - start)[..., None] / times, end - start
-        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-start[..., None] / times) * np.expm1(-x))
-        return (instantaneous + 0.5 * fluidity * (start + end)) * length + delayed.sum(axis=-1)
+        length, before = np.subtract(end, start), np.divide.outer(start, times)
+        x = np.divide.outer(length, times)
+        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-before) * np.expm1(-x))
+        return (instantaneous + 0.5 * fluidity * np.add(start, end)) * length + delayed.sum(axis=-1)
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """ψ at times t > 0, any shape, and its limit at time 0, without the pulse η δ(t) of a dashpot."""
-        time = np.asarray(time, dtype=float)
         _, relaxed, moduli, times = self.relaxation
-        return relaxed + (moduli * np.exp(-time[..., None] / times)).sum(axis=-1)
+        return relaxed + (moduli * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
 
     def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse η δ(t) of a dashpot."""
-        start, end = np.asarray(start, dtype=float)[..., None], np.asarray(end, dtype=float)[..., None]
         _, relaxed, moduli, times = self.relaxation
-        decayed = -np.expm1(-(end - start) / times) * np.exp(-start / times)
-        return relaxed * (end - start)[..., 0] + (moduli * times * decayed).sum(axis=-1)
+        length = np.subtract(end, start)
+        decayed = -np.expm1(-np.divide.outer(length, times)) * np.exp(-np.divide.outer(start, times))
+        return relaxed * length + (moduli * times * decayed).sum(axis=-1)
 
     def _check_spectra(self) -> None:
         """Raise ValueError if spectra cannot be held in double precision."""
@@ -399,9 +396,8 @@ class CreepTable(ReadOnlyArrays, Medium):
         return self._integral_up_to(end) - self._integral_up_to(start)
 
     def _integral_up_to(self, time: ArrayLike) -> Array:
-        time = np.asarray(time, dtype=float)
         place = np.clip(np.searchsorted(self.times, time) - 1, 0, self._slopes.size - 1)
-        after = time - self.times[place]
+        after = np.subtract(time, self.times[place])
         return self._integrals[place] + after * (self.compliances[place] + 0.5 * self._slopes[place] * after)
 
 

@@ -164,8 +164,11 @@ class ContactSearch:
                 depth = force.adjust_depth(search, pressure, change, depth)
                 limit = _SEARCH_SHARE * self._tolerance * depth
             search.update_direction()
-            if iteration == 0 and self._exclude(search, pressure, contact_set):
-                continue
+            if iteration == 0:
+                excluded = search.unloaded_under_tension(pressure)
+                if excluded.size > _EXCLUDED * contact_set.places.size:
+                    inside[excluded] = False
+                    continue
             release_step = (_LATER_STEPS if releases else 1.0) * 0.5 ** (releases // _HALVE_STEP_EVERY)
             changed = search.step_causes_tension(release_step, pressure)
             recomputes = self._must_recompute(change, largest, limit, depth)
@@ -228,14 +231,6 @@ class ContactSearch:
             return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         last.change_set(contact_set)
         return last
-
-    def _exclude(self, search: ConjugateGradients, pressure: Array, contact_set: ContactSet) -> bool:
-        """Remove unloaded elements under tension from the set if they are a large share; returns whether they are."""
-        places = search.unloaded_under_tension(pressure)
-        is_large = places.size > _EXCLUDED * contact_set.places.size
-        if is_large:
-            contact_set.inside[places] = False
-        return is_large
 
     def _must_recompute(self, change: BoundedField, largest: float, limit: float, depth: float) -> bool:
         """Whether the rounding error is too large, and recomputing the gap reduces it for the rest of this level."""

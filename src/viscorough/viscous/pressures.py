@@ -100,11 +100,7 @@ def pressure_at(
 def _weights(medium: Medium, time: float, times: Array) -> Array:
     """Weights of the elastic pressures at `times` in the pressure at `time`, the last of them, without a dashpot's."""
     lengths, lag = np.diff(times), time - times
-    ramp, weights = lengths > 0, np.zeros(times.size)
     with np.errstate(divide="ignore", invalid="ignore"):
         mean = medium.relaxation_integral(lag[1:], lag[:-1]) / lengths
-    change = np.where(ramp, mean, medium.relaxation_modulus(lag[1:]))
-    weights[1:] += change
-    weights[:-1] -= change
-    weights[0] += medium.relaxation_modulus(lag[0])
-    return weights
+    change = np.where(lengths > 0, mean, medium.relaxation_modulus(lag[1:]))
+    return np.append(medium.relaxation_modulus(lag[0]), change) - np.append(change, 0.0)

@@ -98,12 +98,8 @@ class GridLoops:
     def shifted(self, field: Array, shift: float, out: Array) -> None:
         """Store a field minus a number; both fields in rows and columns."""
         rows, columns = field.shape
-        rounded = out.dtype.type(shift)
-
-        def subtract(i: int, j: int) -> None:
-            np.subtract(field[i:j], rounded, out=out[i:j])
-
-        run_blocks(subtract, rows, self.threads, -(-BLOCK // columns))
+        number = out.dtype.type(shift)
+        run_blocks(lambda i, j: np.subtract(field[i:j], number, out=out[i:j]), rows, self.threads, -(-BLOCK // columns))
 
     def update_gap(self, length: float | np.floating[Any], deflection: Array, gap: Array) -> None:
         """e − g, or e_q, += α K d everywhere, in place."""

@@ -209,7 +209,10 @@ class _ManyBlocks:
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        self._blocks, blocks = _block_of_places(height, width)
+        # The place of the block of the next level for every place, on flat grids with borders.
+        blocks = [-(-(n - 2 * REACH) // _RATIO) + 2 * REACH for n in (height, width)]
+        row, column = ((np.arange(n) - REACH) // _RATIO + REACH for n in (height, width))
+        self._blocks = (row[:, None] * blocks[1] + column).ravel().astype(np.int32)
         self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, blocks[0], blocks[1], threads)
         self.places = np.empty(0, dtype=int)
 
@@ -266,13 +269,6 @@ def _coarse_level(
     few = max(height, width) - 2 * REACH <= _DENSE
     grid = sides, aspect, height, width
     return _FewBlocks(*grid) if few else _ManyBlocks(*grid, threads)
-
-
-def _block_of_places(height: int, width: int) -> tuple[Integers, list[int]]:
-    """Place of the block of every place of a flat grid, and height and width of the grid of blocks; with borders."""
-    row, column = ((np.arange(n) - REACH) // _RATIO + REACH for n in (height, width))
-    blocks = [-(-(n - 2 * REACH) // _RATIO) + 2 * REACH for n in (height, width)]
-    return (row[:, None] * blocks[1] + column).ravel().astype(np.int32), blocks
 
 
 @lru_cache(maxsize=2)

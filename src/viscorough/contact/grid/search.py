@@ -57,7 +57,6 @@ _TANGENT_ROUNDING = 5.0
 _SEARCH_SHARE = 0.999
 # Initial gap where there is no element, far beyond the largest depth.
 _OUTSIDE = 1e30
-_PRECISIONS = {"single": np.float32, "double": np.float64}
 
 
 class ContactSearch:
@@ -95,7 +94,7 @@ class ContactSearch:
             operator = partial(Halfspace, spectrum=spectrum_of_grid(rows, columns, **of_grid))
         else:
             operator = partial(TiledHalfspace, tiles=tiles)
-        self._halfspace = operator(rows, columns, precision=_PRECISIONS[options.precision], **of_grid)
+        self._halfspace = operator(rows, columns, precision=np.dtype(options.precision), **of_grid)
         exact = tolerance < options.exact_gap_below
         self._exact = operator(rows, columns, **of_grid) if exact else self._halfspace
         self._rounding, self._exact_rounding = (
@@ -171,7 +170,9 @@ class ContactSearch:
                     continue
             release_step = (_LATER_STEPS if releases else 1.0) * 0.5 ** (releases // _HALVE_STEP_EVERY)
             changed = search.step_causes_tension(release_step, pressure)
-            recomputes = self._must_recompute(change, largest, limit, depth)
+            # If the rounding error is too large, and recomputing the gap reduces it for the rest of this level.
+            too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self.field_rounding) * depth)
+            recomputes = change.rounding > too_large and self._rounding * largest < _INEXACT * limit
             change.rounding += self._rounding * largest + self.field_rounding * depth
             if changed or recomputes:
                 search.step_and_release(release_step, pressure, self._width)
@@ -231,11 +232,6 @@ class ContactSearch:
             return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         last.change_set(contact_set)
         return last
-
-    def _must_recompute(self, change: BoundedField, largest: float, limit: float, depth: float) -> bool:
-        """Whether the rounding error is too large, and recomputing the gap reduces it for the rest of this level."""
-        too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self.field_rounding) * depth)
-        return change.rounding > too_large and self._rounding * largest < _INEXACT * limit
 
     def _not_converged(self, contact_set: ContactSet, residual: float, limit: float) -> ConvergenceError:
         return ConvergenceError(

@@ -214,7 +214,6 @@ class _ManyBlocks:
         row, column = ((np.arange(n) - REACH) // _RATIO + REACH for n in (height, width))
         self._blocks = (row[:, None] * blocks[1] + column).ravel().astype(np.int32)
         self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, blocks[0], blocks[1], threads)
-        self.places = np.empty(0, dtype=int)
 
     def prepare(self) -> None:
         places = self.places = np.flatnonzero(self.squares)

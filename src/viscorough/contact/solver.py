@@ -84,6 +84,7 @@ class ContactSolver:
 
     indenter : as it was given
     elements, units : its state.Elements and state.Units
+    is_flat : whether all elements are of one height, so that all touch at once
 
     Raises MemoryError if the available memory does not suffice for the map.
     """
@@ -102,7 +103,7 @@ class ContactSolver:
         if whole:
             require_for_contact(indenter.heights, **self._of_memory)
         self.indenter, self._ranking = indenter, Ranking(indenter, threads)
-        self.units = self._ranking.units
+        self.units, self.is_flat = self._ranking.units, self._ranking.is_flat
         self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
         self._grid: GridSolver | None = None
         self._reach, self._former_applications = 0, 0
@@ -118,11 +119,6 @@ class ContactSolver:
         """The ContactState at depth zero: no pressure, and no element in contact yet."""
         nothing = np.empty(0)
         return ContactState(self.units, 0.0, 0, 0.0, 0.0, loads=MemberLoads(nothing.astype(int), nothing, nothing))
-
-    @property
-    def is_flat(self) -> bool:
-        """Whether all elements are of one height, so that all touch at once."""
-        return self._ranking.is_flat
 
     def first_contact(self) -> ContactState:
         """The ContactState up to which the curve is straight, since only the highest elements are in contact.

@@ -194,8 +194,7 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     end = last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
     wanted = np.array([start, end]) / force
     with np.errstate(all="ignore"):
-        earliest = np.full(2, np.finfo(float).tiny)
-        ends = zero_of_increasing(lambda time: medium.creep_compliance(time) - wanted, earliest, np.full(2, limit))
+        ends = zero_of_increasing(lambda t: medium.creep_compliance(t) - wanted, np.finfo(float).tiny, limit)
     if not (0 < ends[0] < ends[1] < _LATEST / 2):
         raise ValueError(f"times: from {ends[0]:g} to {ends[1]:g} they overflow; closer force and medium are allowed")
     times = np.geomspace(ends[0], ends[1], _SPREAD)

@@ -97,14 +97,12 @@ def first_decrease(times: Array, terms: _Terms, limit: float = np.inf) -> float:
 
 def rate_at_samples(times: Array, terms: _Terms) -> Array:
     """dΦ/dt just after every sample; just before it at the last one and before a step."""
-    lengths = np.diff(times)
-    after = np.append(lengths > 0, False)
-    before = np.append(False, lengths > 0) & ~after
-    rate = np.zeros(times.size)
-    for which, shift in ((after, 0), (before, 1)):
-        interval = np.flatnonzero(which) - shift
+    lengths, rate = np.diff(times), np.zeros(times.size)
+    after = np.flatnonzero(lengths)
+    before = after[np.append(lengths, 0)[after + 1] == 0]  # intervals that end there
+    for interval, shift in ((after, 0), (before, 1)):
         rising, falling, _ = terms(interval, shift * lengths[interval], left=bool(shift))
-        rate[which] = rising + falling
+        rate[interval + shift] = rising + falling
     return rate
 
 

@@ -256,9 +256,7 @@ class Prony(_Exponential):
         times = np.array(self.relaxation_times)
         # Branches of one rate are one branch.
         _, first, branch = np.unique(1 / times, return_index=True, return_inverse=True)
-        return RelaxationSpectrum(
-            0.0, self.relaxed_modulus, np.bincount(branch, self.moduli).astype(float), times[first]
-        )
+        return RelaxationSpectrum(0.0, self.relaxed_modulus, np.bincount(branch, self.moduli), times[first])
 
 
 @dataclass(frozen=True)

@@ -123,7 +123,7 @@ def elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
     stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
     force = depth * stiffness
     inside = depth >= curve.depth[0]
-    wanted, ends = depth[inside], (np.full(np.count_nonzero(inside), end) for end in curve.force[[0, -1]])
-    force[inside] = zero_of_increasing(lambda force: curve.at_force(force)[0] - wanted, *ends)
+    wanted = depth[inside]
+    force[inside] = zero_of_increasing(lambda force: curve.at_force(force)[0] - wanted, *curve.force[[0, -1]])
     stiffness[inside] = curve.at_force(force[inside])[1]
     return force, stiffness

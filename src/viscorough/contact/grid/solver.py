@@ -119,22 +119,22 @@ class GridSolver:
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
-        search, last_depth = self._search, contact.reduced_depth
-        before = contact.fields
-        predicted = self._predicted(before, last_depth, depth) if before else self._guessed(contact, depth)
-        pressure, change, inside = predicted
+        search = self._search
+        start = self._predicted if contact.fields else self._guessed
+        pressure, change, inside = start(contact, depth)
         prescribed = PrescribedForce(*force, self._loops) if force else None
         contact_set, depth = search.solve_pressure(pressure, change, inside, depth, prescribed)
         now = pressure, change, depth
-        tangent, tangent_gap = initial_tangent(now, last_depth, before, contact_set, search.inner, self._loops)
+        tangent, tangent_gap = initial_tangent(now, contact, contact_set, search.inner, self._loops)
         search.solve_tangent(contact_set, tangent, tangent_gap)
         solution = contact_set.inside, pressure, change, tangent, tangent_gap
         fields = GridFields(*solution, self.initial_gap, self.place)
         return self._state(contact.units, depth, fields, contact_set)
 
-    def _predicted(self, before: GridFields, last_depth: float, depth: float) -> tuple[Array, BoundedField, Mask]:
-        """Pressure, e − g and contact set at a depth as predicted from GridFields at the last depth."""
-        inner, precision, depth_step = self._search.inner, self._search.precision, depth - last_depth
+    def _predicted(self, contact: ContactState, depth: float) -> tuple[Array, BoundedField, Mask]:
+        """Pressure, e − g and contact set at a depth as predicted from the GridFields of a contact."""
+        before, depth_step = contact.grid_fields, depth - contact.reduced_depth
+        inner, precision = self._search.inner, self._search.precision
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
         steps = [precision(step) for step in (depth_step, depth_step * (1 - LATE * depth_step / depth))]
         fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap

@@ -8,7 +8,7 @@ import numpy as np
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
-from viscorough.contact.state import BoundedField, ContactSet, GridFields
+from viscorough.contact.state import BoundedField, ContactSet, ContactState
 from viscorough.types import Array
 
 # Eigenvalues of the energies of the loads, over the largest, that are zero but for rounding.
@@ -16,22 +16,17 @@ _DEPENDENT = 1e-10
 
 
 def initial_tangent(
-    now: tuple[Array, BoundedField, float],
-    last_depth: float,
-    before: GridFields | None,
-    contact_set: ContactSet,
-    inner: slice,
-    loops: GridLoops,
+    now: tuple[Array, BoundedField, float], last: ContactState, contact_set: ContactSet, inner: slice, loops: GridLoops
 ) -> tuple[Array, BoundedField]:
     """The combination as initial q, and e_q = K q − 1 everywhere as a BoundedField.
 
     now : P, flat field, e − g = w − u, a BoundedField, and the reduced depth u after the step
-    last_depth : before it; before : the GridFields there; None if there was no contact
+    last : the ContactState before the step; without GridFields if there was no contact
     contact_set : the ContactSet after the step
     inner : slice of flat fields without the first and last rows of their border
     loops : GridLoops
     """
-    pressure, change, depth = now
+    (pressure, change, depth), last_depth, before = now, last.reduced_depth, last.fields
     known, last_rounding, tangent_rounding = 3 * (pressure, change.values), 0.0, 0.0
     if before:
         known = (

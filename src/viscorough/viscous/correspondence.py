@@ -202,7 +202,7 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     return np.append(0.0, times) if springs else times
 
 
-def resampled(force: ForceHistory | Any, times: ArrayLike | None) -> tuple[ForceHistory, Integers]:
+def resampled(force: ForceHistory | Any, times: Any) -> tuple[ForceHistory, Integers]:
     """The ForceHistory with samples at `times` added, and the indices of those; after a step, where one is.
 
     force, times : as of `impulses`, or a ForceHistory and times within it, or None for those of its samples

@@ -256,7 +256,8 @@ class Prony(_Exponential):
         times = np.array(self.relaxation_times)
         # Branches of one rate are one branch.
         _, first, branch = np.unique(1 / times, return_index=True, return_inverse=True)
-        return RelaxationSpectrum(0.0, self.relaxed_modulus, np.bincount(branch, self.moduli), times[first])
+        moduli = np.bincount(branch, self.moduli).astype(float)
+        return RelaxationSpectrum(0.0, self.relaxed_modulus, moduli, times[first])
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ rates are the zeros of Q at s = −λ, which separate its poles, the relaxation 
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -48,7 +49,7 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
     return RetardationSpectrum(1 / relaxation.instantaneous_modulus, fluidity, 1 / (zeros * slopes), 1 / zeros)
 
 
-def zero_of_increasing(function: Callable[[Array], Array], low: Array | float, high: Array | float) -> Array:
+def zero_of_increasing(function: Callable[[Array], Array], low: Any, high: Any) -> Array:
     """Zeros of an increasing function of arrays, entry by entry, between 0 < low < high, to rounding.
 
     Bisection, of the exponent at first: zeros may be many decades from either end.

@@ -110,9 +110,7 @@ class ContactSearch:
         self.initial_gap = np.empty((rows + 2 * REACH) * self._width, dtype=self.precision)
         self._loops.fill(self.initial_gap, _OUTSIDE)
         self.residual = np.zeros(self.initial_gap.size, dtype=np.float32)
-        self._preconditioner = Preconditioner(
-            rows + 2 * REACH, self._width, aspect=aspect, precision=np.float32, threads=threads
-        )
+        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, aspect=aspect, threads=threads)
 
     @property
     def operator_applications(self) -> int:

@@ -158,11 +158,10 @@ class Preconditioner:
         width: int,
         *,
         aspect: float = 1.0,
-        precision: type[np.floating[Any]] = np.float64,
+        precision: type[np.floating[Any]] = np.float32,
         threads: int = 1,
     ) -> None:
         self.stencil = load_redistribution_stencil(aspect)
-        self._precision = precision
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
         self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
         blocks = [n + 2 * REACH for n in self._factor.squares.shape]
@@ -171,9 +170,10 @@ class Preconditioner:
         self._squares, self._loads = np.zeros((2, *blocks))
 
     def apply(self, residual: Array) -> Array:
-        """M r of a residual r, both flat fields, of which only the set is defined; valid until the next call."""
-        if residual.dtype != self._precision:
-            residual = residual.astype(self._precision)
+        """M r of a residual r, both flat fields in the precision, of which only the set is defined.
+
+        Valid until the next call.
+        """
         loads, interior = self._loads, self._loads[REACH:-REACH, REACH:-REACH]
         interior[:] = self._factor.restrict(residual)
         loads *= self._scale

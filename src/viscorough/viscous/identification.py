@@ -152,7 +152,7 @@ def identify_medium(
     record = _Record(curve, depth, np.column_stack([history.force[place], hinges]))
     coefficients = record.fit(record.responses)
     freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
-    scatter = np.sqrt(record.squares(record.responses @ coefficients) / freedom)
+    scatter = np.sqrt((record.residual(record.responses @ coefficients) ** 2).sum() / freedom)
     time = np.append(0.0, knots)
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
     compliance = np.maximum.accumulate(values @ coefficients)  # where J is constant, its rounding is not
@@ -240,10 +240,6 @@ class _Record:
             if abs(creep - last).max() <= 1e-12 * abs(creep).max():
                 break
         return amounts
-
-    def squares(self, creep: Array) -> float:
-        """Sum of the squares of the measured depth less that of this creep."""
-        return float((self.residual(creep) ** 2).sum())
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
         """Depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
@@ -355,7 +351,7 @@ def _springpot(record: _Record, knots: Array) -> Springpot:
 
     def squares(exponent: float) -> float:
         column = response(exponent)[:, None]
-        return record.squares(column @ record.fit(column))
+        return float((record.residual(column @ record.fit(column)) ** 2).sum())
 
     exponent = float(minimize_scalar(squares, bounds=(0.001, 0.999), method="bounded", options={"xatol": 1e-7}).x)
     (amount,) = record.fit(response(exponent)[:, None])

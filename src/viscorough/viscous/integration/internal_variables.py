@@ -11,7 +11,6 @@ the contact, and the surface behind them recovers.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -137,13 +136,13 @@ def march_medium(
             )
         if by_depth or k == times.size - 1:
             pressure = state.pressure_now(contact, rate if by_depth else load[k])
-        force_now = elements.scale * pressure.sum() if by_depth else load[k]
+        force_now = elements.units.force * pressure.sum() if by_depth else load[k]
         rows.append((state.depth, force_now, contact.members.size))
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
     last_pressure = np.full(elements.shape, np.nan)
-    last_pressure[elements.row, elements.column] = 4 * np.pi / elements.side * pressure
+    last_pressure[elements.row, elements.column] = elements.units.pressure * pressure
     moved = times, depths, forces * area, counts.astype(int), indenter.length_unit
     return MediumMotion(*moved, read_only(last_pressure), float(receding))
 
@@ -193,7 +192,7 @@ class _State:
         # c times the gap is e + K Q − c u, with e that of a surface which nothing presses from now on.
         free = self._elements.deflection(stiffness * self.motion - kept)
         free += stiffness * self._elements.initial_gap
-        wanted = stiffness * load if contact.by_depth else load / self._elements.scale
+        wanted = stiffness * load if contact.by_depth else load / self._elements.units.force
         self.pressure, depth = contact.solve(free, wanted)
         self.depth = load if contact.by_depth else depth / stiffness
         change = (self.pressure - kept) / stiffness
@@ -209,7 +208,7 @@ class _State:
         if viscosity == 0:
             return self.pressure
         kept = relaxed * self.motion + moduli @ self._branches
-        wanted = viscosity * load if contact.by_depth else load / self._elements.scale
+        wanted = viscosity * load if contact.by_depth else load / self._elements.units.force
         members = contact.members
         if members.size == 0:
             height = self._elements.initial_gap + self._elements.deflection(self.motion)
@@ -227,8 +226,7 @@ class _ContactProblem:
     def __init__(self, elements: MapElements, *, by_depth: bool) -> None:
         self._elements, self.by_depth = elements, by_depth
         self.members: Integers = np.array([], int)
-        self._of_factor: Integers | None = None  # the members that the factor is of
-        self._factor: Any = None
+        self._of_factor = self.members  # the members that the factor is of
 
     def solve(self, free: Array, wanted: float) -> tuple[Array, float]:
         """Q of all elements, and c u.
@@ -256,7 +254,7 @@ class _ContactProblem:
         if not self.by_depth and wanted <= 0:
             return pressure, free.min(), members[:0]
         while members.size:
-            if self._of_factor is None or not np.array_equal(members, self._of_factor):
+            if not np.array_equal(members, self._of_factor):
                 self._factor, self._of_factor = cho_factor(self._elements.influence_among(members)), members
             solved = cho_solve(self._factor, np.column_stack([np.ones(members.size), free[members]]))
             punch, rest = solved.T

@@ -117,7 +117,7 @@ def march_steps(
     if scheme not in SCHEMES:
         raise ValueError(f"march_steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
     impulses = increasing("march_steps: impulses", np.atleast_1d(impulses), above_zero=True)
-    scale = elements_of_map(indenter, "march_steps").scale
+    scale = elements_of_map(indenter, "march_steps").units.stiffness
     integrator = _INTEGRATORS[scheme](indenter, tolerance)
     rows = []
     for step in np.diff(impulses / scale, prepend=0.0):

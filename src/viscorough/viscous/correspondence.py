@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
+from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, si_unit, span, velocity_unit
@@ -254,7 +254,7 @@ def impulses(force: Any, times: ArrayLike) -> ForceHistory:
         force, impulse = np.full(times.shape, float(force)), force * times
     else:
         force = samples("force", force, times, " (without adhesion a pull opens the contact)")
-        impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
+        impulse = integral(times, force, times)
     return ForceHistory(*map(read_only, (times, force, impulse)))
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscorough.arrays import jumps_and_slopes
 from viscorough.compilation import njit
 from viscorough.types import Array, Integers
 from viscorough.viscous.medium import Medium, RetardationSpectrum
@@ -54,18 +55,6 @@ def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]
             "the command line viscorough march --medium --method second_order)"
         )
     return creep, rate_at_samples(times, terms)
-
-
-def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
-    """Jumps of a load just before its samples, before the first of which it is 0, and its slopes from each to the next.
-
-    times, load : shape (samples,); a time given twice is a jump
-
-    Returns arrays of shapes (samples,) and (samples − 1,).
-    """
-    lengths, increments = np.diff(times), np.diff(load)
-    slopes = np.divide(increments, lengths, out=np.zeros_like(increments), where=lengths > 0)
-    return np.append(load[0], np.where(lengths == 0, increments, 0.0)), slopes
 
 
 def first_decrease(times: Array, terms: _Terms, limit: float = np.inf) -> float:
@@ -157,7 +146,7 @@ def sums_over_the_past(
 ) -> tuple[Array, Array]:
     """Sums of the positive and of the negative responses to a load, at times after samples; shape of `sample`.
 
-    times, load : as of `jumps_and_slopes`
+    times, load : as of `arrays.jumps_and_slopes`
     sample, offset : indices of samples up to which the load counts, and times after them
     of_jump : response to a unit jump, by the time since then
     of_interval : response to a unit slope, by the times since its end and since its start

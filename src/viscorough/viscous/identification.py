@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma, stdtrit
 
-from viscorough.arrays import ReadOnlyArrays, increasing
+from viscorough.arrays import ReadOnlyArrays, increasing, integral
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, si_unit, span, with_unit
@@ -148,8 +148,8 @@ def identify_medium(
     if history.force[0] == 0:  # a ramp shows J before the first row, too
         knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
     # The creep of J = min(t, τ) is I(t) − I(t − τ), shape (times, knots).
-    hinges = _impulse(history, times[:, None]) - _impulse(history, times[:, None] - knots)
-    record = _Record(curve, depth, np.column_stack([history.force[place], hinges]))
+    impulse, earlier = (integral(history.times, history.force, t) for t in (times[:, None], times[:, None] - knots))
+    record = _Record(curve, depth, np.column_stack([history.force[place], impulse - earlier]))
     coefficients = record.fit(record.responses)
     freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
     scatter = np.sqrt((record.residual(record.responses @ coefficients) ** 2).sum() / freedom)
@@ -213,13 +213,6 @@ def _check_growth(times: Array, depth: Array) -> None:
                 f"record: at time {times[where * size]:.6g} the depth has receded by {drop[where]:.3g}, more than its "
                 f"scatter, {scatter:.3g}, explains; allowed: depths that grow, under which the contact does not recede"
             )
-
-
-def _impulse(history: ForceHistory, time: Array) -> Array:
-    """∫F dt up to times of any shape, exactly: quadratic between samples, 0 before them."""
-    k = np.maximum(np.searchsorted(history.times, time, side="right") - 1, 0)
-    offset = np.maximum(time - history.times[k], 0)
-    return history.impulse[k] + 0.5 * offset * (history.force[k] + np.interp(time, history.times, history.force))
 
 
 class _Record:
@@ -322,15 +315,10 @@ def _prony(record: _Record, history: ForceHistory, place: Integers, lags: Array)
             "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
             "table or springpot"
         )
-    return _series(instantaneous, fluidity, strengths[kept], 1 / times[kept])
-
-
-def _series(instantaneous: float, fluidity: float, strengths: Array, rates: Array) -> Prony:
-    """The Prony series with J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)), exactly.
-
-    The rates of relaxation are the eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j); the moduli are
-    (b·q)²/(λ J₀²), q the eigenvectors.
-    """
+    # J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)) is that of a Prony series, exactly: the rates of relaxation are the
+    # eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j), and the moduli (b·q)²/(λ J₀²), q the
+    # eigenvectors.
+    strengths, rates = strengths[kept], 1 / times[kept]
     squares = strengths * rates
     if fluidity:
         squares, rates = np.append(fluidity, squares), np.append(0.0, rates)

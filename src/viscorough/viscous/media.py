@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
+from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, samples
 from viscorough.types import Array
 from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
 from viscorough.viscous.spectra import retardation_spectrum
@@ -372,11 +372,6 @@ class CreepTable(ReadOnlyArrays, Medium):
     def _slopes(self) -> Array:
         return np.diff(self.compliances) / np.diff(self.times)
 
-    @cached_property
-    def _integrals(self) -> Array:
-        """∫J dt up to every point."""
-        return np.append(0.0, np.cumsum(0.5 * (self.compliances[1:] + self.compliances[:-1]) * np.diff(self.times)))
-
     @property
     def last_time(self) -> float:
         return self.times[-1]
@@ -392,12 +387,7 @@ class CreepTable(ReadOnlyArrays, Medium):
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫J dt from start ≥ 0 to end ≥ start."""
-        return self._integral_up_to(end) - self._integral_up_to(start)
-
-    def _integral_up_to(self, time: ArrayLike) -> Array:
-        place = np.clip(np.searchsorted(self.times, time) - 1, 0, self._slopes.size - 1)
-        after = np.subtract(time, self.times[place])
-        return self._integrals[place] + after * (self.compliances[place] + 0.5 * self._slopes[place] * after)
+        return integral(self.times, self.compliances, end) - integral(self.times, self.compliances, start)
 
 
 def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) -> Medium:

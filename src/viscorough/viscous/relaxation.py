@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.arrays import increasing, read_only, samples
+from viscorough.arrays import increasing, jumps_and_slopes, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
-from viscorough.viscous.creep_response import branch_states, jumps_and_slopes, sums_over_the_past
+from viscorough.viscous.creep_response import branch_states, sums_over_the_past
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import zero_of_increasing

@@ -221,8 +221,7 @@ class _ManyBlocks:
         amplitude = np.sqrt(self.squares)
 
         def factorise(i: int, j: int) -> None:
-            of_grid = self._before, self._slots, self._kernel
-            _factorise(amplitude, places[i:j], *of_grid, rows[i:j], weights[i:j])
+            _factorise(amplitude, places[i:j], self._before, self._slots, self._kernel, rows[i:j], weights[i:j])
 
         run_blocks(factorise, places.size, self._threads, _FACTORISED_AT_ONCE)
         _normalise(weights, blocks, self._coarser.squares)

@@ -200,6 +200,7 @@ class ContactSolver:
         Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact says.
         """
         heights, (top, left), (rows, columns) = self.indenter.heights, self.elements.origin, self.elements.shape
+        own = slice(top, top + rows), slice(left, left + columns)
         gap, highest = np.empty(heights.shape), self._ranking.highest
 
         def undeformed(i: int, j: int) -> None:
@@ -207,7 +208,7 @@ class ContactSolver:
             gap[i:j] -= contact.depth
 
         run_blocks(undeformed, len(gap), self.threads, -(-BLOCK // heights.shape[1]))
-        part, grid = gap[top : top + rows, left : left + columns], self._grid
+        part, grid = gap[own], self._grid
         # A grid without restrictions knows the gap in its box to the residual.
         known = grid if grid and _has_fields_on(grid, contact) and not grid.is_restricted else None
         if not known or known.box != (0, 0, rows, columns):
@@ -230,8 +231,7 @@ class ContactSolver:
         if known:
             first_row, first_column, rows, columns = known.box
             in_box = slice(first_row, first_row + rows), slice(first_column, first_column + columns)
-            initial = heights[top : top + self.elements.shape[0], left : left + self.elements.shape[1]][in_box]
-            np.subtract(highest, initial, out=part[in_box], dtype=float)
+            np.subtract(highest, heights[own][in_box], out=part[in_box], dtype=float)
             part[in_box] += known.in_box(contact.grid_fields.gap_change.values) * self.units.length
         overlap = -np.fmin.reduce(gap, axis=None) / contact.depth
         if overlap > contact.residual + self.tolerance:

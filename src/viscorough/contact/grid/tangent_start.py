@@ -35,8 +35,18 @@ def initial_tangent(
         last_rounding, tangent_rounding = before.gap_change.rounding, before.tangent_gap.rounding
     # An element that left the contact, within the tolerance, was loaded by fields that cannot be part of q.
     only_now = before is None or loops.difference(before.inside, contact_set.inside).size > 0
+    combined = slice(1) if only_now else slice(3)
+    parts = loops.each(kernels.energies, ((depth, last_depth), *known), contact_set.places)
+    energy, sums = (sum(part) for part in zip(*parts, strict=True))
+    energy, sums = energy[combined, combined], sums[combined]
+    scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
+    # Least squares, since the loads may be multiples of each other.
+    eigenvalues, vectors = np.linalg.eigh(scale[:, None] * energy * scale)
+    independent = eigenvalues > _DEPENDENT * eigenvalues[-1]
+    vectors = vectors[:, independent]
+    solution = scale * (vectors @ ((scale * sums) @ vectors / eigenvalues[independent]))
     # q ≈ a P + b P' + c q', with P' and q' before the step.
-    a, b, c = weights = _weights(known, (depth, last_depth), contact_set, loops, slice(1) if only_now else slice(3))
+    a, b, c = weights = *solution, *[0.0] * (3 - solution.size)
     tangent, tangent_gap = (field_to_fill(pressure.size, pressure.dtype, inner) for _ in range(2))
     fields = (field[inner] for field in (tangent, tangent_gap, *known))
     loops.each(kernels.combine, (weights, a * depth + b * last_depth + c - 1), *fields)
@@ -49,22 +59,3 @@ def initial_tangent(
     else:
         rounding = abs(a) * change.rounding + abs(b) * last_rounding + abs(c) * tangent_rounding
     return tangent, BoundedField(tangent_gap, rounding)
-
-
-def _weights(
-    known: tuple[Array, ...], depths: tuple[float, float], contact_set: ContactSet, loops: GridLoops, combined: slice
-) -> tuple[float, float, float]:
-    """Weights of pressure, last pressure and last tangent in the combination of them closest to q in energy.
-
-    known : these fields, each followed by its deflection; combined : those of them that have a weight
-    """
-    parts = loops.each(kernels.energies, (depths, *known), contact_set.places)
-    energy, sums = (sum(part) for part in zip(*parts, strict=True))
-    energy, sums = energy[combined, combined], sums[combined]
-    scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
-    # Least squares, since the loads may be multiples of each other.
-    eigenvalues, vectors = np.linalg.eigh(scale[:, None] * energy * scale)
-    independent = eigenvalues > _DEPENDENT * eigenvalues[-1]
-    vectors = vectors[:, independent]
-    weights = scale * (vectors @ ((scale * sums) @ vectors / eigenvalues[independent]))
-    return *weights, *[0.0] * (3 - weights.size)

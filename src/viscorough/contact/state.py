@@ -224,8 +224,3 @@ class ContactState:
     def stiffness(self) -> float:
         """Tangent stiffness k/G = 4π d Σq [length]."""
         return self.tangent_sum * self.units.stiffness
-
-    @property
-    def pressure(self) -> Array:
-        """Pressure p/G = 4π P/d on the members, shape (count,) [1]."""
-        return self.reduced_pressure * self.units.pressure

@@ -350,9 +350,8 @@ class CreepTable(ReadOnlyArrays, Medium):
     compliances: np.ndarray
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         times = increasing("CreepTable: times", self.times)
-        if times[0] != 0 or times.size < 2 or self.compliances.dtype.kind not in "iuf":
+        if times[0] != 0 or times.size < 2 or read_only(self.compliances).dtype.kind not in "iuf":
             raise ValueError("CreepTable: allowed are two or more times that start with 0, and real compliances")
         values = samples("CreepTable: compliances", self.compliances, times)
         for name, array in (("times", times), ("compliances", values)):

@@ -17,7 +17,7 @@ from viscorough.contact.grid.depth_adjustment import PrescribedForce
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.search import ContactSearch
 from viscorough.contact.grid.tangent_start import initial_tangent
-from viscorough.contact.halfspace.tiles import LARGEST_SHARE, is_suitable, tiles_with
+from viscorough.contact.halfspace.tiles import are_few, is_suitable, tiles_with
 from viscorough.contact.options import LATE, SolverOptions
 from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import BoundedField, ContactSet, ContactState, Elements, GridFields, Units
@@ -58,8 +58,7 @@ class GridSolver:
         aspect = 1 / elements.aspect if self._is_transposed else elements.aspect
         (top, left, rows, columns), row, column = self._oriented(elements, reach)
         tiles = tiles_with(row - top, column - left, (rows, columns))
-        is_part = np.count_nonzero(tiles) <= LARGEST_SHARE * tiles.size
-        self.is_restricted = options.padding and is_part and is_suitable((rows, columns), aspect, tolerance)
+        self.is_restricted = options.padding and are_few(tiles) and is_suitable((rows, columns), aspect, tolerance)
         self._loops = GridLoops(threads)
         used = tiles if self.is_restricted else None
         self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads, tiles=used)

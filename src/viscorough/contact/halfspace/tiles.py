@@ -32,7 +32,7 @@ ACCURACY = 1e-7
 _MARGIN = 4
 # Number of elements of a grid, and share of its tiles, for which this takes less time than one transform of the whole
 # grid; largest ratio of the sides of elements.
-_LEAST, LARGEST_SHARE, _LARGEST_ASPECT = 1 << 18, 0.5, 2.0
+_LEAST, _LARGEST_SHARE, _LARGEST_ASPECT = 1 << 18, 0.5, 2.0
 
 
 def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float) -> bool:
@@ -51,14 +51,19 @@ def tiles_with(row: Integers, column: Integers, shape: tuple[int, int]) -> Mask:
     return tiles
 
 
+def are_few(tiles: Mask) -> bool:
+    """Whether the tiles of a grid with elements are so few that it takes less time to consider these alone."""
+    return np.count_nonzero(tiles) <= _LARGEST_SHARE * tiles.size
+
+
 def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:
     """The tiles of a grid that are not whole in a box: (first row, first column, rows, columns)."""
     tiles: Mask = np.ones([-(-n // SIDE) for n in shape], bool)
-    ends = (
-        -(-n // SIDE) if first + size == n else (first + size) // SIDE
-        for first, size, n in zip(box, box[2:], shape, strict=False)
-    )
-    tiles[tuple(slice(-(-first // SIDE), end) for first, end in zip(box, ends, strict=False))] = False
+    inner = []
+    for first, size, n in zip(box, box[2:], shape, strict=False):
+        end = -(-n // SIDE) if first + size == n else (first + size) // SIDE
+        inner.append(slice(-(-first // SIDE), end))
+    tiles[*inner] = False
     return tiles
 
 

@@ -117,27 +117,26 @@ def march_medium(
     area = units.square_metres(indenter.length_unit)
     times, load = load_samples("march_medium", times, force, depth, area)
     elements = elements_of_map(indenter, "march_medium")
-    state = _State(elements, relaxation)
     by_depth, rows, receding, rate = force is None, [], np.nan, 0.0
-    contact = _ContactProblem(elements, by_depth=by_depth)
+    state = _State(elements, relaxation, by_depth=by_depth)
     for k in range(times.size):
         length = times[k] - times[k - 1] if k else 0.0
         rate = (load[k] - load[k - 1]) / length if length else rate
-        before = contact.members
+        before = state.members
         if length > 0 or relaxation.viscosity == 0:
             at_end = by_depth or relaxation.viscosity == 0
             value = load[k] if at_end else 0.5 * (load[k - 1] + load[k])
-            state.advance(contact, length, value)
-            if np.isnan(receding) and not np.isin(before, contact.members).all():
+            state.advance(length, value)
+            if np.isnan(receding) and not np.isin(before, state.members).all():
                 receding = times[k]
         elif by_depth and load[k] != state.depth:
             raise ValueError(
                 f"march_medium: depth steps at time {times[k]:g}, which takes an infinite force; allowed: ramps"
             )
         if by_depth or k == times.size - 1:
-            pressure = state.pressure_now(contact, rate if by_depth else load[k])
+            pressure = state.pressure_now(rate if by_depth else load[k])
         force_now = elements.units.force * pressure.sum() if by_depth else load[k]
-        rows.append((state.depth, force_now, contact.members.size))
+        rows.append((state.depth, force_now, state.members.size))
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
@@ -167,19 +166,23 @@ def load_samples(
 
 
 class _State:
-    """Motion y, pressures Q and internal variables w of all elements.
+    """Motion y, pressures Q and internal variables w of all elements under forces, or depths if `by_depth`.
 
-    With a parallel dashpot Q is that which a step assumes, its mean over the step.
+    With a parallel dashpot Q is that which a step assumes, its mean over the step. The contact problem of a step is
+    solved by an active-set method, which releases elements under tension and adds elements that overlap until there are
+    neither. `members` is the contact set, the first guess of the next problem.
     """
 
-    def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum) -> None:
-        self._elements, self._relaxation = elements, relaxation
+    def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum, *, by_depth: bool) -> None:
+        self._elements, self._relaxation, self._by_depth = elements, relaxation, by_depth
         self.depth = 0.0
         self.motion: Array = np.zeros(elements.count)
         self.pressure: Array = np.zeros(elements.count)
         self._branches: Array = np.zeros((relaxation.moduli.size, elements.count))
+        self.members: Integers = np.array([], int)
+        self._of_factor = self.members  # the members that the Cholesky factor is of
 
-    def advance(self, contact: "_ContactProblem", length: float, load: float) -> None:
+    def advance(self, length: float, load: float) -> None:
         """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
         viscosity, relaxed, moduli, times = self._relaxation
         x = length / times
@@ -192,50 +195,37 @@ class _State:
         # c times the gap is e + K Q − c u, with e that of a surface which nothing presses from now on.
         free = self._elements.deflection(stiffness * self.motion - kept)
         free += stiffness * self._elements.initial_gap
-        wanted = stiffness * load if contact.by_depth else load / self._elements.units.force
-        self.pressure, depth = contact.solve(free, wanted)
-        self.depth = load if contact.by_depth else depth / stiffness
+        wanted = stiffness * load if self._by_depth else load / self._elements.units.force
+        self.pressure, depth = self._solve(free, wanted)
+        self.depth = load if self._by_depth else depth / stiffness
         change = (self.pressure - kept) / stiffness
         self._branches = decay[:, None] * self._branches + np.outer(gain, change)
         self.motion = self.motion + change
 
-    def pressure_now(self, contact: "_ContactProblem", load: float) -> Array:
+    def pressure_now(self, load: float) -> Array:
         """Q at this time: with a parallel dashpot, K y' = u' on the contact set, and Q = 0 elsewhere.
 
-        load : the force F, or u' if `contact.by_depth`
+        load : the force F, or u' if `by_depth`
         """
         viscosity, relaxed, moduli, _ = self._relaxation
         if viscosity == 0:
             return self.pressure
         kept = relaxed * self.motion + moduli @ self._branches
-        wanted = viscosity * load if contact.by_depth else load / self._elements.units.force
-        members = contact.members
+        wanted = viscosity * load if self._by_depth else load / self._elements.units.force
+        members = self.members
         if members.size == 0:
             height = self._elements.initial_gap + self._elements.deflection(self.motion)
             members = np.flatnonzero(height == height.min())
-        return contact.solve_among(members, -self._elements.deflection(kept), wanted)[0]
+        return self._solve_among(members, -self._elements.deflection(kept), wanted)[0]
 
-
-class _ContactProblem:
-    """Q ≥ 0 and e + K Q − c u ≥ 0, one of them zero, for a given force, or c u if `by_depth`; by an active-set method.
-
-    Elements under tension are released and elements that overlap are added until there are neither. `members` is the
-    contact set, the first guess of the next problem.
-    """
-
-    def __init__(self, elements: MapElements, *, by_depth: bool) -> None:
-        self._elements, self.by_depth = elements, by_depth
-        self.members: Integers = np.array([], int)
-        self._of_factor = self.members  # the members that the factor is of
-
-    def solve(self, free: Array, wanted: float) -> tuple[Array, float]:
-        """Q of all elements, and c u.
+    def _solve(self, free: Array, wanted: float) -> tuple[Array, float]:
+        """Q ≥ 0 of all elements with e + K Q − c u ≥ 0, one of them zero, and c u.
 
         free : e; wanted : c u if `by_depth`, else ΣQ. Without a force the indenter is placed at first contact.
         """
         members = self.members if self.members.size else np.array([np.argmin(free)])
         for _ in range(_MAX_ITERATIONS):
-            pressure, depth, members = self.solve_among(members, free, wanted)
+            pressure, depth, members = self._solve_among(members, free, wanted)
             deflection = self._elements.deflection(pressure)
             gap = free + deflection - depth
             gap[members] = 0
@@ -248,17 +238,17 @@ class _ContactProblem:
             members = np.union1d(members, deepest)
         raise ConvergenceError(f"march_medium: no contact set found in {_MAX_ITERATIONS} iterations")
 
-    def solve_among(self, members: Integers, free: Array, wanted: float) -> tuple[Array, float, Integers]:
+    def _solve_among(self, members: Integers, free: Array, wanted: float) -> tuple[Array, float, Integers]:
         """Q, c u and the contact set where only some elements may touch, those of them under tension released."""
         pressure = np.zeros(free.size)
-        if not self.by_depth and wanted <= 0:
+        if not self._by_depth and wanted <= 0:
             return pressure, free.min(), members[:0]
         while members.size:
             if not np.array_equal(members, self._of_factor):
                 self._factor, self._of_factor = cho_factor(self._elements.influence_among(members)), members
             solved = cho_solve(self._factor, np.column_stack([np.ones(members.size), free[members]]))
             punch, rest = solved.T
-            depth = wanted if self.by_depth else (wanted + rest.sum()) / punch.sum()
+            depth = wanted if self._by_depth else (wanted + rest.sum()) / punch.sum()
             load = depth * punch - rest
             if not (load < 0).any():
                 pressure[members] = load

@@ -53,7 +53,7 @@ def tiles_with(row: Integers, column: Integers, shape: tuple[int, int]) -> Mask:
 
 def are_few(tiles: Mask) -> bool:
     """Whether the tiles of a grid with elements are so few that it takes less time to consider these alone."""
-    return np.count_nonzero(tiles) <= _LARGEST_SHARE * tiles.size
+    return bool(np.count_nonzero(tiles) <= _LARGEST_SHARE * tiles.size)
 
 
 def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:

@@ -107,8 +107,8 @@ def levels_failure(case, solver_type=ContactSolver):
         gap = influence[:, contact.members] @ contact.reduced_pressure - reduced + solver.elements.initial_gap
         exact = np.interp(depth, events.depth, events.impulse)
         exact += max(depth - events.depth[-1], 0.0) * events.resistance[-1]
-        if contact.pressure.min() < 0:
-            wrong = f"tension {contact.pressure.min():.2g}"
+        if contact.reduced_pressure.min() < 0:
+            wrong = f"tension {contact.reduced_pressure.min():.2g}"
         elif max(-gap.min(), np.abs(gap[contact.members]).max()) > allowed * reduced:
             wrong = f"overlap {-gap.min():.2g}, gap {gap[contact.members].max():.2g} at depth {reduced:.2g}"
         elif abs(contact.force / exact - 1) > allowed:

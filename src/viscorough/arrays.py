@@ -1,4 +1,4 @@
-"""Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; increasing numbers."""
+"""Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; samples over time."""
 
 import dataclasses
 from typing import Any, cast
@@ -75,6 +75,30 @@ def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "")
         where = int(np.argmin(allowed))
         raise ValueError(f"{name}: sample {where} is {values[where]}; allowed: finite, 0 or more{reason}")
     return values
+
+
+def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
+    """Jumps of a load just before its samples, before the first of which it is 0, and its slopes from each to the next.
+
+    times, load : shape (samples,); a time given twice is a jump
+
+    Returns arrays of shapes (samples,) and (samples − 1,).
+    """
+    lengths, increments = np.diff(times), np.diff(load)
+    slopes = np.divide(increments, lengths, out=np.zeros_like(increments), where=lengths > 0)
+    return np.append(load[0], np.where(lengths == 0, increments, 0.0)), slopes
+
+
+def integral(times: Array, values: Array, until: Any) -> Array:
+    """Integrals, to times of any shape, of what is linear between samples and 0 before them, exactly.
+
+    times, values : of the samples, shape (samples,)
+    """
+    at_samples = np.append(0.0, np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(times)))
+    slopes = np.append(jumps_and_slopes(times, values)[1], 0.0)
+    place = np.maximum(np.searchsorted(times, until, side="right") - 1, 0)
+    after = np.maximum(until - times[place], 0)
+    return at_samples[place] + after * (values[place] + 0.5 * slopes[place] * after)
 
 
 def _are_equal(one: Any, other: Any) -> bool:

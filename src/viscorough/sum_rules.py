@@ -424,7 +424,7 @@ def _solutions(elements: Elements, right_sides: list[Array], threads: int) -> li
     rows, columns = elements.shape
     height, width = rows + 2 * REACH, columns + 2 * REACH
     halfspace = Halfspace(rows, columns, aspect=elements.aspect, threads=threads)
-    preconditioner = Preconditioner(height, width, aspect=elements.aspect, threads=threads)
+    preconditioner = Preconditioner(height, width, aspect=elements.aspect, precision=np.float64, threads=threads)
     place = (elements.row + REACH) * width + elements.column + REACH
     inside, field = np.zeros(height * width, dtype=bool), np.zeros(height * width)
     inside[place] = True

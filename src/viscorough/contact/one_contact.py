@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -14,12 +13,11 @@ from viscorough.arrays import increasing
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
-from viscorough.contact.state import ContactState
 from viscorough.contact_maps import Contact
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter, positive
 from viscorough.summaries import with_unit
-from viscorough.types import Array, Progress
+from viscorough.types import Progress
 
 _SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
 
@@ -86,8 +84,7 @@ def contact_at(
     check_solvable("contact_at", indenter, tolerance, threads)
     if (depth is None) == (force is None):
         raise ValueError("contact_at: either depth or force must be given")
-    by_depth = force is None
-    unit = indenter.length_unit
+    by_depth, unit = force is None, indenter.length_unit
     if shear_modulus is not None:
         shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
     given: Any
@@ -97,67 +94,52 @@ def contact_at(
         given = units.forces_over_modulus(force, shear_modulus, unit, "force")
     values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", np.atleast_1d(given), above_zero=True)
     # Pressures that add up to the force exactly take the other half of the tolerance.
-    most: dict[str, Any] = {"largest_depth": float(values[-1])} if by_depth else {}
-    solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False, **most)
-    progress = progress or (lambda done: None)
-    states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
-    contacts = []
-    for state, value in zip(states, values.tolist(), strict=True):
+    largest_depth = float(values[-1]) if by_depth else np.inf
+    solver = ContactSolver(indenter, tolerance / 2, options, threads, largest_depth=largest_depth, whole=False)
+    tell, search, last = progress or (lambda done: None), ForceSearch(solver), solver.unloaded_state()
+    contacts: list[Contact] = []
+
+    def report(share: float) -> None:
+        # The last contacts, near the force, take the rest of the time.
+        tell((len(contacts) + _SHARE_OF_APPROACH * share) / values.size)
+
+    for value in values:
+        if by_depth:
+            last = solver.advance(last, value)
+            state = solver.settled(last, last.reduced_depth, last.pressure_sum)
+        else:
+            state = search.contact_at(value, report)
         if not np.isfinite(state.force):
             raise ValueError("contact_at: the force is too large to represent; a larger unit of length is needed")
-        stated = {"depth" if by_depth else "force": value, "shear_modulus": shear_modulus}
-        contacts.append(_contact(indenter, tolerance, solver, state, stated))
-        progress(len(contacts) / values.size)
-    last = contacts[-1]
-    warn_beyond_theory("contact_at", indenter, last.depth)
-    if last.contact_count == last.elements and np.ptp(indenter.initial_gap[last.contact]) > 0:
-        depth = with_unit(last.depth, indenter.length_unit)
+        gap, loads = solver.gap_map(state), state.member_loads()
+        pressure = np.where(np.isnan(gap), np.nan, 0.0)
+        pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
+        contact = pressure > 0
+        for array in (pressure, gap, contact):
+            array.flags.writeable = False  # so that they need not be copied
+        contacts.append(
+            Contact(
+                pressure=pressure,
+                gap=gap,
+                contact=contact,
+                # What was given instead of its rounded value.
+                depth=float(value) if by_depth else state.depth,
+                force=state.force if by_depth else float(value),
+                stiffness=state.stiffness,
+                residual=state.residual,
+                tolerance=tolerance,
+                spacing=indenter.spacing,
+                row_spacing=indenter.row_spacing,
+                length_unit=unit,
+                shear_modulus=shear_modulus,
+            )
+        )
+        tell(len(contacts) / values.size)
+    deepest = contacts[-1]
+    warn_beyond_theory("contact_at", indenter, deepest.depth)
+    if deepest.contact_count == deepest.elements and np.ptp(indenter.initial_gap[deepest.contact]) > 0:
+        depth = with_unit(deepest.depth, indenter.length_unit)
         text = f"contact_at: contact is complete, the contact fraction is 1 at the depth u, {depth}; from there on the "
         text += "stiffness is that of a flat punch, whatever the heights"
         warnings.warn(text, AccuracyWarning, stacklevel=2)
     return contacts if np.ndim(given) else contacts[0]
-
-
-def _states_at_depths(solver: ContactSolver, depths: Array) -> Iterator[ContactState]:
-    contact = solver.unloaded_state()
-    for depth in depths:
-        contact = solver.advance(contact, depth)
-        yield solver.settled(contact, contact.reduced_depth, contact.pressure_sum)
-
-
-def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) -> Iterator[ContactState]:
-    search = ForceSearch(solver)
-    for number, force in enumerate(forces):
-
-        def report(share: float, number: int = number) -> None:
-            # The last contacts, near the force, take the rest of the time.
-            progress((number + _SHARE_OF_APPROACH * share) / forces.size)
-
-        yield search.contact_at(force, report)
-
-
-def _contact(
-    indenter: Indenter, tolerance: float, solver: ContactSolver, state: ContactState, given: dict[str, Any]
-) -> Contact:
-    """The Contact of a ContactState, with the depth or force that was given instead of its rounded value."""
-    gap, pressure = solver.gap_map(state), np.zeros(indenter.heights.shape)
-    np.copyto(pressure, np.nan, where=np.isnan(gap))
-    loads = state.member_loads()
-    place = solver.elements.places_on_map(loads.members)
-    pressure[place] = loads.pressure * solver.units.pressure
-    contact = np.zeros(pressure.shape, bool)
-    contact[place] = loads.pressure > 0
-    for array in (pressure, gap, contact):
-        array.flags.writeable = False  # so that they need not be copied
-    quantities: dict[str, Any] = {"depth": state.depth, "force": state.force, "stiffness": state.stiffness} | given
-    return Contact(
-        pressure=pressure,
-        gap=gap,
-        contact=contact,
-        residual=state.residual,
-        tolerance=tolerance,
-        spacing=indenter.spacing,
-        row_spacing=indenter.row_spacing,
-        length_unit=indenter.length_unit,
-        **quantities,
-    )

@@ -6,9 +6,9 @@ order: computed numbers are the same to the last bit, however many threads there
 """
 
 import os
-from collections.abc import Callable, Iterator
+import threading
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from functools import lru_cache
 from numbers import Integral
 from typing import Any
@@ -70,22 +70,11 @@ def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
     return memory[start : start + size].view(dtype).reshape(shape)
 
 
-class Buffers:
-    """Pool of scratch arrays, one per active thread; zero when allocated."""
+class Buffer(threading.local):
+    """A scratch array for every thread: zero when allocated, later as the thread has left it."""
 
     def __init__(self, shape: tuple[int, ...], dtype: DTypeLike) -> None:
-        self._shape, self._dtype = shape, dtype
-        self._free: list[NDArray[Any]] = []
-
-    @contextmanager
-    def one(self) -> Iterator[NDArray[Any]]:
-        """Context: borrow a scratch array; contents undefined."""
-        try:
-            buffer = self._free.pop()
-        except IndexError:
-            buffer = aligned_zeros(self._shape, self._dtype)
-        yield buffer
-        self._free.append(buffer)
+        self.array = aligned_zeros(shape, dtype)
 
 
 @lru_cache(maxsize=1)

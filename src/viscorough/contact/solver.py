@@ -84,6 +84,7 @@ class ContactSolver:
 
     indenter : as it was given
     elements, units : its state.Elements and state.Units
+    is_flat : whether all elements are of one height, so that all touch at once
 
     Raises MemoryError if the available memory does not suffice for the map.
     """
@@ -102,7 +103,7 @@ class ContactSolver:
         if whole:
             require_for_contact(indenter.heights, **self._of_memory)
         self.indenter, self._ranking = indenter, Ranking(indenter, threads)
-        self.units = self._ranking.units
+        self.units, self.is_flat = self._ranking.units, self._ranking.is_flat
         self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
         self._grid: GridSolver | None = None
         self._reach, self._former_applications = 0, 0
@@ -118,11 +119,6 @@ class ContactSolver:
         """The ContactState at depth zero: no pressure, and no element in contact yet."""
         nothing = np.empty(0)
         return ContactState(self.units, 0.0, 0, 0.0, 0.0, loads=MemberLoads(nothing.astype(int), nothing, nothing))
-
-    @property
-    def is_flat(self) -> bool:
-        """Whether all elements are of one height, so that all touch at once."""
-        return self._ranking.is_flat
 
     def first_contact(self) -> ContactState:
         """The ContactState up to which the curve is straight, since only the highest elements are in contact.
@@ -174,7 +170,8 @@ class ContactSolver:
             raise ValueError(f"{text} initial gap, up to which depths are allowed")
         deepest = force[1] if force else max(min(_BOX_DEPTH_MARGIN * depth, self._largest_depth), depth)
         candidates = self.candidates(depth, deepest)
-        if contact.fields is None and self._is_small(candidates, contact):
+        # A dense evaluation of few interactions is cheaper than the grid.
+        if contact.fields is None and candidates * contact.count <= self.options.dense_interactions:
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
                 return self._checked(contact, solution)
@@ -203,6 +200,7 @@ class ContactSolver:
         Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact says.
         """
         heights, (top, left), (rows, columns) = self.indenter.heights, self.elements.origin, self.elements.shape
+        own = slice(top, top + rows), slice(left, left + columns)
         gap, highest = np.empty(heights.shape), self._ranking.highest
 
         def undeformed(i: int, j: int) -> None:
@@ -210,7 +208,7 @@ class ContactSolver:
             gap[i:j] -= contact.depth
 
         run_blocks(undeformed, len(gap), self.threads, -(-BLOCK // heights.shape[1]))
-        part, grid = gap[top : top + rows, left : left + columns], self._grid
+        part, grid = gap[own], self._grid
         # A grid without restrictions knows the gap in its box to the residual.
         known = grid if grid and _has_fields_on(grid, contact) and not grid.is_restricted else None
         if not known or known.box != (0, 0, rows, columns):
@@ -233,8 +231,7 @@ class ContactSolver:
         if known:
             first_row, first_column, rows, columns = known.box
             in_box = slice(first_row, first_row + rows), slice(first_column, first_column + columns)
-            initial = heights[top : top + self.elements.shape[0], left : left + self.elements.shape[1]][in_box]
-            np.subtract(highest, initial, out=part[in_box], dtype=float)
+            np.subtract(highest, heights[own][in_box], out=part[in_box], dtype=float)
             part[in_box] += known.in_box(contact.grid_fields.gap_change.values) * self.units.length
         overlap = -np.fmin.reduce(gap, axis=None) / contact.depth
         if overlap > contact.residual + self.tolerance:
@@ -266,10 +263,6 @@ class ContactSolver:
         reach = rank + int(np.count_nonzero(area <= _GROWTH_OF_BOX * area[0])) - 1
         return min(deepest, self.elements.next_gap(reach))
 
-    def _is_small(self, candidates: int, contact: ContactState) -> bool:
-        """Whether a dense evaluation is cheaper than the grid."""
-        return candidates * contact.count <= self.options.dense_interactions
-
     def _grid_up_to(self, rank: int, deepest: float) -> GridSolver:
         """The grid solver of a box around the elements up to a rank: the current one, or else one with a larger box.
 
@@ -280,25 +273,23 @@ class ContactSolver:
         if self._grid is None or rank > self._reach:
             # The box allows for larger depths to come, or is the whole grid where it would save little.
             reach = max(rank, self.candidates(deepest, deepest))
-            gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
-            first, last = ([pick(place[:reach]) for place in (row, column)] for pick in (np.min, np.max))
+            places = self.elements.row[:reach], self.elements.column[:reach]
+            first, last = ([pick(place) for place in places] for pick in (np.min, np.max))
             box = tuple(int(n) for n in (*first, *np.subtract(last, first) + 1))
             rows, columns = self.elements.shape
             if box[2] * box[3] > _LARGEST_BOX * rows * columns:
-                reach, box = gap.size, (0, 0, rows, columns)
+                reach, box = self.elements.initial_gap.size, (0, 0, rows, columns)
             self._reach = reach
             if self._grid and self._grid.box == box and not self._grid.is_restricted:
-                self._grid.place_elements(row, column, gap)
+                self._grid.place_elements(self.elements)
                 return self._grid
             self._former_applications = self.operator_applications
             self._grid = None  # its memory is free for the larger one
             require_for_box(self.indenter.heights, box, **self._of_memory)
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
-            self._grid = GridSolver(
-                box, row, column, gap, self.tolerance, self.options,
-                aspect=self.elements.aspect, threads=self.threads, reach=reach,
-            )  # fmt: skip
+            of_grid: dict[str, Any] = {"threads": self.threads, "reach": reach}
+            self._grid = GridSolver(box, self.elements, self.tolerance, self.options, **of_grid)
         return self._grid
 
     def _checked(self, before: ContactState, after: ContactState) -> ContactState:
@@ -323,15 +314,13 @@ class ContactSolver:
     def _lost_contact(self, before: ContactState, after: ContactState) -> tuple[int, float]:
         """Number of elements that left the contact in a step, and the largest gap there, reduced."""
         if after.fields and before.fields and before.fields.initial_gap is after.fields.initial_gap:
-            lost = self._loops.difference(before.fields.inside, after.fields.inside)
-            return lost.size, after.fields.gap(lost).max(initial=0)
+            places = self._loops.difference(before.fields.inside, after.fields.inside)
+            return places.size, after.fields.gap(places).max(initial=0)
         if after.fields and before.fields:
             lost = self._loops.new_members(before.fields, after.fields)
         else:
             lost = np.setdiff1d(before.members, after.members, assume_unique=True)
-        if lost.size == 0:
-            return 0, 0.0
-        return lost.size, after.fields.gap_at(lost).max() if after.fields else np.inf
+        return lost.size, after.fields.gap(after.fields.place[lost]).max(initial=0) if after.fields else np.inf
 
 
 def _has_fields_on(grid: GridSolver, contact: ContactState) -> bool:

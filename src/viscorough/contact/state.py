@@ -160,10 +160,6 @@ class GridFields:
         """Reduced gap e at places of the flat arrays."""
         return self.gap_change.values[places] + self.initial_gap[places]
 
-    def gap_at(self, ranks: Integers) -> Array:
-        """Reduced gap e at the elements of given ranks."""
-        return self.gap(self.place[ranks])
-
     def member_loads(self) -> MemberLoads:
         """The MemberLoads, in double precision."""
         members = np.flatnonzero(self.inside[self.place])
@@ -228,8 +224,3 @@ class ContactState:
     def stiffness(self) -> float:
         """Tangent stiffness k/G = 4π d Σq [length]."""
         return self.tangent_sum * self.units.stiffness
-
-    @property
-    def pressure(self) -> Array:
-        """Pressure p/G = 4π P/d on the members, shape (count,) [1]."""
-        return self.reduced_pressure * self.units.pressure

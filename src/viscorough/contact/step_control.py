@@ -12,9 +12,9 @@ import numpy as np
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
-from viscorough.contact.state import ContactState, GridFields
+from viscorough.contact.state import ContactState
 from viscorough.loading_curve import interpolate_between
-from viscorough.types import Array, Integers
+from viscorough.types import Array
 
 # Finest tolerance of interpolation: a smaller one would require every contact event as a level, as in direct
 # integration.
@@ -157,56 +157,37 @@ def interpolate(before: Level, after: Level, force: Array) -> Array:
 def _predicted_error(before: ContactState, after: ContactState, threads: int) -> float:
     """Relative error of interpolation between two contacts, predicted from the depths at which elements touch.
 
-    Returns infinity where it cannot be predicted. The stiffness that an element adds is taken as proportional to e_q²,
-    as for the first element to join, and their sum as the difference of the two tangent sums.
+    The gap e of an element outside the contact is convex in the depth: it touches no earlier than at u₀ − e/e_q, with
+    the gap and the tangent gap before. Its pressure is concave: it touches no earlier than at u₁ − P/q, with those
+    after. The later of the two predicts its touch closely. The stiffness that an element adds is taken as proportional
+    to e_q², as for the first element to join, and their sum as the difference of the two tangent sums.
+
+    Returns infinity where it cannot be predicted.
     """
-    share = _POINTS[1::2]
-    sums = _predicted_touches(before, after, share, threads)
-    if sums is None:
+    if before.fields is None or after.fields is None:  # the one after may have been solved from an earlier contact
         return np.inf
-    weight, rise_by_weight, above_tangent = sums[0], sums[1], sums[2:]
-    width = after.reduced_depth - before.reduced_depth
-    added = (after.tangent_sum - before.tangent_sum) / weight
+    loops = GridLoops(threads)
+    if after.fields.initial_gap is before.fields.initial_gap:
+        place = place_after = loops.difference(after.fields.inside, before.fields.inside)
+    else:
+        members, places = loops.new_members(after.fields, before.fields), before.fields.place
+        # Place 0, outside the grid, for elements that were not ranked.
+        place, place_after = np.append(places, 0)[np.minimum(members, places.size)], after.fields.place[members]
+    if place.size < _PREDICTED_COUNT or not place.all():  # place 0 is outside the grid of the contact before
+        return np.inf
+    fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
+    share, width = _POINTS[1::2], after.reduced_depth - before.reduced_depth
+    loads = (load[place_after].astype(float) for load in (after.fields.pressure, after.fields.tangent))
+    # Σw, Σw (1 − touch) and, for every share s of the interval, Σw max(s − touch, 0), with touches from 0 to 1 and the
+    # weights w = e_q².
+    sums = sum(loops.each(kernels.touch_sums, (*fields, width, share), place, *loads))
+    added = (after.tangent_sum - before.tangent_sum) / sums[0]
     rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum
-    predicted_rise = added * rise_by_weight
+    predicted_rise = added * sums[1]
     if not 0 < _AGREEMENT[0] * predicted_rise <= rise <= _AGREEMENT[1] * predicted_rise:
         return np.inf
-    above_tangent = added * above_tangent * rise / predicted_rise
+    above_tangent = added * sums[2:] * rise / predicted_rise
     force = before.pressure_sum + width * (share * before.tangent_sum + above_tangent)
     depth = before.reduced_depth + width * share
     interpolated = interpolate(Level.of(before), Level.of(after), np.minimum(force, after.pressure_sum))
     return np.abs(interpolated / depth - 1).max()
-
-
-def _predicted_touches(before: ContactState, after: ContactState, share: Array, threads: int) -> Array | None:
-    """Sums over the elements that join between two contacts, of functions of where they touch, from 0 to 1.
-
-    The gap e of an element outside the contact is convex in the depth: it touches no earlier than at u₀ − e/e_q, with
-    the gap and the tangent gap before. Its pressure is concave: it touches no earlier than at u₁ − P/q, with those
-    after. The later of the two predicts its touch closely. The weights w are e_q².
-
-    share : shares s of the interval
-
-    Returns Σw, Σw (1 − touch) and, for every s, Σw max(s − touch, 0); None where touches cannot be predicted.
-    """
-    if before.fields is None or after.fields is None:  # the one after may have been solved from an earlier contact
-        return None
-    place, pressure, tangent = _new_elements(before.fields, after.fields, threads)
-    if place.size < _PREDICTED_COUNT or not place.all():  # place 0 is outside the grid of the contact before
-        return None
-    fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
-    width = after.reduced_depth - before.reduced_depth
-    sums = GridLoops(threads).each(kernels.touch_sums, (*fields, width, share), place, pressure, tangent)
-    return sum(sums)
-
-
-def _new_elements(before: GridFields, after: GridFields, threads: int) -> tuple[Integers, Array, Array]:
-    """Elements that join a contact: their places on the grid of the GridFields before, and P and q after."""
-    loops = GridLoops(threads)
-    if after.initial_gap is before.initial_gap:
-        place = places_before = loops.difference(after.inside, before.inside)
-    else:
-        members = loops.new_members(after, before)
-        # Place 0, outside the grid, for elements that were not ranked.
-        place, places_before = after.place[members], np.append(before.place, 0)[np.minimum(members, before.place.size)]
-    return places_before, after.pressure[place].astype(float), after.tangent[place].astype(float)

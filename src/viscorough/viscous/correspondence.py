@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
+from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, si_unit, span, velocity_unit
@@ -144,17 +144,21 @@ def kinetics(
     (True, True)
     """
     medium = medium_of(medium, curve.length_unit)
-    if times is None and isinstance(force, ForceHistory):
-        times = force.times
     load: Any = consistent_force(force, curve.length_unit)
-    constant = np.ndim(load) == 0
-    if constant and not (np.isfinite(load) and load > 0):
-        raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
-    if times is None:
-        if not constant:
-            raise ValueError("times: missing; a force given as samples needs the time of each sample")
-        times = _spread_times(curve, load, medium)
-    times, creep, rate = _creep(load, medium, times)
+    if np.ndim(load) == 0:
+        if not (np.isfinite(load) and load > 0):
+            raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
+        times = impulses(load, _spread_times(curve, load, medium) if times is None else times).times
+        if times[-1] > medium.last_time:
+            text = f"allowed: up to the last time of the table, {medium.last_time:g}"
+            raise ValueError(f"times: up to {times[-1]:g}; {text}")
+        with np.errstate(over="ignore"):
+            creep, rate = load * medium.creep_compliance(times), load * medium.creep_rate(times)
+    elif times is None and not isinstance(load, ForceHistory):
+        raise ValueError("times: missing; a force given as samples needs the time of each sample")
+    else:
+        history, place = resampled(load, times)
+        times, creep, rate = (values[place] for values in (history.times, *creep_response(medium, history)))
     depth, stiffness = _at_elastic_force(curve, creep, times)
     # Where nothing moves the velocity is 0 even before the first level, where the stiffness is nan.
     velocity = np.where(rate <= 0, 0.0, rate / stiffness)
@@ -190,8 +194,7 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     end = last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
     wanted = np.array([start, end]) / force
     with np.errstate(all="ignore"):
-        earliest = np.full(2, np.finfo(float).tiny)
-        ends = zero_of_increasing(lambda time: medium.creep_compliance(time) - wanted, earliest, np.full(2, limit))
+        ends = zero_of_increasing(lambda t: medium.creep_compliance(t) - wanted, np.finfo(float).tiny, limit)
     if not (0 < ends[0] < ends[1] < _LATEST / 2):
         raise ValueError(f"times: from {ends[0]:g} to {ends[1]:g} they overflow; closer force and medium are allowed")
     times = np.geomspace(ends[0], ends[1], _SPREAD)
@@ -199,29 +202,14 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     return np.append(0.0, times) if springs else times
 
 
-def _creep(force: ForceHistory | Any, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:
-    """Times, Φ and dΦ/dt there."""
-    if np.ndim(force) > 0:
-        history, place = resampled(force, times)
-        creep, rate = creep_response(medium, history)
-        return history.times[place], creep[place], rate[place]
-    load: Any = force
-    times = impulses(load, times).times
-    if times[-1] > medium.last_time:
-        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
-    with np.errstate(over="ignore"):
-        return times, load * medium.creep_compliance(times), load * medium.creep_rate(times)
-
-
-def resampled(force: ForceHistory | Any, times: ArrayLike) -> tuple[ForceHistory, Integers]:
+def resampled(force: ForceHistory | Any, times: Any) -> tuple[ForceHistory, Integers]:
     """The ForceHistory with samples at `times` added, and the indices of those; after a step, where one is.
 
-    force, times : as of `impulses`, or a ForceHistory and times within it
+    force, times : as of `impulses`, or a ForceHistory and times within it, or None for those of its samples
     """
     if not isinstance(force, ForceHistory):
-        history = impulses(force, times)
-        return history, np.arange(history.times.size)
-    if times is force.times:
+        force, times = impulses(force, times), None
+    if times is None or times is force.times:
         return force, np.arange(force.times.size)
     times = increasing("times", times)
     if times[0] < force.times[0] or times[-1] > force.times[-1]:
@@ -266,7 +254,7 @@ def impulses(force: Any, times: ArrayLike) -> ForceHistory:
         force, impulse = np.full(times.shape, float(force)), force * times
     else:
         force = samples("force", force, times, " (without adhesion a pull opens the contact)")
-        impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
+        impulse = integral(times, force, times)
     return ForceHistory(*map(read_only, (times, force, impulse)))
 
 

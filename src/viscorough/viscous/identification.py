@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma, stdtrit
 
-from viscorough.arrays import ReadOnlyArrays, increasing
+from viscorough.arrays import ReadOnlyArrays, increasing, integral
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, si_unit, span, with_unit
@@ -139,7 +139,7 @@ def identify_medium(
         if not (0 < force < np.inf and times[0] >= 0):
             raise ValueError(f"force: {force:g} from time 0 on, record from {times[0]:g} on; allowed: both above 0")
         force = impulses([force, force], [0.0, times[-1]])
-    history, place = resampled(force if isinstance(force, ForceHistory) else impulses(force, times), times)
+    history, place = resampled(force, times)
     lags = times - history.times[0]
     knots = lags[lags > 0]
     if knots.size > _KNOTS:  # a subset at equal ratios
@@ -148,11 +148,11 @@ def identify_medium(
     if history.force[0] == 0:  # a ramp shows J before the first row, too
         knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
     # The creep of J = min(t, τ) is I(t) − I(t − τ), shape (times, knots).
-    hinges = _impulse(history, times[:, None]) - _impulse(history, times[:, None] - knots)
-    record = _Record(curve, depth, np.column_stack([history.force[place], hinges]))
+    impulse, earlier = (integral(history.times, history.force, t) for t in (times[:, None], times[:, None] - knots))
+    record = _Record(curve, depth, np.column_stack([history.force[place], impulse - earlier]))
     coefficients = record.fit(record.responses)
     freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
-    scatter = np.sqrt(record.squares(record.responses @ coefficients) / freedom)
+    scatter = np.sqrt((record.residual(record.responses @ coefficients) ** 2).sum() / freedom)
     time = np.append(0.0, knots)
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
     compliance = np.maximum.accumulate(values @ coefficients)  # where J is constant, its rounding is not
@@ -202,8 +202,7 @@ def _check_growth(times: Array, depth: Array) -> None:
     scatter = 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6)
     resolution = abs(steps[steps != 0]).min(initial=np.inf) if (steps == 0).any() else 0.0
     resolution = resolution if np.isfinite(resolution) else 0.0
-    size = 1
-    while size <= depth.size // 2:
+    for size in (2**k for k in range(depth.size.bit_length() - 1)):
         count = depth.size // size
         mean = depth[: count * size].reshape(count, size).mean(axis=1)
         drop = np.maximum.accumulate(mean) - mean
@@ -214,17 +213,6 @@ def _check_growth(times: Array, depth: Array) -> None:
                 f"record: at time {times[where * size]:.6g} the depth has receded by {drop[where]:.3g}, more than its "
                 f"scatter, {scatter:.3g}, explains; allowed: depths that grow, under which the contact does not recede"
             )
-        size *= 2
-
-
-def _impulse(history: ForceHistory, time: Array) -> Array:
-    """∫F dt up to times of any shape, exactly: quadratic between samples, 0 before them."""
-    last = history.times.size - 1
-    k = np.clip(np.searchsorted(history.times, time, side="right") - 1, 0, max(last - 1, 0))
-    offset = np.maximum(time - history.times[k], 0)
-    length = history.times[np.minimum(k + 1, last)] - history.times[k]
-    slope = np.divide(np.diff(history.force, append=0)[k], length, out=np.zeros(length.shape), where=length > 0)
-    return history.impulse[k] + offset * (history.force[k] + 0.5 * slope * offset)
 
 
 class _Record:
@@ -245,10 +233,6 @@ class _Record:
             if abs(creep - last).max() <= 1e-12 * abs(creep).max():
                 break
         return amounts
-
-    def squares(self, creep: Array) -> float:
-        """Sum of the squares of the measured depth less that of this creep."""
-        return float((self.residual(creep) ** 2).sum())
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
         """Depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
@@ -331,15 +315,10 @@ def _prony(record: _Record, history: ForceHistory, place: Integers, lags: Array)
             "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
             "table or springpot"
         )
-    return _series(instantaneous, fluidity, strengths[kept], 1 / times[kept])
-
-
-def _series(instantaneous: float, fluidity: float, strengths: Array, rates: Array) -> Prony:
-    """The Prony series with J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)), exactly.
-
-    The rates of relaxation are the eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j); the moduli are
-    (b·q)²/(λ J₀²), q the eigenvectors.
-    """
+    # J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)) is that of a Prony series, exactly: the rates of relaxation are the
+    # eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j), and the moduli (b·q)²/(λ J₀²), q the
+    # eigenvectors.
+    strengths, rates = strengths[kept], 1 / times[kept]
     squares = strengths * rates
     if fluidity:
         squares, rates = np.append(fluidity, squares), np.append(0.0, rates)
@@ -360,7 +339,7 @@ def _springpot(record: _Record, knots: Array) -> Springpot:
 
     def squares(exponent: float) -> float:
         column = response(exponent)[:, None]
-        return record.squares(column @ record.fit(column))
+        return float((record.residual(column @ record.fit(column)) ** 2).sum())
 
     exponent = float(minimize_scalar(squares, bounds=(0.001, 0.999), method="bounded", options={"xatol": 1e-7}).x)
     (amount,) = record.fit(response(exponent)[:, None])

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, read_only
+from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, samples
 from viscorough.types import Array
 from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
 from viscorough.viscous.spectra import retardation_spectrum
@@ -51,45 +51,41 @@ class _Exponential(Medium):
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """J at times t ≥ 0, any shape; J(0+) at time 0."""
-        time = np.asarray(time, dtype=float)
         instantaneous, fluidity, compliances, times = self.retardation
-        delayed = -(compliances * np.expm1(-time[..., None] / times)).sum(axis=-1)
-        return instantaneous + fluidity * time + delayed
+        delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
+        return instantaneous + np.multiply(fluidity, time) + delayed
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """dJ/dt at times t ≥ 0, any shape."""
-        time = np.asarray(time, dtype=float)
         _, fluidity, compliances, times = self.retardation
-        return fluidity + (compliances / times * np.exp(-time[..., None] / times)).sum(axis=-1)
+        return fluidity + (compliances / times * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫J dt from start ≥ 0 to end ≥ start."""
-        start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
         instantaneous, fluidity, compliances, times = self.retardation
-        x, length = (end - start)[..., None] / times, end - start
-        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-start[..., None] / times) * np.expm1(-x))
-        return (instantaneous + 0.5 * fluidity * (start + end)) * length + delayed.sum(axis=-1)
+        length, before = np.subtract(end, start), np.divide.outer(start, times)
+        x = np.divide.outer(length, times)
+        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-before) * np.expm1(-x))
+        return (instantaneous + 0.5 * fluidity * np.add(start, end)) * length + delayed.sum(axis=-1)
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """ψ at times t > 0, any shape, and its limit at time 0, without the pulse η δ(t) of a dashpot."""
-        time = np.asarray(time, dtype=float)
         _, relaxed, moduli, times = self.relaxation
-        return relaxed + (moduli * np.exp(-time[..., None] / times)).sum(axis=-1)
+        return relaxed + (moduli * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
 
     def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse η δ(t) of a dashpot."""
-        start, end = np.asarray(start, dtype=float)[..., None], np.asarray(end, dtype=float)[..., None]
         _, relaxed, moduli, times = self.relaxation
-        decayed = -np.expm1(-(end - start) / times) * np.exp(-start / times)
-        return relaxed * (end - start)[..., 0] + (moduli * times * decayed).sum(axis=-1)
+        length = np.subtract(end, start)
+        decayed = -np.expm1(-np.divide.outer(length, times)) * np.exp(-np.divide.outer(start, times))
+        return relaxed * length + (moduli * times * decayed).sum(axis=-1)
 
     def _check_spectra(self) -> None:
         """Raise ValueError if spectra cannot be held in double precision."""
         with np.errstate(all="ignore"):
             rates = 1 / self.relaxation.times, 1 / self.retardation.times
-            values: list[Any] = [*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates]
-            finite = all(np.isfinite(value).all() for value in values)
-        if not finite:
+            values = np.hstack([*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates])
+        if not np.isfinite(values).all():
             name = type(self).__name__
             raise ValueError(f"{name}: its values are too far apart for double precision; closer ones are allowed")
 
@@ -198,18 +194,14 @@ class StandardLinearSolid(_Exponential):
     relaxed_modulus: float
     relaxation_time: float
 
-    def __post_init__(self) -> None:
-        _keep_positive(self)
-        if not self.relaxed_modulus < self.instantaneous_modulus:
+    @cached_property
+    def relaxation(self) -> RelaxationSpectrum:
+        branch = self.instantaneous_modulus - self.relaxed_modulus
+        if not branch > 0:
             raise ValueError(
                 f"StandardLinearSolid: relaxed_modulus {self.relaxed_modulus:g}; "
                 f"allowed: below instantaneous_modulus, {self.instantaneous_modulus:g}"
             )
-        self._check_spectra()
-
-    @cached_property
-    def relaxation(self) -> RelaxationSpectrum:
-        branch = self.instantaneous_modulus - self.relaxed_modulus
         return RelaxationSpectrum(0.0, self.relaxed_modulus, np.array([branch]), np.array([self.relaxation_time]))
 
 
@@ -264,9 +256,8 @@ class Prony(_Exponential):
         times = np.array(self.relaxation_times)
         # Branches of one rate are one branch.
         _, first, branch = np.unique(1 / times, return_index=True, return_inverse=True)
-        return RelaxationSpectrum(
-            0.0, self.relaxed_modulus, np.bincount(branch, self.moduli).astype(float), times[first]
-        )
+        moduli = np.bincount(branch, self.moduli).astype(float)
+        return RelaxationSpectrum(0.0, self.relaxed_modulus, moduli, times[first])
 
 
 @dataclass(frozen=True)
@@ -359,20 +350,14 @@ class CreepTable(ReadOnlyArrays, Medium):
     compliances: np.ndarray
 
     def __post_init__(self) -> None:
-        super().__post_init__()
-        times, values = self.times, self.compliances
-        if times.ndim != 1 or times.shape != values.shape or times.size < 2:
-            raise ValueError(
-                f"CreepTable: shapes {times.shape} and {values.shape}; allowed: two rows of equal length, 2+"
-            )
-        if not all(array.dtype.kind in "iuf" and np.isfinite(array).all() for array in (times, values)):
-            raise ValueError("CreepTable: allowed are finite real numbers")
+        times = increasing("CreepTable: times", self.times)
+        if times[0] != 0 or times.size < 2 or read_only(self.compliances).dtype.kind not in "iuf":
+            raise ValueError("CreepTable: allowed are two or more times that start with 0, and real compliances")
+        values = samples("CreepTable: compliances", self.compliances, times)
         for name, array in (("times", times), ("compliances", values)):
-            object.__setattr__(self, name, read_only(array.astype(float)))
-        if times[0] != 0 or not (np.diff(times) > 0).all():
-            raise ValueError("CreepTable: allowed are times that start with 0 and increase")
+            object.__setattr__(self, name, read_only(array))
         slopes = self._slopes
-        if not (values[0] >= 0 and (slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
+        if not ((slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
             raise ValueError("CreepTable: allowed is a compliance that starts at 0 or more, grows and never decreases")
         rounding = _LAST_DIGITS * values[1:-1] / np.minimum(np.diff(times)[1:], np.diff(times)[:-1])
         if (steeper := slopes[1:] > slopes[:-1] * (1 + _TABLE_ROUNDING) + rounding).any():
@@ -385,11 +370,6 @@ class CreepTable(ReadOnlyArrays, Medium):
     @cached_property
     def _slopes(self) -> Array:
         return np.diff(self.compliances) / np.diff(self.times)
-
-    @cached_property
-    def _integrals(self) -> Array:
-        """∫J dt up to every point."""
-        return np.append(0.0, np.cumsum(0.5 * (self.compliances[1:] + self.compliances[:-1]) * np.diff(self.times)))
 
     @property
     def last_time(self) -> float:
@@ -406,13 +386,7 @@ class CreepTable(ReadOnlyArrays, Medium):
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫J dt from start ≥ 0 to end ≥ start."""
-        return self._integral_up_to(end) - self._integral_up_to(start)
-
-    def _integral_up_to(self, time: ArrayLike) -> Array:
-        time = np.asarray(time, dtype=float)
-        place = np.clip(np.searchsorted(self.times, time) - 1, 0, self._slopes.size - 1)
-        after = time - self.times[place]
-        return self._integrals[place] + after * (self.compliances[place] + 0.5 * self._slopes[place] * after)
+        return integral(self.times, self.compliances, end) - integral(self.times, self.compliances, start)
 
 
 def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) -> Medium:

@@ -82,7 +82,13 @@ def pressure_at(
     until = np.searchsorted(history.times, time, side="right")
     times, creep = history.times[:until], np.maximum.accumulate(creep[:until])
     levels, place = np.unique(creep, return_inverse=True)
-    weights = np.bincount(place, _weights(medium, time, times), levels.size)
+    # Weights of the elastic pressures at the times, without a dashpot's.
+    lengths, lag = np.diff(times), time - times
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = medium.relaxation_integral(lag[1:], lag[:-1]) / lengths
+    change = np.where(lengths > 0, mean, medium.relaxation_modulus(lag[1:]))
+    at_times = np.append(medium.relaxation_modulus(lag[0]), change) - np.append(change, 0.0)
+    weights = np.bincount(place, at_times, levels.size)
     solver = ContactSolver(indenter, tolerance / 2)  # the correction to the force takes the other half
     search, loads = ForceSearch(solver), solver.first_contact().member_loads()
     total = np.where(np.isnan(indenter.heights), np.nan, 0.0)
@@ -95,16 +101,3 @@ def pressure_at(
         missing = history.force[until - 1] / area - np.nansum(total)
         total[solver.elements.places_on_map(loads.members)] += missing * loads.tangent / loads.tangent.sum()
     return total
-
-
-def _weights(medium: Medium, time: float, times: Array) -> Array:
-    """Weights of the elastic pressures at `times` in the pressure at `time`, the last of them, without a dashpot's."""
-    lengths, lag = np.diff(times), time - times
-    ramp, weights = lengths > 0, np.zeros(times.size)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        mean = medium.relaxation_integral(lag[1:], lag[:-1]) / lengths
-    change = np.where(ramp, mean, medium.relaxation_modulus(lag[1:]))
-    weights[1:] += change
-    weights[:-1] -= change
-    weights[0] += medium.relaxation_modulus(lag[0])
-    return weights

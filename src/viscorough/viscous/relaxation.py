@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.arrays import increasing, read_only, samples
+from viscorough.arrays import increasing, jumps_and_slopes, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import branch_states, sums_over_the_past
@@ -90,23 +90,20 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
     depth = np.minimum(depth, curve.depth[-1])
     node_times, node_depths, place = _with_levels(curve, times, depth)
     elastic, stiffness = elastic_force(curve, node_depths)
-    lengths = np.diff(node_times)
-    jumps = np.append(elastic[0], np.where(lengths == 0, np.diff(elastic), 0.0))
     if medium.relaxation is None:
-        slopes = np.divide(np.diff(elastic), lengths, out=np.zeros_like(lengths), where=lengths > 0)
         unit_loads = medium.relaxation_modulus, medium.relaxation_integral
-        positive, negative = sums_over_the_past(node_times, jumps, slopes, place, np.zeros(place.size), *unit_loads)
-        return DepthHistory(*map(read_only, (times, depth, (positive + negative) * area)))
+        force = np.add(*sums_over_the_past(node_times, elastic, place, np.zeros(place.size), *unit_loads))
+        return DepthHistory(*map(read_only, (times, depth, force * area)))
     viscosity, relaxed, moduli, relaxation_times = medium.relaxation
-    _, left = branch_states(lengths, elastic, relaxation_times)
+    _, left = branch_states(np.diff(node_times), elastic, relaxation_times)
     force = relaxed * elastic + left @ moduli
     if viscosity:
+        jumps, speed = jumps_and_slopes(node_times, node_depths)
         if jumps.any():
             where = int(np.argmax(jumps > 0))
             raise ValueError(
                 f"depth: steps at time {node_times[where]:g}, which takes an infinite force here; allowed: ramps"
             )
-        speed = np.divide(np.diff(node_depths), lengths, out=np.zeros_like(lengths), where=lengths > 0)
         force = force + viscosity * stiffness * np.append(speed, speed[-1:] if speed.size else 0.0)
     return DepthHistory(*map(read_only, (times, depth, force[place] * area)))
 
@@ -126,7 +123,7 @@ def elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
     stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
     force = depth * stiffness
     inside = depth >= curve.depth[0]
-    wanted, ends = depth[inside], (np.full(np.count_nonzero(inside), end) for end in curve.force[[0, -1]])
-    force[inside] = zero_of_increasing(lambda force: curve.at_force(force)[0] - wanted, *ends)
+    wanted = depth[inside]
+    force[inside] = zero_of_increasing(lambda force: curve.at_force(force)[0] - wanted, *curve.force[[0, -1]])
     stiffness[inside] = curve.at_force(force[inside])[1]
     return force, stiffness

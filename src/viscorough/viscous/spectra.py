@@ -5,6 +5,7 @@ rates are the zeros of Q at s = −λ, which separate its poles, the relaxation 
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -41,16 +42,14 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
     # which is no pole, distances are taken as well: a small zero is then found to its own rounding.
     lower = relaxance(below, half) < 0
     pole, sign = np.where(lower, below, above), np.where(lower, 1.0, -1.0)
-    distance = sign * zero_of_increasing(
-        lambda size: -sign * relaxance(pole, sign * size), np.full(half.shape, np.finfo(float).tiny), half
-    )
+    distance = sign * zero_of_increasing(lambda size: -sign * relaxance(pole, sign * size), np.finfo(float).tiny, half)
     zeros = pole + distance
     slopes = (moduli[:, None] * from_rates / (pole - from_rates + distance) ** 2).sum(axis=0)
     fluidity = 1 / (moduli / rates).sum() if relaxed == 0 else 0.0
     return RetardationSpectrum(1 / relaxation.instantaneous_modulus, fluidity, 1 / (zeros * slopes), 1 / zeros)
 
 
-def zero_of_increasing(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
+def zero_of_increasing(function: Callable[[Array], Array], low: Any, high: Any) -> Array:
     """Zeros of an increasing function of arrays, entry by entry, between 0 < low < high, to rounding.
 
     Bisection, of the exponent at first: zeros may be many decades from either end.

@@ -3,13 +3,14 @@
 import os
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 import numpy as np
 import pytest
 
 from viscorough import Indenter, contact_at, indent, self_affine_disc
-from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks
+from viscorough.contact.parallel import Buffer, aligned_zeros, run_blocks
 from viscorough.contact.ranking import elements_of
 
 DISC = self_affine_disc(0.8, 401, seed=1)  # a disc of several blocks
@@ -76,12 +77,12 @@ def test_a_forked_process_starts_other_threads():
     assert done[1] == 0
 
 
-def test_buffers_in_use_are_different_ones():
-    buffers = Buffers(3, float)
-    with buffers.one() as first, buffers.one() as second:
-        assert first is not second
-    with buffers.one() as third:
-        assert third is first or third is second
+def test_threads_have_buffers_of_their_own():
+    buffer = Buffer((3,), float)
+    with ThreadPoolExecutor(1) as pool:
+        others = [pool.submit(lambda: buffer.array).result() for _ in range(2)]
+    assert others[0] is others[1] is not buffer.array
+    assert buffer.array.tolist() == others[0].tolist() == [0, 0, 0]
 
 
 @pytest.mark.parametrize("digits", [2, 17])

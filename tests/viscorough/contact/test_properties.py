@@ -73,7 +73,7 @@ def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
     for i, depth in enumerate(depths):
         contact = solver.advance(contact, depth)
         pressure, solver_gap = np.zeros(indenter.elements), solver.gap_map(contact)[place]
-        pressure[contact.members] = contact.pressure
+        pressure[contact.members] = contact.reduced_pressure * solver.units.pressure
         gap = matrix @ pressure * indenter.element_side / (4 * np.pi) - depth + initial_gap
         limit = TOLERANCE * depth
         # The solver adds up its steps in single precision: the rounding error must stay far below the tolerance.

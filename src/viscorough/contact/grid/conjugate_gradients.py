@@ -1,6 +1,7 @@
 """Preconditioned conjugate gradients on the contact sets of a grid, one after the other."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, joined
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.halfspace.tiles import TiledHalfspace
+from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.multilevel import Preconditioner
 from viscorough.contact.state import ContactSet
 from viscorough.types import Array, Integers
@@ -116,12 +118,25 @@ class ConjugateGradients:
 
         The direction becomes the change of pressure; the gap is changed by `update_gap`, or computed from the pressure.
         """
-        contact_set, stencil = self._set, self._preconditioner.stencil
-        released = self._loops.step_and_release(
-            length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,
-            stencil=stencil, width=width, stride=self._halfspace.load.shape[1],
-        )  # fmt: skip
-        self._released = contact_set.slots[released]
+        direction, (inside, places, slots) = self._direction, self._set
+        neighbours = self._preconditioner.stencil, width, self._halfspace.load.shape[1]
+
+        def step(i: int, j: int) -> Integers:
+            return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
+
+        released = joined(self._loops.over(places, step))
+        # Elements of a band of rows leave one after the other, since neighbours share the load of both. Bands have at
+        # least two rows, so that every other one can be processed at the same time.
+        band = max(BLOCK // width, 2) * width
+        bands = np.split(released, np.searchsorted(places[released], np.arange(band, pressure.size, band)))
+
+        def release(of_bands: list[Integers], first: int, last: int) -> None:
+            for of_band in of_bands[first:last]:
+                kernels.release(direction, pressure, inside, places, slots, of_band, *neighbours)
+
+        for of_bands in filter(None, (bands[::2], bands[1::2])):
+            run_blocks(partial(release, of_bands), len(of_bands), self._loops.threads, 1)
+        self._released = slots[released]
         self._deflection, self._limit = None, _LARGEST_SHARE
 
     def update_gap(self, gap: Array) -> None:

@@ -28,8 +28,6 @@ class PrescribedForce:
 
     def __init__(self, pressure_sum: float, largest_depth: float, loops: GridLoops) -> None:
         self._pressure_sum, self._largest_depth, self._loops = pressure_sum, largest_depth, loops
-        self._places: Integers = np.empty(0, int)
-        self._response: Array = np.empty(0)
         self._ones: Array = np.empty(0)  # kept from set to set
         self._stiffness = _LEAST_STIFFNESS
 

@@ -1,7 +1,6 @@
 """The kernels over large arrays, block by block on several threads."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from itertools import accumulate
 from typing import Any
 
@@ -30,14 +29,14 @@ def joined(parts: list[Integers]) -> Integers:
 
 
 class GridLoops:
-    """Loops over the fields of a grid and its contact sets on so many threads."""
+    """Loops over the fields of a grid and its contact sets on so many `threads`."""
 
     def __init__(self, threads: int) -> None:
-        self._threads = threads
+        self.threads = threads
 
     def each(self, kernel: Callable[..., Any], fixed: Sequence[Any], *arrays: Any) -> list[Any]:
         """Results of kernel(*fixed, *blocks) for the blocks of arrays of one length, in order."""
-        return self._over(arrays[0], lambda i, j: kernel(*fixed, *(array[i:j] for array in arrays)))
+        return self.over(arrays[0], lambda i, j: kernel(*fixed, *(array[i:j] for array in arrays)))
 
     # Over the places of a set.
 
@@ -53,75 +52,7 @@ class GridLoops:
         """Largest |e| on the set, where e is stored in the flat field `gap`."""
         return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
 
-    def step_and_release(
-        self,
-        length: float,
-        direction: Array,
-        pressure: Array,
-        inside: Mask,
-        places: Integers,
-        slots: Integers,
-        *,
-        stencil: Array,
-        width: int,
-        stride: int,
-    ) -> Integers:
-        """kernels.step_and_find_tension and `release`; returns the indices in the set of elements that left it."""
-
-        def step(i: int, j: int) -> Integers:
-            return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
-
-        released = joined(self._over(places, step))
-        # Elements of a band of rows leave one after the other, since neighbours share the load of both. Bands have at
-        # least two rows, so that every other one can be processed at the same time.
-        band = max(BLOCK // width, 2) * width
-        bands = [released]
-        if pressure.size > band:
-            bands = np.split(released, np.searchsorted(places[released], np.arange(band, pressure.size, band)))
-
-        def release(of_bands: list[Integers], first: int, last: int) -> None:
-            for of_band in of_bands[first:last]:
-                kernels.release(direction, pressure, inside, places, slots, of_band, stencil, width, stride)
-
-        for of_bands in filter(None, (bands[::2], bands[1::2])):
-            run_blocks(partial(release, of_bands), len(of_bands), self._threads, 1)
-        return released
-
     # Over the elements, by rank.
-
-    def place_elements(
-        self, box: tuple[int, ...], row: Integers, column: Integers, initial_gap: Array, field: Array
-    ) -> Integers:
-        """Indices of the elements in a flat field for the elements in a box, where their initial gaps are stored.
-
-        box : (first row, first column, rows, columns)
-
-        Elements that are not in the box have the index 0, the entry of which is kept.
-        """
-        top, left, rows, columns = box
-        width, kept = columns + 2 * kernels.REACH, field[0]
-        place: Integers = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
-
-        def store(i: int, j: int) -> None:
-            in_rows, in_columns = row[i:j].astype(place.dtype) - top, column[i:j] - left
-            inside = (in_rows >= 0) & (in_rows < rows) & (in_columns >= 0) & (in_columns < columns)
-            place[i:j] = inside * ((in_rows + kernels.REACH) * width + in_columns + kernels.REACH)
-            field[place[i:j]] = initial_gap[i:j]
-
-        self._over(row, store)
-        field[0] = kept
-        return place
-
-    def transfer(self, fields: GridFields, place: Integers, inside: Mask, pressure: Array, tangent: Array) -> None:
-        """Store the members, P and q of GridFields in flat fields of another grid, with the elements at `place`."""
-
-        def store(i: int, j: int) -> None:
-            source = fields.place[i:j]
-            members = np.flatnonzero(fields.inside[source])
-            source, target = source[members], place[i:j][members]
-            inside[target], pressure[target], tangent[target] = True, fields.pressure[source], fields.tangent[source]
-
-        self._over(fields.place, store)
 
     def new_members(self, after: GridFields, before: GridFields) -> Integers:
         """Ranks of the elements in contact in GridFields, but not in other ones, which may be of another grid."""
@@ -132,7 +63,7 @@ class GridLoops:
             is_new[: place.size] &= ~before.inside[place]
             return i + np.flatnonzero(is_new)
 
-        return joined(self._over(after.place, new))
+        return joined(self.over(after.place, new))
 
     # Over flat fields.
 
@@ -142,37 +73,33 @@ class GridLoops:
         Loops take less time where an index cannot be negative, which would count from the end of an array.
         """
         whole_number = np.uint32 if inside.size // width * max(width, stride) < 2**32 else np.int64
-        stops, counts = zip(*self._over(inside, lambda i, j: (j, np.count_nonzero(inside[i:j]))), strict=True)
+        stops, counts = zip(*self.over(inside, lambda i, j: (j, np.count_nonzero(inside[i:j]))), strict=True)
         ends = dict(zip(stops, accumulate(counts), strict=True))
         places, slots = np.empty((2, ends[inside.size]), whole_number)
 
         def store(i: int, j: int) -> None:
             kernels.contact_places(inside, i, j, width, stride, ends[j], places, slots)
 
-        self._over(inside, store)
+        self.over(inside, store)
         return places, slots
 
     def difference(self, inside: Mask, other: Mask) -> Integers:
         """Places of a set that are not in another one."""
-        return joined(self._over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
+        return joined(self.over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
 
     def lowest(self, field: Array) -> float:
         """Lowest value of a field."""
-        return min(self._over(field, lambda i, j: field[i:j].min()))
+        return min(self.over(field, lambda i, j: field[i:j].min()))
 
     def fill(self, field: Array, value: float) -> None:
         """Set a field to a value everywhere, in place."""
-        self._over(field, lambda i, j: field[i:j].fill(value))
+        self.over(field, lambda i, j: field[i:j].fill(value))
 
     def shifted(self, field: Array, shift: float, out: Array) -> None:
         """Store a field minus a number; both fields in rows and columns."""
         rows, columns = field.shape
-        rounded = out.dtype.type(shift)
-
-        def subtract(i: int, j: int) -> None:
-            np.subtract(field[i:j], rounded, out=out[i:j])
-
-        run_blocks(subtract, rows, self._threads, -(-BLOCK // columns))
+        number = out.dtype.type(shift)
+        run_blocks(lambda i, j: np.subtract(field[i:j], number, out=out[i:j]), rows, self.threads, -(-BLOCK // columns))
 
     def update_gap(self, length: float | np.floating[Any], deflection: Array, gap: Array) -> None:
         """e − g, or e_q, += α K d everywhere, in place."""
@@ -182,7 +109,8 @@ class GridLoops:
         def update(i: int, j: int) -> None:
             kernels.update_gap(length, deflection[i:j], gap[i * width :])
 
-        run_blocks(update, rows, self._threads, -(-BLOCK // columns))
+        run_blocks(update, rows, self.threads, -(-BLOCK // columns))
 
-    def _over(self, array: NDArray[Any], function: Callable[..., Any]) -> list[Any]:
-        return run_blocks(function, array.size, self._threads)
+    def over(self, array: NDArray[Any], function: Callable[[int, int], Any]) -> list[Any]:
+        """Results of function(start, stop) for the blocks of an array, in order."""
+        return run_blocks(function, array.size, self.threads)

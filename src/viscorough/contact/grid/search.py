@@ -57,7 +57,6 @@ _TANGENT_ROUNDING = 5.0
 _SEARCH_SHARE = 0.999
 # Initial gap where there is no element, far beyond the largest depth.
 _OUTSIDE = 1e30
-_PRECISIONS = {"single": np.float32, "double": np.float64}
 
 
 class ContactSearch:
@@ -95,7 +94,7 @@ class ContactSearch:
             operator = partial(Halfspace, spectrum=spectrum_of_grid(rows, columns, **of_grid))
         else:
             operator = partial(TiledHalfspace, tiles=tiles)
-        self._halfspace = operator(rows, columns, precision=_PRECISIONS[options.precision], **of_grid)
+        self._halfspace = operator(rows, columns, precision=np.dtype(options.precision), **of_grid)
         exact = tolerance < options.exact_gap_below
         self._exact = operator(rows, columns, **of_grid) if exact else self._halfspace
         self._rounding, self._exact_rounding = (
@@ -111,9 +110,7 @@ class ContactSearch:
         self.initial_gap = np.empty((rows + 2 * REACH) * self._width, dtype=self.precision)
         self._loops.fill(self.initial_gap, _OUTSIDE)
         self.residual = np.zeros(self.initial_gap.size, dtype=np.float32)
-        self._preconditioner = Preconditioner(
-            rows + 2 * REACH, self._width, aspect=aspect, precision=np.float32, threads=threads
-        )
+        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, aspect=aspect, threads=threads)
 
     @property
     def operator_applications(self) -> int:
@@ -164,11 +161,16 @@ class ContactSearch:
                 depth = force.adjust_depth(search, pressure, change, depth)
                 limit = _SEARCH_SHARE * self._tolerance * depth
             search.update_direction()
-            if iteration == 0 and self._exclude(search, pressure, contact_set):
-                continue
+            if iteration == 0:
+                excluded = search.unloaded_under_tension(pressure)
+                if excluded.size > _EXCLUDED * contact_set.places.size:
+                    inside[excluded] = False
+                    continue
             release_step = (_LATER_STEPS if releases else 1.0) * 0.5 ** (releases // _HALVE_STEP_EVERY)
             changed = search.step_causes_tension(release_step, pressure)
-            recomputes = self._must_recompute(change, largest, limit, depth)
+            # If the rounding error is too large, and recomputing the gap reduces it for the rest of this level.
+            too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self.field_rounding) * depth)
+            recomputes = change.rounding > too_large and self._rounding * largest < _INEXACT * limit
             change.rounding += self._rounding * largest + self.field_rounding * depth
             if changed or recomputes:
                 search.step_and_release(release_step, pressure, self._width)
@@ -210,17 +212,13 @@ class ContactSearch:
         return ContactSet(inside, *self._loops.contact_places(inside, self._width, self._halfspace.load.shape[1]))
 
     def gap_change(self, pressure: Array, depth: float) -> BoundedField:
-        """e − g = K P − u of a pressure as a BoundedField."""
+        """e − g = K P − u of a pressure as a BoundedField; e_q = K q − 1 of a tangent with a depth of 1."""
         change = BoundedField(self.zeros(), self.field_rounding * depth)
         if pressure.any():
             self._deflect(pressure, depth, change)
         else:
             self._loops.fill(change.values, -depth)
         return change
-
-    def tangent_gap(self, tangent: Array) -> BoundedField:
-        """e_q = K q − 1 of a tangent as a BoundedField."""
-        return self.gap_change(tangent, 1)
 
     def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
         """A flat field of zeros; its memory is allocated by the loop that fills it, on the threads of that loop."""
@@ -232,19 +230,6 @@ class ContactSearch:
             return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         last.change_set(contact_set)
         return last
-
-    def _exclude(self, search: ConjugateGradients, pressure: Array, contact_set: ContactSet) -> bool:
-        """Remove unloaded elements under tension from the set if they are a large share; returns whether they are."""
-        places = search.unloaded_under_tension(pressure)
-        is_large = places.size > _EXCLUDED * contact_set.places.size
-        if is_large:
-            contact_set.inside[places] = False
-        return is_large
-
-    def _must_recompute(self, change: BoundedField, largest: float, limit: float, depth: float) -> bool:
-        """Whether the rounding error is too large, and recomputing the gap reduces it for the rest of this level."""
-        too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self.field_rounding) * depth)
-        return change.rounding > too_large and self._rounding * largest < _INEXACT * limit
 
     def _not_converged(self, contact_set: ContactSet, residual: float, limit: float) -> ConvergenceError:
         return ConvergenceError(

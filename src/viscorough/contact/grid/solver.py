@@ -16,10 +16,11 @@ from viscorough.contact.grid import kernels
 from viscorough.contact.grid.depth_adjustment import PrescribedForce
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.search import ContactSearch
-from viscorough.contact.grid.tangent_start import Loads, initial_tangent
-from viscorough.contact.halfspace.tiles import tiles_of_part
+from viscorough.contact.grid.tangent_start import initial_tangent
+from viscorough.contact.halfspace.tiles import are_few, is_suitable, tiles_with
 from viscorough.contact.options import LATE, SolverOptions
-from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields, Units
+from viscorough.contact.preconditioner.multilevel import REACH
+from viscorough.contact.state import BoundedField, ContactSet, ContactState, Elements, GridFields, Units
 from viscorough.types import Array, Integers, Mask
 
 # A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
@@ -31,11 +32,9 @@ class GridSolver:
     """Solves the contact of the elements in a box of the grid, starting from a contact at a smaller depth.
 
     box : (first row, first column, rows, columns)
-    row, column, initial_gap : of every element, shape (elements,), in any order; the rank of an element is its
-        position in these arrays
+    elements : state.Elements, in any order; the rank of an element is its position in their arrays
     tolerance : largest |e| in contact or overlap outside it, over the depth
     options : SolverOptions
-    aspect : dy/dx of the elements
     threads : on which it computes
     reach : number of elements, by rank, that can touch; all in the box by default
 
@@ -48,37 +47,48 @@ class GridSolver:
     def __init__(
         self,
         box: tuple[int, ...],
-        row: Integers,
-        column: Integers,
-        initial_gap: Array,
+        elements: Elements,
         tolerance: float,
         options: SolverOptions,
         *,
-        aspect: float = 1.0,
         threads: int = 1,
         reach: int | None = None,
     ) -> None:
         self.box, self._is_transposed = box, box[2] > _TALL * box[3]
-        aspect = 1 / aspect if self._is_transposed else aspect
-        (top, left, rows, columns), of_row, of_column = self._oriented(row[:reach], column[:reach])
-        tiles, shape = None, (rows, columns)
-        if options.padding:
-            tiles = tiles_of_part(of_row - top, of_column - left, shape, aspect, tolerance)
-        self.is_restricted = tiles is not None
+        aspect = 1 / elements.aspect if self._is_transposed else elements.aspect
+        (top, left, rows, columns), row, column = self._oriented(elements, reach)
+        tiles = tiles_with(row - top, column - left, (rows, columns))
+        self.is_restricted = options.padding and are_few(tiles) and is_suitable((rows, columns), aspect, tolerance)
         self._loops = GridLoops(threads)
-        self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads, tiles=tiles)
+        used = tiles if self.is_restricted else None
+        self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads, tiles=used)
         self.initial_gap = self._search.initial_gap
-        placed = slice(None if tiles is None else reach)  # others have no deflection in a restricted operator
-        self.place_elements(row[placed], column[placed], initial_gap[placed])
+        # Others have no deflection in a restricted operator.
+        self.place_elements(elements, reach if self.is_restricted else None)
 
-    def place_elements(self, row: Integers, column: Integers, initial_gap: Array) -> None:
-        """Place the elements of the arrays, which begin with those placed before."""
-        box, row, column = self._oriented(row, column)
-        self.place = self._loops.place_elements(box, row, column, initial_gap, self.initial_gap)
+    def place_elements(self, elements: Elements, reach: int | None = None) -> None:
+        """Place elements, which begin with those placed before, up to the rank `reach`, and store their initial gaps.
 
-    def _oriented(self, row: Integers, column: Integers) -> tuple[tuple[int, ...], Integers, Integers]:
-        """Box, rows and columns of elements, exchanged in a transposed grid."""
-        box = self.box
+        Elements that are not in the box have the place 0, the entry of which is kept.
+        """
+        (top, left, rows, columns), row, column = self._oriented(elements, reach)
+        field, width = self.initial_gap, columns + 2 * REACH
+        outside = field[0]
+        place: Integers = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
+
+        def store(i: int, j: int) -> None:
+            in_rows, in_columns = row[i:j].astype(place.dtype) - top, column[i:j] - left
+            inside = (in_rows >= 0) & (in_rows < rows) & (in_columns >= 0) & (in_columns < columns)
+            place[i:j] = inside * ((in_rows + REACH) * width + in_columns + REACH)
+            field[place[i:j]] = elements.initial_gap[i:j]
+
+        self._loops.over(row, store)
+        field[0] = outside
+        self.place = place
+
+    def _oriented(self, elements: Elements, reach: int | None) -> tuple[tuple[int, ...], Integers, Integers]:
+        """Box, and rows and columns of the elements up to a rank, exchanged in a transposed grid."""
+        box, row, column = self.box, elements.row[:reach], elements.column[:reach]
         return ((*box[1::-1], *box[:1:-1]), column, row) if self._is_transposed else (box, row, column)
 
     def in_box(self, field: Array) -> Array:
@@ -93,15 +103,11 @@ class GridSolver:
 
     def fields(self, contact: ContactState) -> GridFields:
         """GridFields of a contact from elsewhere on this grid; costs two applications of the operator."""
-        search = self._search
+        search, loads = self._search, contact.member_loads()
         inside, pressure, tangent = search.zeros(bool), search.zeros(), search.zeros()
-        if contact.fields:
-            self._loops.transfer(contact.fields, self.place, inside, pressure, tangent)
-        else:
-            loads = contact.member_loads()
-            place = self.place[loads.members]
-            inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
-        change, tangent_gap = search.gap_change(pressure, contact.reduced_depth), search.tangent_gap(tangent)
+        place = self.place[loads.members]
+        inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
+        change, tangent_gap = search.gap_change(pressure, contact.reduced_depth), search.gap_change(tangent, 1)
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
     def solve(self, contact: ContactState, depth: float, force: tuple[float, float] | None = None) -> ContactState:
@@ -112,22 +118,22 @@ class GridSolver:
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
-        search, last_depth = self._search, contact.reduced_depth
-        before = contact.fields
-        predicted = self._predicted(before, last_depth, depth) if before else self._guessed(contact, depth)
-        pressure, change, inside = predicted
+        search = self._search
+        start = self._predicted if contact.fields else self._guessed
+        pressure, change, inside = start(contact, depth)
         prescribed = PrescribedForce(*force, self._loops) if force else None
         contact_set, depth = search.solve_pressure(pressure, change, inside, depth, prescribed)
-        now = Loads(pressure, change, depth)
-        tangent, tangent_gap = initial_tangent(now, last_depth, before, contact_set, search.inner, self._loops)
+        now = pressure, change, depth
+        tangent, tangent_gap = initial_tangent(now, contact, contact_set, search.inner, self._loops)
         search.solve_tangent(contact_set, tangent, tangent_gap)
         solution = contact_set.inside, pressure, change, tangent, tangent_gap
         fields = GridFields(*solution, self.initial_gap, self.place)
         return self._state(contact.units, depth, fields, contact_set)
 
-    def _predicted(self, before: GridFields, last_depth: float, depth: float) -> tuple[Array, BoundedField, Mask]:
-        """Pressure, e − g and contact set at a depth as predicted from GridFields at the last depth."""
-        inner, precision, depth_step = self._search.inner, self._search.precision, depth - last_depth
+    def _predicted(self, contact: ContactState, depth: float) -> tuple[Array, BoundedField, Mask]:
+        """Pressure, e − g and contact set at a depth as predicted from the GridFields of a contact."""
+        before, depth_step = contact.grid_fields, depth - contact.reduced_depth
+        inner, precision = self._search.inner, self._search.precision
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
         steps = [precision(step) for step in (depth_step, depth_step * (1 - LATE * depth_step / depth))]
         fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from viscorough.compilation import njit
-from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks
+from viscorough.contact.parallel import Buffer, aligned_zeros, run_blocks
 from viscorough.types import Array, Complex
 
 # Columns of a block, which is small enough for the cache, and how many more columns the last block may have.
@@ -283,13 +283,12 @@ class ColumnConvolution:
             np.minimum(same, rows), np.argsort(frequency), same,
         )  # fmt: skip
         self._blocks, self._threads = edges.size - 1, threads
-        self._work = Buffers((2, length, _ROW), precision)
+        self._work = Buffer((2, length, _ROW), precision)
 
     def apply(self, data: Complex) -> None:
         """Convolve the columns of `data`, complex numbers of shape (rows, columns), in place."""
 
         def convolve(start: int, stop: int) -> None:
-            with self._work.one() as (x, y):
-                _convolve(start, stop, data, *self._plan, x, y)
+            _convolve(start, stop, data, *self._plan, *self._work.array)
 
         run_blocks(convolve, self._blocks, self._threads, 1 if self._threads > 1 else self._blocks)

@@ -9,8 +9,8 @@ from numpy.typing import DTypeLike
 
 from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
 from viscorough.contact.halfspace.influence import influence_table
-from viscorough.contact.parallel import BLOCK, Buffers, run_blocks
-from viscorough.types import Array, Complex
+from viscorough.contact.parallel import BLOCK, Buffer, run_blocks
+from viscorough.types import Array
 
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
 # that.
@@ -33,13 +33,7 @@ def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
 def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: bool = True, threads: int = 1) -> Array:
     """What a Halfspace multiplies transforms with, in double precision; its arguments are those of Halfspace."""
     of_grid = convolution_lengths(rows, columns), None if padding else (rows, columns), aspect
-    return _kept_spectrum(*of_grid) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
-
-
-@lru_cache(maxsize=6)
-def _kept_spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float) -> Array:
-    """The same as `_spectrum`, cached for grids with these lengths."""
-    return _spectrum(lengths, period, aspect, threads=1)
+    return _kept_spectrum(*of_grid, 1) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
 
 
 def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float, threads: int) -> Array:
@@ -55,6 +49,9 @@ def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspe
         return influence_table(row, column, aspect)
 
     return spectrum_of_kernel(lengths, kernel, threads)
+
+
+_kept_spectrum = lru_cache(maxsize=6)(_spectrum)  # the same, cached for grids with these lengths
 
 
 def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array], Array], threads: int = 1) -> Array:
@@ -82,57 +79,6 @@ def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array]
         block = max(BLOCK // other // _ROWS_AT_ONCE, 1) * _ROWS_AT_ONCE
         run_blocks(transform, size, threads, block, _ROWS_AT_ONCE)
     return spectrum
-
-
-class _RowTransforms:
-    """Real transforms of rows padded with zeros, and their inverses without a factor, on so many threads.
-
-    Rows that are many are transformed block by block, and padded only there.
-
-    width : of rows as `forward` takes them; what lies beyond the columns of the grid must be zero
-    """
-
-    def __init__(self, rows: int, columns: int, length: int, precision: DTypeLike, threads: int) -> None:
-        self._length, self._threads = length, threads
-        self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
-        is_one = self._block >= rows
-        self.width = (length if is_one else columns) + _ROW_PADDING
-        # Two blocks of rows: with their padding, and as they result from inverse transforms.
-        buffers = Buffers((2, self._block, length + _ROW_PADDING), precision)
-        self._columns, self._buffers = columns, None if is_one else buffers
-
-    def forward(self, data: Array, out: Complex) -> None:
-        """Transform the rows of `data`."""
-        if self._buffers is None:
-            ducc0.fft.r2c(data[:, : self._length], axes=[1], out=out)
-            return
-
-        buffers = self._buffers
-
-        def transform(start: int, stop: int) -> None:
-            with buffers.one() as (padded, _):
-                padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
-                ducc0.fft.r2c(padded[: stop - start, : self._length], axes=[1], out=out[start:stop])
-
-        run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
-
-    def backward(self, data: Complex, out: Array) -> None:
-        """The inverse of `forward`, which overwrites `data`; the columns of `out` beyond the grid are undefined."""
-        if self._buffers is None:
-            self._inverse(data, out)
-            return
-
-        buffers = self._buffers
-
-        def transform(start: int, stop: int) -> None:
-            with buffers.one() as (_, rows):
-                self._inverse(data[start:stop], rows[: stop - start])
-                out[start:stop, : self._columns] = rows[: stop - start, : self._columns]
-
-        run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
-
-    def _inverse(self, data: Complex, out: Array) -> None:
-        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._length, out=out[:, : self._length])
 
 
 class Halfspace:
@@ -174,25 +120,48 @@ class Halfspace:
         threads: int = 1,
         spectrum: Array | None = None,
     ) -> None:
-        self.shape, length = (rows, columns), convolution_lengths(rows, columns)[1]
+        self.shape, self._threads = (rows, columns), threads
+        self._length = length = convolution_lengths(rows, columns)[1]
         if spectrum is None:
             spectrum = spectrum_of_grid(rows, columns, aspect=aspect, padding=padding, threads=threads)
-        self._rows = _RowTransforms(rows, columns, length, precision, threads)
-        self._columns = ColumnConvolution(rows, spectrum, precision, threads) if rows > 1 else None
+        # Rows that are many are transformed block by block, and padded only there.
+        self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
+        self._is_one = self._block >= rows
+        # Two blocks of rows: with their padding, and as they result from inverse transforms.
+        self._buffer = Buffer((2, 0 if self._is_one else self._block, length + _ROW_PADDING), precision)
+        self._convolution = ColumnConvolution(rows, spectrum, precision, threads) if rows > 1 else None
         self._spectrum = spectrum.astype(precision) if rows == 1 else None
-        self.load = np.zeros((rows, self._rows.width), dtype=precision)
+        self.load = np.zeros((rows, (length if self._is_one else columns) + _ROW_PADDING), dtype=precision)
         self._transformed = np.empty((rows, length // 2 + 1), dtype=np.result_type(precision, np.complex64))
         self._deflection = np.empty_like(self.load)
         self.count = 0
 
     def apply(self) -> Array:
         """Deflection w = K P of the pressure in `load`, in the same layout; valid until the next call."""
-        data = self._transformed
-        self._rows.forward(self.load, data)
-        if self._columns:
-            self._columns.apply(data)
+        of_rows = len(self.load), self._threads, self._block, _ROWS_AT_ONCE
+        run_blocks(self._transform, *of_rows)
+        if self._convolution:
+            self._convolution.apply(self._transformed)
         else:  # a single row has nothing to convolve along its columns
-            data *= self._spectrum
-        self._rows.backward(data, self._deflection)
+            self._transformed *= self._spectrum
+        run_blocks(self._transform_back, *of_rows)
         self.count += 1
         return self._deflection
+
+    def _transform(self, start: int, stop: int) -> None:
+        """Real transforms of some rows of `load`, padded with zeros."""
+        rows, columns = self.load[start:stop], self.shape[1]
+        if not self._is_one:
+            padded = self._buffer.array[0, : stop - start]
+            padded[:, :columns] = rows[:, :columns]
+            rows = padded
+        ducc0.fft.r2c(rows[:, : self._length], axes=[1], out=self._transformed[start:stop])
+
+    def _transform_back(self, start: int, stop: int) -> None:
+        """The inverse of `_transform` without a factor, to the deflection; overwrites the transforms."""
+        rows, columns = self._deflection[start:stop], self.shape[1]
+        out = rows if self._is_one else self._buffer.array[1, : stop - start]
+        data = self._transformed[start:stop]
+        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._length, out=out[:, : self._length])
+        if not self._is_one:
+            rows[:, :columns] = out[:, :columns]

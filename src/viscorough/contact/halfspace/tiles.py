@@ -16,7 +16,7 @@ from numpy.typing import DTypeLike
 from viscorough.compilation import njit
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.halfspace.operator import Halfspace, convolution_lengths, spectrum_of_kernel
-from viscorough.contact.parallel import Buffers, run_blocks
+from viscorough.contact.parallel import Buffer, run_blocks
 from viscorough.types import Array, Integers, Mask
 
 # Elements along the side of a tile, a multiple of _STRIDE.
@@ -51,23 +51,19 @@ def tiles_with(row: Integers, column: Integers, shape: tuple[int, int]) -> Mask:
     return tiles
 
 
-def tiles_of_part(
-    row: Integers, column: Integers, shape: tuple[int, int], aspect: float, tolerance: float
-) -> Mask | None:
-    """The tiles with elements if it takes less time to consider these alone and `is_suitable` says so, or else None."""
-    tiles = tiles_with(row, column, shape)
-    is_part = np.count_nonzero(tiles) <= _LARGEST_SHARE * tiles.size
-    return tiles if is_part and is_suitable(shape, aspect, tolerance) else None
+def are_few(tiles: Mask) -> bool:
+    """Whether the tiles of a grid with elements are so few that it takes less time to consider these alone."""
+    return bool(np.count_nonzero(tiles) <= _LARGEST_SHARE * tiles.size)
 
 
 def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:
     """The tiles of a grid that are not whole in a box: (first row, first column, rows, columns)."""
     tiles: Mask = np.ones([-(-n // SIDE) for n in shape], bool)
-    ends = (
-        -(-n // SIDE) if first + size == n else (first + size) // SIDE
-        for first, size, n in zip(box, box[2:], shape, strict=False)
-    )
-    tiles[tuple(slice(-(-first // SIDE), end) for first, end in zip(box, ends, strict=False))] = False
+    inner = []
+    for first, size, n in zip(box, box[2:], shape, strict=False):
+        end = -(-n // SIDE) if first + size == n else (first + size) // SIDE
+        inner.append(slice(-(-first // SIDE), end))
+    tiles[*inner] = False
     return tiles
 
 
@@ -107,12 +103,12 @@ class TiledHalfspace:
         self._coarse = Halfspace(points[0], points[1], precision, threads=threads, spectrum=spectrum)
         self._reach, lengths, self._spectrum = _short_range(sides, sigma, precision)
         self.load, self._deflection = np.zeros((2, rows, columns), precision)
-        self._patches = Buffers(lengths, precision)
-        self._transforms = Buffers(self._spectrum.shape, np.result_type(precision, np.complex64))
+        self._patch = Buffer(lengths, precision)
+        self._transform = Buffer(self._spectrum.shape, np.result_type(precision, np.complex64))
 
     def apply(self) -> Array:
         """Deflection w = K P of the pressure in `load` in the tiles, else zero; valid until the next call."""
-        for part in map(self._part, np.argwhere(self._tiles)):
+        for part in map(_part, np.argwhere(self._tiles)):
             self._deflection[part] = 0
         self.add_to(self._deflection, self._tiles)
         return self._deflection
@@ -123,11 +119,11 @@ class TiledHalfspace:
         loaded: Mask = np.zeros(self._tiles.shape, bool)
         tiles = np.argwhere(wanted)
         for tile in np.argwhere(self._tiles):
-            load = self.load[self._part(tile)]
+            load = self.load[_part(tile)]
             if load.any():
                 loaded[*tile], distributed = True, _distribute(load, self._weights)
                 rows, columns = distributed.shape
-                self._coarse.load[self._coarse_part(tile)][:rows, :columns] += distributed
+                self._coarse.load[_coarse_part(tile)][:rows, :columns] += distributed
         coarse, around = self._coarse.apply(), [-(-reach // SIDE) for reach in self._reach]
         near = sliding_window_view(np.pad(loaded, [(n, n) for n in around]), [2 * n + 1 for n in around])
         has_near: Mask = np.any(near, axis=(2, 3))
@@ -136,39 +132,30 @@ class TiledHalfspace:
             for tile in tiles[start:stop]:
                 if has_near[*tile]:
                     self._add_near_field(tile, field)
-                part = field[self._part(tile)]
+                part = field[_part(tile)]
                 rows, columns = part.shape
-                smooth = _interpolate(np.ascontiguousarray(coarse[self._coarse_part(tile)]), self._weights)
+                smooth = _interpolate(np.ascontiguousarray(coarse[_coarse_part(tile)]), self._weights)
                 part += smooth[:rows, :columns]
 
         run_blocks(add, len(tiles), self._threads, 1)
         self.count += 1
 
-    def _part(self, tile: Integers) -> tuple[slice, ...]:
-        """Rows and columns of a tile."""
-        return tuple(slice(first, first + SIDE) for first in (SIDE * tile).tolist())
-
-    def _coarse_part(self, tile: Integers) -> tuple[slice, ...]:
-        """Rows and columns of the points of the coarse grid that the elements of a tile are distributed to."""
-        per_tile = SIDE // _STRIDE
-        return tuple(slice(first, first + per_tile + _POINTS - 1) for first in (per_tile * tile).tolist())
-
     def _add_near_field(self, tile: Integers, field: Array) -> None:
         """Add the convolution with K − S to a field in a tile."""
-        target = field[self._part(tile)]
+        target = field[_part(tile)]
         # The patch holds the loads within the range; those beyond its edges, where it repeats, do not reach the tile.
         first = SIDE * tile - self._reach
         taken = [slice(max(i, 0), i + SIDE + 2 * n) for i, n in zip(first, self._reach, strict=True)]
         load = self.load[*taken]
-        with self._patches.one() as patch, self._transforms.one() as transform:
-            patch[:] = 0
-            rows, columns = np.maximum(-first, 0)
-            patch[rows : rows + load.shape[0], columns : columns + load.shape[1]] = load
-            ducc0.fft.r2c(patch, axes=[0, 1], out=transform)
-            transform *= self._spectrum
-            ducc0.fft.c2r(transform, axes=[0, 1], forward=False, lastsize=patch.shape[1], out=patch)
-            rows, columns = self._reach
-            target += patch[rows : rows + target.shape[0], columns : columns + target.shape[1]]
+        patch, transform = self._patch.array, self._transform.array
+        patch[:] = 0
+        rows, columns = np.maximum(-first, 0)
+        patch[rows : rows + load.shape[0], columns : columns + load.shape[1]] = load
+        ducc0.fft.r2c(patch, axes=[0, 1], out=transform)
+        transform *= self._spectrum
+        ducc0.fft.c2r(transform, axes=[0, 1], forward=False, lastsize=patch.shape[1], out=patch)
+        rows, columns = self._reach
+        target += patch[rows : rows + target.shape[0], columns : columns + target.shape[1]]
 
 
 def _interpolation_weights() -> Array:
@@ -193,6 +180,16 @@ def _short_range(
 
     half = spectrum_of_kernel(lengths, kernel)
     return reach, lengths, np.concatenate([half, half[-2:0:-1]]).astype(precision)
+
+
+def _part(tile: Integers) -> tuple[slice, ...]:
+    """Rows and columns of a tile."""
+    return tuple(slice(first, first + SIDE) for first in (SIDE * tile).tolist())
+
+
+def _coarse_part(tile: Integers) -> tuple[slice, ...]:
+    """Rows and columns of the points of the coarse grid that the elements of a tile are distributed to."""
+    return tuple(slice(part.start // _STRIDE, part.stop // _STRIDE + _POINTS - 1) for part in _part(tile))
 
 
 @njit(fastmath=True)

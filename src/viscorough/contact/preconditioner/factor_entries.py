@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscorough.contact.halfspace.influence import influence_coefficient
-from viscorough.types import Array
 
 # Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
 REACH = 2
@@ -23,12 +22,12 @@ _LARGEST_ENTRY = 120
 
 
 @lru_cache(maxsize=4)
-def factor_rows(aspect: float) -> Array:
-    """Rows of G by pattern, the last entry for the element, for elements of an aspect dy/dx; shape (4096, 13).
+def factor_entries(aspect: float, precision: type[Any]) -> tuple[NDArray[Any], Any]:
+    """Entries of G by neighbour and pattern, and the unit in which they are stored, for elements of an aspect dy/dx.
 
     Bit s of a pattern is set if neighbour s is in contact. With A the influence matrix of the neighbours in contact and
     the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the unit vector of the element. Entries are zero where there is no
-    contact.
+    contact. The last but one are those for the element, the last ones the sums of the rows; shape (14, 4096).
     """
     places = np.array([*BEFORE, (0, 0)], dtype=float)
     patterns, (row, column) = np.arange(1 << NEIGHBOURS), np.moveaxis(places[:, None] - places, -1, 0)
@@ -39,14 +38,8 @@ def factor_rows(aspect: float) -> Array:
     matrices = np.where(both, influence_coefficient(row, column, aspect), np.eye(NEIGHBOURS + 1))
     own = np.zeros((patterns.size, NEIGHBOURS + 1, 1))
     own[:, -1] = 1
-    rows = np.linalg.solve(matrices, own)[..., 0]
-    return rows / np.sqrt(rows[:, -1:])
-
-
-@lru_cache(maxsize=4)
-def factor_entries(aspect: float, precision: type[Any]) -> tuple[NDArray[Any], Any]:
-    """Entries of G by neighbour and pattern, the last ones their sums, and the unit in which they are stored."""
-    rows, unit = factor_rows(aspect), 1.0
+    rows, unit = np.linalg.solve(matrices, own)[..., 0], 1.0
+    rows /= np.sqrt(rows[:, -1:])
     if precision == np.float32:
         unit = rows.max() / _LARGEST_ENTRY
         rows = np.round(rows / unit)

@@ -158,11 +158,10 @@ class Preconditioner:
         width: int,
         *,
         aspect: float = 1.0,
-        precision: type[np.floating[Any]] = np.float64,
+        precision: type[np.floating[Any]] = np.float32,
         threads: int = 1,
     ) -> None:
         self.stencil = load_redistribution_stencil(aspect)
-        self._precision = precision
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
         self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
         blocks = [n + 2 * REACH for n in self._factor.squares.shape]
@@ -171,9 +170,10 @@ class Preconditioner:
         self._squares, self._loads = np.zeros((2, *blocks))
 
     def apply(self, residual: Array) -> Array:
-        """M r of a residual r, both flat fields, of which only the set is defined; valid until the next call."""
-        if residual.dtype != self._precision:
-            residual = residual.astype(self._precision)
+        """M r of a residual r, both flat fields in the precision, of which only the set is defined.
+
+        Valid until the next call.
+        """
         loads, interior = self._loads, self._loads[REACH:-REACH, REACH:-REACH]
         interior[:] = self._factor.restrict(residual)
         loads *= self._scale
@@ -209,9 +209,11 @@ class _ManyBlocks:
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        self._blocks, blocks = _block_of_places(height, width)
+        # The place of the block of the next level for every place, on flat grids with borders.
+        blocks = [-(-(n - 2 * REACH) // _RATIO) + 2 * REACH for n in (height, width)]
+        row, column = ((np.arange(n) - REACH) // _RATIO + REACH for n in (height, width))
+        self._blocks = (row[:, None] * blocks[1] + column).ravel().astype(np.int32)
         self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, blocks[0], blocks[1], threads)
-        self.places = np.empty(0, dtype=int)
 
     def prepare(self) -> None:
         places = self.places = np.flatnonzero(self.squares)
@@ -219,8 +221,7 @@ class _ManyBlocks:
         amplitude = np.sqrt(self.squares)
 
         def factorise(i: int, j: int) -> None:
-            of_grid = self._before, self._slots, self._kernel
-            _factorise(amplitude, places[i:j], *of_grid, rows[i:j], weights[i:j])
+            _factorise(amplitude, places[i:j], self._before, self._slots, self._kernel, rows[i:j], weights[i:j])
 
         run_blocks(factorise, places.size, self._threads, _FACTORISED_AT_ONCE)
         _normalise(weights, blocks, self._coarser.squares)
@@ -266,13 +267,6 @@ def _coarse_level(
     few = max(height, width) - 2 * REACH <= _DENSE
     grid = sides, aspect, height, width
     return _FewBlocks(*grid) if few else _ManyBlocks(*grid, threads)
-
-
-def _block_of_places(height: int, width: int) -> tuple[Integers, list[int]]:
-    """Place of the block of every place of a flat grid, and height and width of the grid of blocks; with borders."""
-    row, column = ((np.arange(n) - REACH) // _RATIO + REACH for n in (height, width))
-    blocks = [-(-(n - 2 * REACH) // _RATIO) + 2 * REACH for n in (height, width)]
-    return (row[:, None] * blocks[1] + column).ravel().astype(np.int32), blocks
 
 
 @lru_cache(maxsize=2)

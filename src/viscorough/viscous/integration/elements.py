@@ -7,7 +7,7 @@ import numpy as np
 
 from viscorough import memory
 from viscorough.contact.halfspace.operator import Halfspace
-from viscorough.contact.state import Elements
+from viscorough.contact.state import Elements, Units
 from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array, Integers
 
@@ -17,15 +17,10 @@ class MapElements(Elements):
     """Elements of an indenter, in the order of their rows; pressures and deflections are arrays of shape (elements,).
 
     initial_gap : [length]; shape : rows and columns of the heights
-    side : d, the side of the square with the area of an element [length]
+    units : state.Units for lengths in the unit of the indenter: the force is 4π d ΣQ and p = 4π Q/d for Q = p d/(4π)
     """
 
-    side: float
-
-    @property
-    def scale(self) -> float:
-        """4π d, with which the force is 4π d ΣQ for Q = p d/(4π)."""
-        return 4 * np.pi * self.side
+    units: Units
 
     @cached_property
     def _operator(self) -> Halfspace:
@@ -42,12 +37,6 @@ class MapElements(Elements):
         row, column = self.row[members], self.column[members]
         return self.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
 
-    def pressure_map(self, load: Array) -> Array:
-        """Pressure p = 4π Q/d on the grid, nan where there is no element."""
-        pressure = np.full(self.shape, np.nan)
-        pressure[self.row, self.column] = 4 * np.pi / self.side * load
-        return pressure
-
 
 def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
     """The MapElements of an indenter. Raises ValueError, which starts with the caller, unless it is a map."""
@@ -56,4 +45,5 @@ def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
         raise ValueError(f"{caller}: the indenter's heights must be two-dimensional")
     row, column = np.nonzero(np.isfinite(indenter.heights))
     gap = indenter.initial_gap[row, column]
-    return MapElements(row, column, gap, (0, 0), indenter.heights.shape, indenter.aspect, indenter.element_side)
+    units = Units(1.0, indenter.element_side)
+    return MapElements(row, column, gap, (0, 0), indenter.heights.shape, indenter.aspect, units)

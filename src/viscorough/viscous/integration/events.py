@@ -108,7 +108,7 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
         raise ConvergenceError(
             f"march_events: tension on element {tension_index} of the contact set; contact would open"
         )
-    impulse, resistance = elements.scale * impulse, elements.scale * resistance
+    impulse, resistance = elements.units.force * impulse, elements.units.stiffness * resistance
     return Events(impulse, depth, resistance, np.arange(1, most + 1), gap.size, indenter.length_unit)
 
 

@@ -11,11 +11,11 @@ the contact, and the surface behind them recovers.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
+from scipy.special import exprel
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
@@ -117,32 +117,33 @@ def march_medium(
     area = units.square_metres(indenter.length_unit)
     times, load = load_samples("march_medium", times, force, depth, area)
     elements = elements_of_map(indenter, "march_medium")
-    state = _State(elements, relaxation)
-    contact = _ContactProblem(elements)
     by_depth, rows, receding, rate = force is None, [], np.nan, 0.0
+    state = _State(elements, relaxation, by_depth=by_depth)
     for k in range(times.size):
         length = times[k] - times[k - 1] if k else 0.0
         rate = (load[k] - load[k - 1]) / length if length else rate
-        before = contact.members
+        before = state.members
         if length > 0 or relaxation.viscosity == 0:
             at_end = by_depth or relaxation.viscosity == 0
             value = load[k] if at_end else 0.5 * (load[k - 1] + load[k])
-            state.advance(contact, length, value, by_depth=by_depth)
-            if np.isnan(receding) and not np.isin(before, contact.members).all():
+            state.advance(length, value)
+            if np.isnan(receding) and not np.isin(before, state.members).all():
                 receding = times[k]
         elif by_depth and load[k] != state.depth:
             raise ValueError(
                 f"march_medium: depth steps at time {times[k]:g}, which takes an infinite force; allowed: ramps"
             )
         if by_depth or k == times.size - 1:
-            pressure = state.pressure_now(contact, rate if by_depth else load[k], by_depth=by_depth)
-        force_now = elements.scale * pressure.sum() if by_depth else load[k]
-        rows.append((state.depth, force_now, contact.members.size))
+            pressure = state.pressure_now(rate if by_depth else load[k])
+        force_now = elements.units.force * pressure.sum() if by_depth else load[k]
+        rows.append((state.depth, force_now, state.members.size))
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
+    last_pressure = np.full(elements.shape, np.nan)
+    last_pressure[elements.row, elements.column] = elements.units.pressure * pressure
     moved = times, depths, forces * area, counts.astype(int), indenter.length_unit
-    return MediumMotion(*moved, read_only(elements.pressure_map(pressure)), float(receding))
+    return MediumMotion(*moved, read_only(last_pressure), float(receding))
 
 
 def spectrum_of(caller: str, medium: Medium | float | str, length_unit: str) -> RelaxationSpectrum:
@@ -165,37 +166,43 @@ def load_samples(
 
 
 class _State:
-    """Motion y, pressures Q and internal variables w of all elements.
+    """Motion y, pressures Q and internal variables w of all elements under forces, or depths if `by_depth`.
 
-    With a parallel dashpot Q is that which a step assumes, its mean over the step.
+    With a parallel dashpot Q is that which a step assumes, its mean over the step. The contact problem of a step is
+    solved by an active-set method, which releases elements under tension and adds elements that overlap until there are
+    neither. `members` is the contact set, the first guess of the next problem.
     """
 
-    def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum) -> None:
-        self._elements, self._relaxation = elements, relaxation
+    def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum, *, by_depth: bool) -> None:
+        self._elements, self._relaxation, self._by_depth = elements, relaxation, by_depth
         self.depth = 0.0
         self.motion: Array = np.zeros(elements.count)
         self.pressure: Array = np.zeros(elements.count)
         self._branches: Array = np.zeros((relaxation.moduli.size, elements.count))
+        self.members: Integers = np.array([], int)
+        self._of_factor = self.members  # the members that the Cholesky factor is of
 
-    def advance(self, contact: "_ContactProblem", length: float, load: float, *, by_depth: bool) -> None:
+    def advance(self, length: float, load: float) -> None:
         """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
-        relaxed, moduli = self._relaxation.relaxed_modulus, self._relaxation.moduli[:, None]
-        x = length / self._relaxation.times
+        viscosity, relaxed, moduli, times = self._relaxation
+        x = length / times
         # Factors of w₀ and of y − y₀ in the internal variables at the end of the step.
-        decay, gain = np.exp(-x), np.divide(-np.expm1(-x), x, out=np.ones_like(x), where=x > 0)
-        stiffness = (moduli[:, 0] * gain).sum() + _dashpot_stiffness(self._relaxation, length)
-        kept = relaxed * self.motion + (moduli * decay[:, None] * self._branches).sum(axis=0)
+        decay, gain = np.exp(-x), exprel(-x)
+        # With a dashpot, in the mean pressure: y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η)) under a constant one, exactly.
+        spring = viscosity / (length * exprel(-length * relaxed / viscosity)) if viscosity else relaxed
+        stiffness = spring + moduli @ gain
+        kept = relaxed * self.motion + (moduli * decay) @ self._branches
         # c times the gap is e + K Q − c u, with e that of a surface which nothing presses from now on.
         free = self._elements.deflection(stiffness * self.motion - kept)
         free += stiffness * self._elements.initial_gap
-        wanted = stiffness * load if by_depth else load / self._elements.scale
-        self.pressure, depth = contact.solve(free, wanted, by_depth=by_depth)
-        self.depth = load if by_depth else depth / stiffness
+        wanted = stiffness * load if self._by_depth else load / self._elements.units.force
+        self.pressure, depth = self._solve(free, wanted)
+        self.depth = load if self._by_depth else depth / stiffness
         change = (self.pressure - kept) / stiffness
-        self._branches = decay[:, None] * self._branches + gain[:, None] * change
+        self._branches = decay[:, None] * self._branches + np.outer(gain, change)
         self.motion = self.motion + change
 
-    def pressure_now(self, contact: "_ContactProblem", load: float, *, by_depth: bool) -> Array:
+    def pressure_now(self, load: float) -> Array:
         """Q at this time: with a parallel dashpot, K y' = u' on the contact set, and Q = 0 elsewhere.
 
         load : the force F, or u' if `by_depth`
@@ -203,56 +210,22 @@ class _State:
         viscosity, relaxed, moduli, _ = self._relaxation
         if viscosity == 0:
             return self.pressure
-        kept = relaxed * self.motion + (moduli[:, None] * self._branches).sum(axis=0)
-        wanted = viscosity * load if by_depth else load / self._elements.scale
-        members = contact.members
+        kept = relaxed * self.motion + moduli @ self._branches
+        wanted = viscosity * load if self._by_depth else load / self._elements.units.force
+        members = self.members
         if members.size == 0:
             height = self._elements.initial_gap + self._elements.deflection(self.motion)
             members = np.flatnonzero(height == height.min())
-        return contact.solve_among(members, -self._elements.deflection(kept), wanted, by_depth=by_depth)
+        return self._solve_among(members, -self._elements.deflection(kept), wanted)[0]
 
-
-def _dashpot_stiffness(relaxation: RelaxationSpectrum, length: float) -> float:
-    """The factor of y − y₀ in the pressure of spring and dashpot; with a dashpot, in its mean over the step.
-
-    Under a constant pressure y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η)), exactly.
-    """
-    relaxed, viscosity = relaxation.relaxed_modulus, relaxation.viscosity
-    if viscosity == 0:
-        return relaxed
-    return viscosity / length if relaxed == 0 else relaxed / -np.expm1(-length * relaxed / viscosity)
-
-
-class _ContactProblem:
-    """Q ≥ 0 and e + K Q − c u ≥ 0, one of them zero, for a given force or c u; by an active-set method.
-
-    Elements under tension are released and elements that overlap are added until there are neither. `members` is the
-    contact set, the first guess of the next problem.
-    """
-
-    def __init__(self, elements: MapElements) -> None:
-        self._elements = elements
-        self.members: Integers = np.array([], int)
-        self._of_factor: Integers | None = None  # the members that the factor is of
-        self._factor: Any = None
-
-    def solve(self, free: Array, wanted: float, *, by_depth: bool) -> tuple[Array, float]:
-        """Q of all elements, and c u.
+    def _solve(self, free: Array, wanted: float) -> tuple[Array, float]:
+        """Q ≥ 0 of all elements with e + K Q − c u ≥ 0, one of them zero, and c u.
 
         free : e; wanted : c u if `by_depth`, else ΣQ. Without a force the indenter is placed at first contact.
         """
-        pressure = np.zeros(free.size)
-        if not by_depth and wanted <= 0:
-            self.members = np.array([], int)
-            return pressure, free.min()
         members = self.members if self.members.size else np.array([np.argmin(free)])
         for _ in range(_MAX_ITERATIONS):
-            load, depth = self._solve_on(members, free, wanted, by_depth=by_depth)
-            if (load < 0).any():
-                members = members[load >= 0]
-                continue
-            pressure[:] = 0
-            pressure[members] = load
+            pressure, depth, members = self._solve_among(members, free, wanted)
             deflection = self._elements.deflection(pressure)
             gap = free + deflection - depth
             gap[members] = 0
@@ -265,21 +238,20 @@ class _ContactProblem:
             members = np.union1d(members, deepest)
         raise ConvergenceError(f"march_medium: no contact set found in {_MAX_ITERATIONS} iterations")
 
-    def solve_among(self, members: Integers, free: Array, wanted: float, *, by_depth: bool) -> Array:
-        """Q ≥ 0 where only some elements may touch, those of them under tension released."""
+    def _solve_among(self, members: Integers, free: Array, wanted: float) -> tuple[Array, float, Integers]:
+        """Q, c u and the contact set where only some elements may touch, those of them under tension released."""
         pressure = np.zeros(free.size)
-        if by_depth or wanted > 0:
-            while ((load := self._solve_on(members, free, wanted, by_depth=by_depth)[0]) < 0).any():
-                members = members[load >= 0]
-            pressure[members] = load
-        return pressure
-
-    def _solve_on(self, members: Integers, free: Array, wanted: float, *, by_depth: bool) -> tuple[Array, float]:
-        if members.size == 0:
-            return np.zeros(0), wanted
-        if self._of_factor is None or not np.array_equal(members, self._of_factor):
-            self._factor, self._of_factor = cho_factor(self._elements.influence_among(members)), members
-        solved = cho_solve(self._factor, np.column_stack([np.ones(members.size), free[members]]))
-        punch, rest = solved.T
-        depth = wanted if by_depth else (wanted + rest.sum()) / punch.sum()
-        return depth * punch - rest, depth
+        if not self._by_depth and wanted <= 0:
+            return pressure, free.min(), members[:0]
+        while members.size:
+            if not np.array_equal(members, self._of_factor):
+                self._factor, self._of_factor = cho_factor(self._elements.influence_among(members)), members
+            solved = cho_solve(self._factor, np.column_stack([np.ones(members.size), free[members]]))
+            punch, rest = solved.T
+            depth = wanted if self._by_depth else (wanted + rest.sum()) / punch.sum()
+            load = depth * punch - rest
+            if not (load < 0).any():
+                pressure[members] = load
+                return pressure, depth, members
+            members = members[load >= 0]
+        return pressure, wanted, members

@@ -117,7 +117,7 @@ def march_steps(
     if scheme not in SCHEMES:
         raise ValueError(f"march_steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
     impulses = increasing("march_steps: impulses", np.atleast_1d(impulses), above_zero=True)
-    scale = elements_of_map(indenter, "march_steps").scale
+    scale = elements_of_map(indenter, "march_steps").units.stiffness
     integrator = _INTEGRATORS[scheme](indenter, tolerance)
     rows = []
     for step in np.diff(impulses / scale, prepend=0.0):
@@ -141,9 +141,8 @@ class _Explicit:
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
         elements = elements_of_map(indenter, "march_steps")
-        of_elements = elements.row, elements.column, elements.initial_gap
         # The error of Σq is the square of that of q.
-        self._grid = GridSolver((0, 0, *elements.shape), *of_elements, tolerance**2, DEFAULT, aspect=elements.aspect)
+        self._grid = GridSolver((0, 0, *elements.shape), elements, tolerance**2, DEFAULT)
         self._tolerance = tolerance
         self._gap = np.full_like(self._grid.initial_gap, np.inf)  # where there is no element, at every depth
         self._gap[self._grid.place] = elements.initial_gap

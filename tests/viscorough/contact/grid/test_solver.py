@@ -18,7 +18,7 @@ DOUBLE = SolverOptions(precision="double", exact_gap_below=0.0)
 def whole_grid(indenter, tolerance, options=DEFAULT):
     elements, units = elements_of(indenter)
     box = 0, 0, *elements.shape
-    return elements, units, GridSolver(box, elements.row, elements.column, elements.initial_gap, tolerance, options)
+    return elements, units, GridSolver(box, elements, tolerance, options)
 
 
 def contact_on(grid, indenter, depth):
@@ -80,7 +80,7 @@ def test_rounding_bounds_hold_from_level_to_level(name):
             assert np.abs(stored.values[fields.place] - exact).max() <= stored.rounding
         bounds.append(fields.gap_change.rounding)
     gap = contact.fields.gap_change.values[contact.fields.place] + elements.initial_gap
-    np.testing.assert_allclose(contact.fields.gap_at(slice(None)), gap, atol=1e-6 * depth)
+    np.testing.assert_allclose(contact.fields.gap(contact.fields.place), gap, atol=1e-6 * depth)
     assert contact.count > 0.2 * elements.count
     assert 0 < bounds[0] < bounds[-1] < 1e-3 * depths[-1]
 

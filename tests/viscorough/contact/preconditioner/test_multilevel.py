@@ -27,7 +27,8 @@ def approximate_inverse(inside, aspect=1.0, precision=np.float64, before=()):
         preconditioner.prepare(of_set.ravel(), np.count_nonzero(of_set))
     places, columns = np.flatnonzero(inside), []
     for place in places:
-        residual = np.full(inside.size, np.finfo(precision).max / 1e8)  # values outside the set must not matter
+        # Values outside the set must not matter.
+        residual = np.full(inside.size, np.finfo(precision).max / 1e8, precision)
         residual[places] = 0
         residual[place] = 1
         columns.append(preconditioner.apply(residual)[places])

@@ -19,6 +19,8 @@ import psutil
 
 from viscorough.types import FilePath
 
+_LONGEST_REASON = 250  # letters of an error, which may quote what a file holds
+
 
 def reason(error: BaseException) -> str:
     """The message of an error, on one line."""
@@ -51,18 +53,19 @@ def check_readable(path: FilePath) -> None:
 
 
 @contextlib.contextmanager
-def reading(path: FilePath, needed: str, *faults: type[Exception]) -> Iterator[None]:
-    """Context in which a file is read: these faults of it become a one-line ValueError, which says what is needed.
+def reading(path: FilePath, needed: str) -> Iterator[None]:
+    """Context in which a file is read: any fault of it becomes a one-line ValueError, which says what is needed.
 
-    Raises ValueError as check_readable. A lack of memory is no fault of the file.
+    Damage raises errors of many kinds in the libraries that read files. A lack of memory is no fault of the file.
+    Raises ValueError as check_readable.
     """
     check_readable(path)
     try:
         yield
     except MemoryError:
         raise
-    except faults as error:
-        raise ValueError(f"{path}: not readable ({reason(error)}); {needed}") from error
+    except Exception as error:
+        raise ValueError(f"{path}: not readable ({reason(error)[:_LONGEST_REASON]}); {needed}") from error
 
 
 def check_output(path: FilePath) -> Path:

@@ -47,7 +47,7 @@ def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit
     if Path(path).suffix == ".npy":
         table = npy_array(path)
     else:
-        with reading(path, f"two columns, {names}, are needed", OSError, ValueError):
+        with reading(path, f"two columns, {names}, are needed"):
             table, factors = _rows_and_factors(path, columns.values(), length_unit)
     if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
         raise ValueError(f"{path}: has the shape {table.shape}; two columns, {names}, and two rows are needed")

@@ -39,6 +39,7 @@ def read_dataset(path: FilePath) -> xr.Dataset:
     Raises a one-line ValueError if it is missing or damaged.
     """
     as_stored: dict[str, Any] = {"decode_times": False, "decode_timedelta": False}
-    with netcdf.faults_named(path), xr.open_dataset(path, engine="netcdf4", **as_stored) as ds:
-        labels = {dim: dim.removesuffix("_index") for dim in map(str, ds.dims) if dim.endswith("_index")}
-        return ds.load().drop_encoding().swap_dims(labels)
+    with netcdf.opened(path) as file:
+        ds = xr.open_dataset(xr.backends.NetCDF4DataStore(file), **as_stored).load()
+    labels = {dim: dim.removesuffix("_index") for dim in map(str, ds.dims) if dim.endswith("_index")}
+    return ds.drop_encoding().swap_dims(labels)

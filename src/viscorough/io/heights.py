@@ -13,7 +13,7 @@ from viscorough import units
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
-from viscorough.io.atomic import check_readable, path_named, reading
+from viscorough.io.atomic import path_named, reading
 from viscorough.io.scan import Distance, Scan, Spacing, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
@@ -107,7 +107,6 @@ def _pair(spacing: Any) -> Spacing:
 
 def _read_scan(path: FilePath, channel: str | None) -> Scan:
     """The Scan in a file, by the reader for its suffix."""
-    check_readable(path)
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
         return netcdf_scan(path, channel)
@@ -130,8 +129,7 @@ def _read_scan(path: FilePath, channel: str | None) -> Scan:
 
 def npy_array(path: FilePath) -> NDArray[Any]:
     """The array in a .npy file. Raises a one-line ValueError if it cannot be read; pickled objects are refused."""
-    # numpy parses the header as Python code, so damage raises errors of many kinds.
-    with reading(path, "a .npy file of numbers is needed", Exception), open(path, "rb") as file:
+    with reading(path, "a .npy file of numbers is needed"), open(path, "rb") as file:
         return np.lib.format.read_array(file, allow_pickle=False)
 
 

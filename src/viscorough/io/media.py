@@ -9,7 +9,7 @@ from typing import Any
 import yaml
 
 from viscorough.io import tables
-from viscorough.io.atomic import atomic_write, check_readable, path_named, reason
+from viscorough.io.atomic import atomic_write, path_named, reading
 from viscorough.io.columns import read_columns
 from viscorough.io.netcdf import Content, Variable
 from viscorough.io.unique_keys import UniqueKeys
@@ -185,13 +185,10 @@ class _WithoutAliases(UniqueKeys):
 
 def _mapping(path: FilePath) -> dict[str, Any]:
     wanted = "one mapping of YAML with the kind of medium and its parameters is needed"
-    check_readable(path)
-    try:
+    with reading(path, wanted):
         if Path(path).stat().st_size > _LARGEST_FILE:
             raise ValueError("it is too large")
         content = yaml.load(Path(path).read_bytes(), Loader=_WithoutAliases)
-    except (OSError, ValueError, yaml.YAMLError, RecursionError, AttributeError, TypeError, LookupError) as error:
-        raise ValueError(f"{path}: not readable ({reason(error)[:200]}); {wanted}") from error
     if not isinstance(content, dict):
         raise ValueError(f"{path}: holds {_shown(content)}; {wanted}")
     return content

@@ -79,19 +79,12 @@ def write(content: Content, path: FilePath) -> None:
 
 
 @contextmanager
-def faults_named(path: FilePath) -> Iterator[None]:
-    """Context in which a file is read: any fault of it becomes a one-line ValueError that names it."""
-    faults = OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError
-    with reading(path, "a whole NetCDF file is needed", *faults):
-        open(path, "rb").close()  # its message is clearer than that of the NetCDF library
-        yield
-
-
-@contextmanager
 def opened(path: FilePath) -> Iterator[netCDF4.Dataset]:
     """Context that yields the netCDF4.Dataset of a file; any fault of the file becomes a one-line ValueError."""
-    with faults_named(path), netCDF4.Dataset(path) as file:
-        yield file
+    with reading(path, "a whole NetCDF file is needed"):
+        open(path, "rb").close()  # its message is clearer than that of the NetCDF library
+        with netCDF4.Dataset(path) as file:
+            yield file
 
 
 def read(path: FilePath) -> Content:

@@ -89,7 +89,7 @@ def _utf16(start: bytes) -> str | None:
 
 def _content(path: FilePath, size: int = -1) -> bytes:
     """The first bytes of a file."""
-    with reading(path, "a text file of heights is needed", OSError), open(path, "rb") as file:
+    with reading(path, "a text file of heights is needed"), open(path, "rb") as file:
         return file.read(size)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from viscorough import units
-from viscorough.io.atomic import reading
+from viscorough.io.atomic import path_named, reading
 from viscorough.io.heights import npy_array
 from viscorough.types import Array, FilePath
 
@@ -19,6 +19,8 @@ _LAST_WORD = re.compile(
     r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1|[munµμ]m)"
 )
 _LOAD, _TIME = (re.compile(rf"(?:{names})(?![^\W\d_])", re.IGNORECASE) for names in ("force|depth|f|u", "time|t"))
+# A number, nan, infinity, or what starts with a digit: "1N" is a mistake, not a heading.
+_LIKE_A_NUMBER = re.compile(r"\s*[-+]?(?:\.?\d|(?:nan|inf|infinity)\s*$)", re.IGNORECASE)
 _LETTER = re.compile(r"[^\W\d_]")
 _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
 # What spreadsheets write for a number that is missing, such as #N/A, looks like a comment.
@@ -62,7 +64,7 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
     comments = [line for line in lines if line.startswith("#")]
     rows = [line for line in lines if not line.startswith("#")]
     above = [*itertools.takewhile(lambda line: line.startswith("#"), lines)]
-    if rows and not any(map(_starts_like_a_number, rows[0].split(","))):
+    if rows and not any(map(_LIKE_A_NUMBER.match, rows[0].split(","))):
         heading = rows.pop(0)
     else:
         heading = above[-1] if above and _TWO_NAMES.fullmatch(above[-1]) else None
@@ -90,10 +92,8 @@ def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[floa
             text = "states a unit, but the unit of length is not known; --unit where the heights are read states it"
             raise ValueError(f"the heading {field[:40]!r} {text}")
         if stated is not None:
-            try:
+            with path_named(f"the heading {field[:40]!r}"):
                 factors[i] = units.factor(stated, unit)
-            except ValueError as error:
-                raise ValueError(f"the heading {field[:40]!r}: {error}") from error
     return factors
 
 
@@ -110,12 +110,3 @@ def _is_another(unit: str, wanted: str) -> bool:
     with contextlib.suppress(ValueError):
         return units.factor(unit, wanted) != 1
     return False
-
-
-def _starts_like_a_number(field: str) -> bool:
-    """Whether a field is a number, nan or infinite, or starts with a digit ("1N" is a mistake, not a heading)."""
-    field = field.strip().lower()
-    with contextlib.suppress(ValueError):
-        float(field)
-        return True
-    return bool(re.match(r"[-+]?\.?\d", field))

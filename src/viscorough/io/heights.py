@@ -14,7 +14,7 @@ from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
 from viscorough.io.atomic import path_named, reading
-from viscorough.io.scan import Distance, Scan, Spacing, to_indenter, uniform_spacing
+from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
 from viscorough.preparation import doubts, prepare
@@ -75,9 +75,8 @@ def read_heights(
     ((8, 8), 0.5, 'um')
     """
     with path_named(path):
-        given = None if spacing is None else _pair(spacing)
         scan = _read_scan(path, channel)
-        indenter = to_indenter(scan if scale is None else _scaled(scan, scale), given, unit)
+        indenter = to_indenter(scan if scale is None else _scaled(scan, scale), spacing, unit)
         indenter = prepare(indenter, **preparation)
     for text in doubts(indenter):
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
@@ -97,14 +96,6 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
-def _pair(spacing: Any) -> Spacing:
-    """A spacing as (dx, dy)."""
-    pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
-    if len(pair) != 2:
-        raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
-    return units.with_unit(pair[0]), units.with_unit(pair[1])
-
-
 def _read_scan(path: FilePath, channel: str | None) -> Scan:
     """The Scan in a file, by the reader for its suffix."""
     suffix = Path(path).suffix.lower()
@@ -119,9 +110,7 @@ def _read_scan(path: FilePath, channel: str | None) -> Scan:
     if suffix in TEXT or suffix == ".npy":
         if channel is not None:
             raise ValueError(f"--channel {channel}: a file of this kind holds one map; leave it out")
-        if suffix == ".npy":
-            return Scan(npy_array(path))
-        return read_text(path)
+        return Scan(npy_array(path)) if suffix == ".npy" else read_text(path)
     from viscorough.io.instruments import read_instrument
 
     return read_instrument(path, channel)
@@ -136,8 +125,7 @@ def npy_array(path: FilePath) -> NDArray[Any]:
 def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Scan:
     """The variable named `channel` of a NetCDF file, or `heights`, or else the only one of so many dimensions."""
     with netcdf.opened(path) as file:
-        fitting = [name for name, each in file.variables.items() if each.ndim == dimensions]
-        maps = [name for name in fitting if name not in file.dimensions]
+        maps = [name for name in file.variables if file[name].ndim == dimensions and name not in file.dimensions]
         names = [channel] if channel else ["heights"] if "heights" in file.variables else maps
         if found := len(names) == 1 and names[0] in file.variables:
             variable = file.variables[names[0]]
@@ -156,8 +144,7 @@ def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Sca
 
 def _unit_of(variable: NetCDFVariable) -> str:
     """The attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" if it has none."""
-    attributes = netcdf.attributes_of(variable)
-    unit = attributes.get("units", attributes.get("unit"))
+    unit = getattr(variable, "units", getattr(variable, "unit", None))
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
@@ -191,8 +178,6 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
 
 def _are_indices(positions: Array, unit: str) -> bool:
     """Whether positions only count points, from 0 or 1 on, so that they state no distance."""
-    if units.counts_points(unit):
-        return True
-    if unit != "1" or not positions.size or np.ma.is_masked(positions):
-        return False
-    return positions[0] in (0, 1) and np.array_equal(positions - positions[0], np.arange(positions.size))
+    counts = (np.arange(first, first + positions.size) for first in (0, 1))
+    counts_up = not np.ma.is_masked(positions) and any(np.array_equal(positions, count) for count in counts)
+    return units.counts_points(unit) or (unit == "1" and counts_up)

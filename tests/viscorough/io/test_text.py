@@ -146,7 +146,7 @@ BAD = [
     ("1;2;3\n4;<0.1;6\n", "line 2: '<0.1' is not a number"),
     ("1,5, 2,5\n3,5, 4,5\n", "line 1 .*commas may be decimal marks or not"),
     ("0,5\n1,5\n", "commas may be decimal marks or not"),
-    ('"1,234 5.5"\n"1,5 2.5"\n', "line 1 .*commas may be decimal marks or not"),
+    ('"1,234 5.5"\n"1,5 2.5"\n', "line 1: '\"1' is not a number"),
     ('"1.234,5";"2"\n"3";"4"\n', "line 1 .*commas may be decimal marks or not"),
     ("1,234.5;2\n3;4\n", "line 1 .*commas may be decimal marks or not"),
     ("1\u202f234 5\n6 7\n", "line 1 holds"),

@@ -11,9 +11,8 @@ import yaml
 from viscorough.io import tables
 from viscorough.io.atomic import atomic_write, path_named, reading
 from viscorough.io.columns import read_columns
-from viscorough.io.netcdf import Content, Variable
+from viscorough.io.netcdf import Content, Quantities, described
 from viscorough.io.unique_keys import UniqueKeys
-from viscorough.summaries import si_unit
 from viscorough.types import FilePath
 from viscorough.viscous import media
 from viscorough.viscous.identification import IdentifiedMedium
@@ -28,6 +27,13 @@ KINDS: dict[str, type[Medium]] = {
     "prony": media.Prony,
     "springpot": media.Springpot,
     "creep_table": media.CreepTable,
+}
+# Columns of a creep table that was identified, with the ends of its interval.
+_TABLE: Quantities = {
+    "time": ("time since a step of the force", "s"),
+    "compliance": ("creep compliance J", "1/Pa"),
+    "low": ("creep compliance J, lower end of 95 %", "1/Pa"),
+    "high": ("creep compliance J, upper end of 95 %", "1/Pa"),
 }
 _LARGEST_FILE = 1_000_000  # bytes
 
@@ -140,7 +146,10 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     (kind,) = (kind for kind, make in KINDS.items() if make is type(medium))
     mapping: dict[str, Any] = {"kind": kind}
     if isinstance(medium, media.CreepTable):
-        tables.write(_content_of_table(identified).with_attributes(**attributes), table)
+        values = {name: getattr(identified, name) for name in _TABLE}
+        variables = described(("level",), values, _TABLE, identified.length_unit)
+        title = {"title": "Creep compliance identified from a record of depth over time"}
+        tables.write(Content(variables, title | attributes), table)
         mapping["file"] = table.name
     else:
         mapping |= {key: getattr(medium, key) for key in _keys(kind)}
@@ -158,22 +167,6 @@ def check_medium_file(path: FilePath) -> Path:
 def _keys(kind: str) -> list[str]:
     make: Any = KINDS[kind]
     return ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
-
-
-def _content_of_table(identified: IdentifiedMedium) -> Content:
-    """Creep compliance over time as a Content, with the ends of its interval."""
-    compliance = si_unit("1/Pa", identified.length_unit)
-    about = {
-        "time": ("time since a step of the force", si_unit("s", identified.length_unit)),
-        "compliance": ("creep compliance J", compliance),
-        "low": ("creep compliance J, lower end of 95 %", compliance),
-        "high": ("creep compliance J, upper end of 95 %", compliance),
-    }
-    variables = {
-        name: Variable(("level",), getattr(identified, name), {"long_name": text, "units": unit})
-        for name, (text, unit) in about.items()
-    }
-    return Content(variables, {"title": "Creep compliance identified from a record of depth over time"})
 
 
 class _WithoutAliases(UniqueKeys):

@@ -12,8 +12,12 @@ from viscorough import __version__
 from viscorough.arrays import read_only
 from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.unpacking import STORAGE, unpacked
+from viscorough.summaries import si_unit, unit_power, velocity_unit
 from viscorough.types import FilePath
 
+# {name of a variable: (long_name, unit)}, the unit being a power of that of length, "velocity", or an SI unit, such as
+# "N", which is "1" where the unit of length is not known.
+Quantities = Mapping[str, tuple[str, int | str]]
 COMPRESSED_FROM = 4096  # number of values; for fewer, chunks cost more than compression saves
 
 
@@ -35,6 +39,21 @@ class Content:
     def with_attributes(self, **attributes: Any) -> "Content":
         """The same variables, with global attributes added or replaced."""
         return Content(self.variables, self.attributes | attributes)
+
+
+def described(
+    dimensions: tuple[str, ...], values: Mapping[str, Any], quantities: Quantities, length_unit: str
+) -> dict[str, Variable]:
+    """Variables over the same dimensions, each with the long_name and the unit of the quantity of its name."""
+    variables = {}
+    for name, array in values.items():
+        long_name, unit = quantities[name]
+        if isinstance(unit, int):
+            unit = unit_power(length_unit, unit)
+        else:
+            unit = velocity_unit(length_unit) if unit == "velocity" else si_unit(unit, length_unit)
+        variables[name] = Variable(dimensions, array, {"long_name": long_name, "units": unit})
+    return variables
 
 
 def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: str) -> dict[str, Variable]:

@@ -1,7 +1,6 @@
 """Two columns of numbers read from a file: force histories and tables of creep."""
 
 import contextlib
-import itertools
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -63,7 +62,7 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
         raise ValueError(f"{missing[:40]!r} is no row of two numbers")
     comments = [line for line in lines if line.startswith("#")]
     rows = [line for line in lines if not line.startswith("#")]
-    above = [*itertools.takewhile(lambda line: line.startswith("#"), lines)]
+    above = lines[: lines.index(rows[0])] if rows else []
     if rows and not any(map(_LIKE_A_NUMBER.match, rows[0].split(","))):
         heading = rows.pop(0)
     else:

@@ -59,8 +59,7 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     kinds = dict.fromkeys(MAPS, _kind_of_maps(contacts)) | {"contact": np.int8}
     maps = {name: [getattr(contact, name).astype(kind) for contact in contacts] for name, kind in kinds.items()}
     add(("y", "x"), MAPS, **maps)
-    flags = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "apart in_contact"}
-    variables["contact"].attributes.update(flags)
+    variables["contact"].attributes.update(flag_values=np.array([0, 1], np.int8), flag_meanings="apart in_contact")
     add((), NUMBERS, **{name: [getattr(contact, name) for contact in contacts] for name in NUMBERS})
     if first.shear_modulus is not None:
         add((), NORMAL_FORCE, normal_force=[contact.normal_force for contact in contacts])

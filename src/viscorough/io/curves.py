@@ -61,23 +61,20 @@ def curve_from_content(content: Content) -> LoadingCurve:
     Raises ValueError if it holds none, for units that do not follow from that of the depth, and for numbers that no
     curve can have, within its tolerance.
     """
-    level_fields: dict[str, Any] = {}
-    curve_fields: dict[str, Any] = {}
+    fields: dict[str, Any] = {}
     for name in OVER_LEVELS:
         variable = content.variables.get(name)
         if variable is None and name not in STORED:
             continue
         if variable is None or variable.dimensions != ("level",) or variable.values.dtype.kind not in "iuf":
             raise ValueError(f"no numbers {name}(level); {_NEEDED}")
-        if not np.isfinite(variable.values).all():
-            raise ValueError(f"{name} must be finite at every level; {_NEEDED}")
-        level_fields[name] = variable.values
+        fields[name] = variable.values
     for name, (convert, _) in PER_CURVE.items():
         if name not in content.attributes:
             raise ValueError(f"no attribute {name}; {_NEEDED}")
-        curve_fields[name] = _converted(name, content.attributes[name], convert)
-    fraction = level_fields.pop("contact_fraction", None)
-    curve = LoadingCurve(**level_fields, **curve_fields, length_unit=_length_unit(content))
+        fields[name] = _converted(name, content.attributes[name], convert)
+    fraction = fields.pop("contact_fraction", None)
+    curve = LoadingCurve(**fields, length_unit=_length_unit(content))
     _check_contact(curve)
     if fraction is not None and not np.allclose(fraction, curve.contact_fraction, rtol=_ROUNDING, atol=0):
         raise ValueError(f"contact_fraction must be contact_count over {curve.elements} elements; {_NEEDED}")
@@ -116,7 +113,7 @@ def _check_contact(curve: LoadingCurve) -> None:
         too_soft = force_steps < np.append(0, stiffness[:-1]) * depth_steps - slack
         too_stiff = force_steps > stiffness * depth_steps + slack
     no_count = (count != np.rint(count)) | (count < 1) | (count > curve.elements)
-    no_residual = (curve.residual < 0) | (curve.residual > tolerance)
+    no_residual = ~((curve.residual >= 0) & (curve.residual <= tolerance))  # or nan
     wrong = {
         f"contact_count must be a whole number from 1 to {curve.elements}": no_count,
         "contact_count must not decrease": np.diff(count, prepend=0) < -_LOST * tolerance * count,

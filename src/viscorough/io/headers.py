@@ -28,15 +28,14 @@ _FACTOR = re.compile(
 )
 _DEGREES = {"lon", "lat", "longitude", "latitude"}
 
-_STEPS = (
-    "pixelsize pixelspacing pointspacing samplespacing spacing step stepsize pitch increment pixelgröße pixelabstand d"
-)
-_STEP = "pixelsize pixelspacing pointspacing samplespacing gridspacing lateralspacing spacing pixelgröße pixelabstand"
+_STEP = "pixelsize pixelspacing pointspacing samplespacing spacing pixelgröße pixelabstand"
+_STEPS = f"{_STEP} step stepsize pitch increment d"
 # The spellings of keys by what they state; the axis stands before or behind, as in "x pixel size" and "pixel size x".
 _ROLES = {
     "step x": {f"x{key}" for key in _STEPS.split()} | {f"{key}x" for key in _STEPS.split()} | {"deltax", "pixelwidth"},
     "step y": {f"y{key}" for key in _STEPS.split()} | {f"{key}y" for key in _STEPS.split()} | {"deltay", "pixelheight"},
-    "step": set(_STEP.split()) | {"tailledepixel", "tailledupixel", "taillepixel", "cellsize"},
+    "step": {*_STEP.split(), "gridspacing", "lateralspacing", "tailledepixel", "tailledupixel", "taillepixel"}
+    | {"cellsize"},
     "extent x": {"width", "breite", "largeur", "scanwidth", "imagewidth"},
     "extent y": {"height", "höhe", "hoehe", "hauteur", "scanheight", "imageheight"},
     "unit z": {"zunit", "unitz", "valueunit", "heightunit", "dataunit", "werteinheit", "zeinheit", "einheitz"}
@@ -77,7 +76,7 @@ def read_header(
             others.append(line)
             continue
         key, value = match[1], match[3].strip(" \t,;|\"'")
-        if role := _role(key):
+        if (role := _role(key)) and value:  # "Height (nm):" heads numbers below
             stated[role].append((line.strip()[:80], match[2] or "", value))
         elif _FACTOR.match(key) and ("factor" in key.lower() or _LENGTH.match(value)):
             text = "heights are the numbers times a factor; without this line, and with --scale, they are read"
@@ -127,8 +126,6 @@ def _spacing(stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str)
     axes_of = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,)}
     for role, axes in axes_of.items():
         for line, bracket, value in stated[role]:
-            if not value:
-                continue  # "Height (nm):" heads numbers below
             of_both = role == "step" and value.count(" x ") == 1  # "0.5 um x 0.8 um"
             for axis, text in zip(axes, value.split(" x ") if of_both else [value] * len(axes), strict=True):
                 number, unit = _length(line, text, decimal)

@@ -4,14 +4,13 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+import netCDF4
 import numpy as np
-from netCDF4 import Dataset
-from netCDF4 import Variable as NetCDFVariable
 from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, positive
 from viscorough.io import netcdf
 from viscorough.io.atomic import path_named, reading
 from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
@@ -89,8 +88,7 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
     number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
     if unit and scan.unit.strip() not in ("", units.UNKNOWN):
         raise ValueError(f"--scale {scale}: heights are in {scan.unit} in the file; a plain number is needed")
-    if not (np.isfinite(number) and number > 0):
-        raise ValueError(f"--scale {scale}: allowed are numbers above 0, plain or with a unit of length")
+    number = positive("--scale", number)
     if scan.heights.dtype.kind not in "iuf":
         return scan  # is refused for what it holds
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
@@ -105,9 +103,7 @@ def _read_scan(path: FilePath, channel: str | None) -> Scan:
         from viscorough.io.tiff import read_tiff
 
         return read_tiff(path, channel)
-    if suffix in TEXT and is_binary(path):  # some instruments use the same suffix
-        suffix = None
-    if suffix in TEXT or suffix == ".npy":
+    if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):  # some instruments use the suffixes of texts
         if channel is not None:
             raise ValueError(f"--channel {channel}: a file of this kind holds one map; leave it out")
         return Scan(npy_array(path)) if suffix == ".npy" else read_text(path)
@@ -138,21 +134,19 @@ def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Sca
         return Scan(heights, unit)
     if [axis.lower() for axis in axes] == ["x", "y"]:
         heights, positions = heights.T, positions[::-1]
-    spacing, spacing_unit = _spacing(positions[0], positions[-1])
-    return Scan(heights, unit, spacing, spacing_unit)
+    return Scan(heights, unit, *_spacing(positions[0], positions[-1]))
 
 
-def _unit_of(variable: NetCDFVariable) -> str:
+def _unit_of(variable: netCDF4.Variable) -> str:
     """The attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" if it has none."""
     unit = getattr(variable, "units", getattr(variable, "unit", None))
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
-def _positions_along(file: Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
+def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
     """Name, positions and unit along a dimension: of the variable of that name, or of the only one that has only it."""
     variables = {name: each for name, each in file.variables.items() if each.dimensions == (dimension,)}
-    numeric = {name for name, each in variables.items() if each.dtype is not str and np.dtype(each.dtype).kind in "iuf"}
-    along = sorted(numeric - {heights})
+    along = [name for name, each in variables.items() if np.dtype(each.dtype).kind in "iuf" and name != heights]
     name = dimension if dimension in along else along[0] if len(along) == 1 else None
     return None if name is None else (name, unpacked(file.variables[name]), _unit_of(file.variables[name]))
 

@@ -12,7 +12,6 @@ from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
 from viscorough.types import FilePath
 
-_NEEDED = "a file of heights is needed"
 # Formats that hold plain arrays, with rows along y; SurfaceTopography's first index runs along x.
 _OF_ARRAYS = ("npy", "npz", "mat", "h5")
 
@@ -25,18 +24,15 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 
     Raises a one-line ValueError for files of no known format, line scans and channels that hold no heights.
     """
-    with reading(path, _NEEDED):
+    # The warnings are about optional packages and the layout of files, which no user can change.
+    with reading(path, "a file of heights is needed"), warnings.catch_warnings(action="ignore"):
         if not Path(path).stat().st_size:
             raise ValueError("it is empty")
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about optional packages
+        try:
             from SurfaceTopography.IO import CannotDetectFileFormat, open_topography
-    except ImportError as error:
-        text = "unknown kind of file; .npy, .nc, text and TIFF are read directly, formats of instruments with"
-        raise ValueError(f"{path}: {text} pip install 'viscorough[formats]'") from error
-    with reading(path, _NEEDED), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # about the layout of files, which no user can change
+        except ImportError as error:
+            text = "unknown kind of file; .npy, .nc, text and TIFF are read directly, formats of instruments with"
+            raise ValueError(f"{text} pip install 'viscorough[formats]'") from error
         try:
             file = open_topography(str(path))
         except CannotDetectFileFormat as error:
@@ -66,19 +62,15 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 def _choose(file: Any, wanted: str | None) -> Any:
     """The channel to read, and the names of the other channels of heights if none was asked for."""
     maps = [channel for channel in file.channels if channel.dim == 2]
-    if not maps:
-        raise ValueError("it holds no map but line scans; a two-dimensional map is needed")
-    names = ", ".join(repr(channel.channel_id) for channel in maps)
+    matches = maps
     if wanted is not None:
-        matches = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
-        if not matches:
-            raise ValueError(f"no map is called {wanted!r}; its maps are {names}")
-        if not _holds_heights(matches[0]):
-            raise ValueError(f"the channel {matches[0].channel_id!r} holds no heights; its maps are {names}")
-        return matches[0], []
-    of_heights = [channel for channel in maps if _holds_heights(channel)]
+        called = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
+        matches = called[:1]
+    of_heights = [channel for channel in matches if _holds_heights(channel)]
     if not of_heights:
-        raise ValueError(f"none of its maps {names} holds heights")
+        names = ", ".join(repr(channel.channel_id) for channel in maps) or "none"
+        what = "no map of heights" if wanted is None else f"no map of heights is called {wanted!r}"
+        raise ValueError(f"{what}; its maps of two dimensions are {names}")
     return of_heights[0], [channel.channel_id for channel in of_heights[1:]]
 
 

@@ -4,7 +4,7 @@ import contextlib
 import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import yaml
 
@@ -19,7 +19,7 @@ from viscorough.viscous.identification import IdentifiedMedium
 from viscorough.viscous.medium import Medium
 
 # Kinds of media. The keys of each are the parameters of its class, but for the table, which is in a file.
-KINDS: dict[str, type[Medium]] = {
+KINDS: dict[str, Any] = {
     "newtonian": media.Newtonian,
     "maxwell": media.Maxwell,
     "kelvin_voigt": media.KelvinVoigt,
@@ -87,16 +87,17 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
     """
     kind = mapping.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
-        raise ValueError(f"kind {_shown(kind)}; allowed: {', '.join(KINDS)}")
-    make, keys = KINDS[kind], _keys(kind)
+        raise ValueError(f"kind {repr(kind)[:60]}; allowed: {', '.join(KINDS)}")
+    make = KINDS[kind]
+    keys = ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
     if unknown := [key for key in mapping if key != "kind" and key not in keys]:
-        raise ValueError(f"unknown key {_shown(unknown[0])}; allowed for {kind}: {', '.join(keys)}")
+        raise ValueError(f"unknown key {repr(unknown[0])[:60]}; allowed for {kind}: {', '.join(keys)}")
     if missing := [key for key in keys if key not in mapping]:
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
     if make is media.CreepTable:
         name, columns = mapping["file"], {"time": "s", "compliance": "1/Pa"}
         if not isinstance(name, str) or not name or "\0" in name:
-            raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
+            raise ValueError(f"file: {repr(name)[:60]}; allowed: the name of a .csv or .npy file")
         return make(*read_columns(folder / name, "a creep table", columns, length_unit))
     return make(**{key: _values(key, mapping[key], length_unit) for key in keys})
 
@@ -152,7 +153,7 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
         tables.write(Content(variables, title | attributes), table)
         mapping["file"] = table.name
     else:
-        mapping |= {key: getattr(medium, key) for key in _keys(kind)}
+        mapping |= dataclasses.asdict(cast(Any, medium))
     with atomic_write(path) as temporary:
         temporary.write_text(yaml.safe_dump(mapping, sort_keys=False, allow_unicode=True), encoding="utf-8")
 
@@ -162,11 +163,6 @@ def check_medium_file(path: FilePath) -> Path:
     if Path(path).suffix.lower() not in (".yaml", ".yml"):
         raise ValueError(f"{path}: unknown kind of file; a medium is written as .yaml")
     return Path(path).with_suffix(".csv")
-
-
-def _keys(kind: str) -> list[str]:
-    make: Any = KINDS[kind]
-    return ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
 
 
 class _WithoutAliases(UniqueKeys):
@@ -183,7 +179,7 @@ def _mapping(path: FilePath) -> dict[str, Any]:
             raise ValueError("it is too large")
         content = yaml.load(Path(path).read_bytes(), Loader=_WithoutAliases)
     if not isinstance(content, dict):
-        raise ValueError(f"{path}: holds {_shown(content)}; {wanted}")
+        raise ValueError(f"{path}: holds {repr(content)[:60]}; {wanted}")
     return content
 
 
@@ -191,15 +187,10 @@ def _values(key: str, value: object, length_unit: str) -> Any:
     """A value for the class of a medium, which converts units, or a list of them."""
     if isinstance(value, list):
         return [_values(f"{key}[{i}]", entry, length_unit) for i, entry in enumerate(value)]
-    if not isinstance(value, str):
-        return value
-    with contextlib.suppress(ValueError):
-        return float(value)  # YAML takes 1e6, without a point, for a text
-    if length_unit == "1":
-        raise ValueError(f"{key}: {_shown(value)}; allowed: a plain number, since the unit of length is not known")
+    if isinstance(value, str):
+        with contextlib.suppress(ValueError):
+            return float(value)  # YAML takes 1e6, without a point, for a text
+        if length_unit == "1":
+            text = "allowed: a plain number, since the unit of length is not known"
+            raise ValueError(f"{key}: {repr(value)[:60]}; {text}")
     return value
-
-
-def _shown(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:60]}..."

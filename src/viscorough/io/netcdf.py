@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import netCDF4
@@ -29,11 +28,10 @@ class Variable(NamedTuple):
     attributes: dict
 
 
-@dataclass(frozen=True)
-class Content:
+class Content(NamedTuple):
     """The content of a NetCDF file: variables {name: Variable} and global attributes {name: value}."""
 
-    variables: "dict[str, Variable]"
+    variables: dict[str, Variable]
     attributes: dict[str, Any]
 
     def with_attributes(self, **attributes: Any) -> "Content":
@@ -100,10 +98,8 @@ def write(content: Content, path: FilePath) -> None:
 @contextmanager
 def opened(path: FilePath) -> Iterator[netCDF4.Dataset]:
     """Context that yields the netCDF4.Dataset of a file; any fault of the file becomes a one-line ValueError."""
-    with reading(path, "a whole NetCDF file is needed"):
-        open(path, "rb").close()  # its message is clearer than that of the NetCDF library
-        with netCDF4.Dataset(path) as file:
-            yield file
+    with reading(path, "a whole NetCDF file is needed"), netCDF4.Dataset(path) as file:
+        yield file
 
 
 def read(path: FilePath) -> Content:

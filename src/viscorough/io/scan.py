@@ -29,7 +29,7 @@ class Scan(NamedTuple):
     spacing_unit: str = units.UNKNOWN
 
 
-def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None) -> Indenter:
+def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, *, dimensions: int = 2) -> Indenter:
     """The Indenter of a Scan: heights in their unit, spacings converted to it.
 
     spacing : one distance, or (dx, dy), each a number in the unit of the heights, or what viscorough.units.with_unit
@@ -39,8 +39,9 @@ def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None) -> Ind
     Raises ValueError where file and arguments contradict each other, where something is missing, for a unit that is
     not one of length, and for heights that Indenter refuses.
     """
-    if scan.heights.ndim != 2:
-        raise ValueError(f"heights have the shape {scan.heights.shape}; a two-dimensional map is needed")
+    if scan.heights.ndim != dimensions:
+        needed = "a line" if dimensions == 1 else "a two-dimensional map"
+        raise ValueError(f"heights have the shape {scan.heights.shape}; {needed} is needed")
     length_unit = _length_unit(scan, unit)
     in_file = _stated_spacing(scan, length_unit, is_given=spacing is not None)
     own = in_file if spacing is None else _given_spacing(scan, length_unit, spacing)

@@ -51,13 +51,9 @@ def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str |
     >>> line.heights.shape
     (64,)
     """
-    scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else netcdf_scan(path, None, dimensions=1)
-    if scan.heights.ndim != 1:
-        raise ValueError(f"{path}: heights have the shape {scan.heights.shape}; a line is needed")
     with path_named(path):
-        pair = None if spacing is None else (spacing, spacing)
-        row = to_indenter(scan._replace(heights=scan.heights[None]), pair, unit)
-        return Indenter(row.heights[0], row.spacing, length_unit=row.length_unit)
+        scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else netcdf_scan(path, None, dimensions=1)
+        return to_indenter(scan, None if spacing is None else (spacing, spacing), unit, dimensions=1)
 
 
 def dimensions_of_heights(path: FilePath) -> int:

@@ -111,8 +111,7 @@ def _is_row(line: str) -> bool:
     line = _REMARK.sub("", _MARK.sub("nan", line.replace('"', "").strip()))
     if (_COMMENT.match(line) and not line.startswith(";")) or not re.search(r"\d|nan", line, re.IGNORECASE):
         return False
-    cells = re.split(r"[;\t]|,(?!\d)|(?<!\d),|\s+", line)
-    return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
+    return all(map(_FIELD.fullmatch, re.split(r"[;,\s]", line)))
 
 
 def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], int]:
@@ -198,8 +197,7 @@ def _fill_empty_cells(text: str, delimiter: str) -> str:
         lines = [line[1:] for line in lines]
     text = "\n".join(lines)
     if f"{delimiter}{delimiter}" in text or any(not line or delimiter in (line[0], line[-1]) for line in lines):
-        mark = re.escape(delimiter)
-        text = re.sub(rf"(?:(?<={mark})|^)(?={mark}|$)", "nan", text, flags=re.MULTILINE)
+        text = re.sub(rf"(?:(?<={delimiter})|^)(?={delimiter}|$)", "nan", text, flags=re.MULTILINE)
     return text
 
 
@@ -226,9 +224,8 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
     """
     for number, line in enumerate(lines, 1):
         is_comment = _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";"))
-        if is_comment or not line.strip(" " if delimiter == "\t" else None):
-            continue
-        if re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line)):
+        is_statement = re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line))
+        if is_comment or is_statement or not line.strip(" " if delimiter == "\t" else None):
             continue
         cells = [cell.strip(' "') for cell in _REMARK.sub("", line).strip(" ").split(delimiter)]
         if delimiter is not None and len(cells) > 1 and not any(cells):

@@ -59,12 +59,10 @@ def _page(file: tifffile.TiffFile, channel: str | None) -> Any:
     pages: list[Any] = [page for page in cast(Any, file.pages) if page.imagewidth and not page.is_reduced]
     if not pages:
         raise ValueError("it has no picture")
-    if channel is None and len(pages) > 1 and _PARK_SYSTEMS not in pages[0].tags:
-        raise ValueError(f"it has {len(pages)} pages; --channel 0 to {len(pages) - 1} chooses one")
-    if channel is None or _PARK_SYSTEMS in pages[0].tags:
+    if _PARK_SYSTEMS in pages[0].tags or (channel is None and len(pages) == 1):
         return pages[0]
-    if not (channel.isascii() and channel.isdigit() and int(channel) < len(pages)):
-        raise ValueError(f"--channel {channel} is none of its pages; 0 to {len(pages) - 1} are allowed")
+    if channel is None or not (channel.isascii() and channel.isdigit() and int(channel) < len(pages)):
+        raise ValueError(f"it has {len(pages)} pages; --channel 0 to {len(pages) - 1} chooses one")
     return pages[int(channel)]
 
 

@@ -72,7 +72,7 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     for row, of_contact in zip(padded, areas, strict=True):
         row[: len(of_contact)] = of_contact
     add((), _PATCHES, patches=[len(of_contact) for of_contact in areas])
-    add(("patch",), _PATCHES, patch_area=padded)
+    add(("patch",), _PATCHES, patch_area=list(padded))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
 

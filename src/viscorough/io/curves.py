@@ -22,7 +22,7 @@ _ROUNDING = 1e-6  # relative; of numbers that were stored in single precision
 # each other, they do decrease by up to the tolerance.
 _LOST = 10
 # Variables over levels: long_name, and the power of the length unit that is their unit.
-OVER_LEVELS = {
+OVER_LEVELS: dict[str, tuple[str, int]] = {
     "depth": ("depth of indentation u", 1),
     "force": ("normal force over shear modulus F/G", 2),
     "stiffness": ("tangent stiffness over shear modulus k/G", 1),

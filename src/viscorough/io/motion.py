@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from viscorough.io.atomic import path_named
 from viscorough.io.columns import read_columns
 from viscorough.io.curves import OVER_LEVELS
-from viscorough.io.netcdf import Content, described
+from viscorough.io.netcdf import Content, Quantities, described
 from viscorough.types import Array, FilePath
 from viscorough.viscous.correspondence import ForceHistory, Kinetics, impulses
 
@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 
 # Quantities over time.
-_QUANTITIES: dict[str, tuple[str, int | str]] = OVER_LEVELS | {
+_QUANTITIES: Quantities = {
+    **OVER_LEVELS,
     "time": ("time since the force was applied", "s"),
     "x": ("dimensionless force X = F J(t)/(4 h L)", 0),
     "velocity": ("velocity of penetration du/dt", "velocity"),

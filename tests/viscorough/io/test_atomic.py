@@ -126,11 +126,10 @@ def test_only_files_with_an_end_are_readable(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "link").symlink_to(tmp_path / "pipe")
     (tmp_path / "file").write_text("")
-    kinds = {tmp_path / "pipe": "a pipe", tmp_path / "link": "a pipe", tmp_path: "a folder", "/dev/zero": "a device"}
-    faults = {path: f"it is {kind}" for path, kind in kinds.items()}
-    for path, fault in (
-        faults | {tmp_path / "none": "No such file or directory", "a\0b": "embedded null byte"}
-    ).items():
+    faults = {tmp_path / name: "it is a pipe" for name in ("pipe", "link")}
+    faults |= {tmp_path: "it is a folder", "/dev/zero": "it is a device"}
+    faults |= {tmp_path / "none": "No such file or directory", "a\0b": "embedded null byte"}
+    for path, fault in faults.items():
         with refused(rf"{path}: not readable \({fault}\); text is needed"), reading(path, "text is needed"):
             pytest.fail("it was opened")
     with reading(tmp_path / "file", "text is needed"):

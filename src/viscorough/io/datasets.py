@@ -22,12 +22,10 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     """
     labels = {name: f"{name}_index" for name in ds.indexes if ds[name].dtype.kind not in "biuf"}
     ds = ds.reset_index(list(labels)).rename_dims(labels)
-    encoding = {}
-    for name, variable in ds.variables.items():
-        if variable.dtype.kind in "fi":
-            encoding[name] = netcdf.compression(variable.size)
-            if name in ds.coords:
-                encoding[name]["_FillValue"] = None  # in CF no value of a coordinate may be missing
+    numeric = {name: variable for name, variable in ds.variables.items() if variable.dtype.kind in "fi"}
+    encoding = {name: netcdf.compression(variable.size) for name, variable in numeric.items()}
+    for name in numeric.keys() & ds.coords.keys():
+        encoding[name]["_FillValue"] = None  # in CF no value of a coordinate may be missing
     ds = ds.drop_encoding().assign_attrs(netcdf.global_attributes())
     with atomic_write(path) as temporary:
         ds.to_netcdf(temporary, engine="netcdf4", encoding=encoding)

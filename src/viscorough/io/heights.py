@@ -20,7 +20,6 @@ from viscorough.preparation import doubts, prepare
 from viscorough.types import Array, FilePath
 
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".tsv")
-TIFF = (".tif", ".tiff")
 
 
 def read_heights(
@@ -99,7 +98,7 @@ def _read_scan(path: FilePath, channel: str | None) -> Scan:
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
         return netcdf_scan(path, channel)
-    if suffix in TIFF:
+    if suffix in (".tif", ".tiff"):
         from viscorough.io.tiff import read_tiff
 
         return read_tiff(path, channel)

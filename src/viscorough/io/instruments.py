@@ -62,10 +62,8 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 def _choose(file: Any, wanted: str | None) -> Any:
     """The channel to read, and the names of the other channels of heights if none was asked for."""
     maps = [channel for channel in file.channels if channel.dim == 2]
-    matches = maps
-    if wanted is not None:
-        called = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
-        matches = called[:1]
+    called = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
+    matches = maps if wanted is None else called[:1]
     of_heights = [channel for channel in matches if _holds_heights(channel)]
     if not of_heights:
         names = ", ".join(repr(channel.channel_id) for channel in maps) or "none"

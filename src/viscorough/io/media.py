@@ -173,13 +173,12 @@ class _WithoutAliases(UniqueKeys):
 
 
 def _mapping(path: FilePath) -> dict[str, Any]:
-    wanted = "one mapping of YAML with the kind of medium and its parameters is needed"
-    with reading(path, wanted):
+    with reading(path, "one mapping of YAML with the kind of medium and its parameters is needed"):
         if Path(path).stat().st_size > _LARGEST_FILE:
             raise ValueError("it is too large")
         content = yaml.load(Path(path).read_bytes(), Loader=_WithoutAliases)
-    if not isinstance(content, dict):
-        raise ValueError(f"{path}: holds {repr(content)[:60]}; {wanted}")
+        if not isinstance(content, dict):
+            raise ValueError(f"it holds {repr(content)[:60]}")
     return content
 
 

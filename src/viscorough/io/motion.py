@@ -102,9 +102,8 @@ def kinetics_to_content(motion: Kinetics, force: ArrayLike | None = None) -> Con
 
     Where a depth is undetermined (before the curve's first level) or a velocity infinite, the value is missing.
     """
-    values = {"time": motion.time, "depth": motion.depth}
-    if force is not None:
-        values["force"] = np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)
-    values["velocity"] = np.where(np.isinf(motion.velocity), np.nan, motion.velocity)
+    given = {} if force is None else {"force": np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)}
+    velocity = np.where(np.isinf(motion.velocity), np.nan, motion.velocity)
+    values = {"time": motion.time, "depth": motion.depth, **given, "velocity": velocity}
     variables = described(("level",), values, _QUANTITIES, motion.length_unit)
     return Content(variables, {"title": "Penetration of a rigid indenter into a viscoelastic half-space"})

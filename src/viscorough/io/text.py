@@ -28,11 +28,10 @@ _MISSING = (
 _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
 _ALMOST_A_NUMBER = re.compile(rf"[^\w\s]?\s?\d.*|{_MISSING}", re.IGNORECASE)
-_UTF16 = (b"\xff\xfe", b"\xfe\xff")
 _HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # not that of a mark such as #N/A or #DIV/0!
 _COMMENT = re.compile(rf"[ \t]*(?:[%;!]|//|{_HASH})", re.IGNORECASE)
 _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
-_QUOTED = re.compile(r'"([^".]*|[^",]*)"')  # commas are decimal; with points beside them the quotes stay: no number
+_QUOTED = re.compile(r'"([^".]*|[^",]*)"')  # commas are decimal, without points beside them
 _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
 _PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
@@ -79,7 +78,7 @@ def is_binary(path: FilePath) -> bool:
 
 def _utf16(start: bytes) -> str | None:
     """The encoding of UTF-16 text, with or without a byte order mark; None for other text."""
-    if start.startswith(_UTF16):
+    if start.startswith((b"\xff\xfe", b"\xfe\xff")):
         return "utf-16"
     places = np.flatnonzero(np.frombuffer(start, np.uint8) == 0) % 2
     if not places.size or 2 * places.size < 0.9 * (len(start) // 2 * 2) or np.ptp(places):
@@ -134,6 +133,8 @@ def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], 
         else:
             line = _REMARK.sub("", line) if "#" in line or "%" in line else line
             rows[number] = _QUOTED.sub(lambda cell: cell[1].replace(",", "."), line).strip(" ")
+            if '"' in rows[number]:
+                raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; one decimal mark is needed")
             empty.append(0)
     last, least = max(rows), min(empty[1:-1], default=0)
     for number, comment in comments.items():

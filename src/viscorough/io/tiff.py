@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
 _LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "survey_foot", 9036: "km"}
-_GEOGRAPHIC = 2
 _GDAL_METADATA, _GDAL_NODATA = 42112, 42113
 # What tifffile logs about a damaged file is not printed: the error says it in one line.
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
@@ -72,7 +71,7 @@ def _stated(file: tifffile.TiffFile, page: Any, gdal_metadata: str) -> tuple[Any
         keys = page.geotiff_tags
         projected = {"ProjectedCSTypeGeoKey", "ProjLinearUnitsGeoKey", "ProjCoordTransGeoKey"} & set(keys)
         angles = {"GeographicTypeGeoKey", "GeogAngularUnitsGeoKey"} & set(keys)
-        if keys.get("GTModelTypeGeoKey") == _GEOGRAPHIC or (angles and not projected):
+        if keys.get("GTModelTypeGeoKey") == 2 or (angles and not projected):  # 2: a geographic model
             raise ValueError("its coordinates are in degrees; a map in projected coordinates is needed")
         height_unit = _unit_of_key(keys.get("VerticalUnitsGeoKey"))
         if of_gdal := re.search(r'role="unittype"[^>]*>\s*([^<]*\S)\s*<', gdal_metadata):

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 # Quantities over time.
 _QUANTITIES: Quantities = {
     **OVER_LEVELS,
-    "time": ("time since the force was applied", "s"),
+    "time": ("time since the force was applied", "time"),
     "x": ("dimensionless force X = F J(t)/(4 h L)", 0),
     "velocity": ("velocity of penetration du/dt", "velocity"),
     "force": ("force F at that time", "N"),

@@ -14,8 +14,8 @@ from viscorough.io.unpacking import STORAGE, unpacked
 from viscorough.summaries import si_unit, unit_power, velocity_unit
 from viscorough.types import FilePath
 
-# {name of a variable: (long_name, unit)}, the unit being a power of that of length, "velocity", or an SI unit, such as
-# "N", which is "1" where the unit of length is not known.
+# {name of a variable: (long_name, unit)}, the unit being a power of that of length, "time", which is in s in any case,
+# "velocity", or an SI unit, such as "N", which is "1" where the unit of length is not known.
 Quantities = Mapping[str, tuple[str, int | str]]
 COMPRESSED_FROM = 4096  # number of values; for fewer, chunks cost more than compression saves
 
@@ -43,14 +43,13 @@ def described(
     dimensions: tuple[str, ...], values: Mapping[str, Any], quantities: Quantities, length_unit: str
 ) -> dict[str, Variable]:
     """Variables over the same dimensions, each with the long_name and the unit of the quantity of its name."""
+    spelled: dict[int | str, str] = {power: unit_power(length_unit, power) for power in (0, 1, 2)}
+    spelled |= {"time": "s", "velocity": velocity_unit(length_unit)}
     variables = {}
     for name, array in values.items():
         long_name, unit = quantities[name]
-        if isinstance(unit, int):
-            unit = unit_power(length_unit, unit)
-        else:
-            unit = velocity_unit(length_unit) if unit == "velocity" else si_unit(unit, length_unit)
-        variables[name] = Variable(dimensions, array, {"long_name": long_name, "units": unit})
+        attributes = {"long_name": long_name, "units": spelled.get(unit) or si_unit(str(unit), length_unit)}
+        variables[name] = Variable(dimensions, array, attributes)
     return variables
 
 

@@ -35,6 +35,7 @@ def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, *, dim
     spacing : one distance, or (dx, dy), each a number in the unit of the heights, or what viscorough.units.with_unit
         takes; needed where the file states none, must agree with the file's
     unit : of the heights, and of a spacing without one, needed where the file states none; must agree with the file's
+    dimensions : of the heights, 2 of a map or 1 of a line
 
     Raises ValueError where file and arguments contradict each other, where something is missing, for a unit that is
     not one of length, and for heights that Indenter refuses.

@@ -28,7 +28,7 @@ from measuring import save
 from tqdm import tqdm
 
 from viscorough import cli
-from viscorough.io import netcdf, tables
+from viscorough.io import netcdf
 from viscorough.io.curves import OVER_LEVELS
 from viscorough.io.media import read_medium
 
@@ -126,7 +126,7 @@ def fault_of_output(path):
     """Fault of an output file, as text; "" if it has none."""
     if path.suffix in FIGURES:
         return "" if path.read_bytes().startswith(FIGURES[path.suffix]) else "the figure is damaged"
-    if tables.is_table(path):
+    if path.suffix.lower() == ".csv":
         return "" if len(pd.read_csv(path, comment="#")) else "the table is empty"
     try:
         content = netcdf.read(path)

@@ -19,6 +19,8 @@ import psutil
 
 from viscorough.types import FilePath
 
+_LONGEST_REASON = 250  # letters of an error, which may quote what a file holds
+
 
 def reason(error: BaseException) -> str:
     """The message of an error, on one line."""
@@ -35,34 +37,23 @@ def path_named(path: FilePath) -> Iterator[None]:
         raise ValueError(text if text.startswith(f"{path}: ") else f"{path}: {text}") from error
 
 
-def check_readable(path: FilePath) -> None:
-    """Raise a one-line ValueError if a file to be read exists but is none whose bytes can be read to an end.
+@contextlib.contextmanager
+def reading(path: FilePath, needed: str) -> Iterator[None]:
+    """Context in which a file is read: any fault of it becomes a one-line ValueError, which says what is needed.
 
-    Opening a pipe waits for a writer, and a device may have no end. A file that does not exist, or may not be read, is
-    left to the code that opens it.
+    Damage raises errors of many kinds in the libraries that read files. Opening a pipe would wait for a writer, and a
+    device may have no end. A lack of memory is no fault of the file.
     """
     try:
         mode = os.stat(path).st_mode
-    except (OSError, ValueError):  # a ValueError: no path can have that name
-        return
-    if not stat.S_ISREG(mode):
-        kind = "a pipe" if stat.S_ISFIFO(mode) else "a folder" if stat.S_ISDIR(mode) else "a device"
-        raise ValueError(f"{path}: not readable (it is {kind}); a regular file is needed")
-
-
-@contextlib.contextmanager
-def reading(path: FilePath, needed: str, *faults: type[Exception]) -> Iterator[None]:
-    """Context in which a file is read: these faults of it become a one-line ValueError, which says what is needed.
-
-    Raises ValueError as check_readable. A lack of memory is no fault of the file.
-    """
-    check_readable(path)
-    try:
+        if not stat.S_ISREG(mode):
+            kind = "a pipe" if stat.S_ISFIFO(mode) else "a folder" if stat.S_ISDIR(mode) else "a device"
+            raise ValueError(f"it is {kind}")
         yield
     except MemoryError:
         raise
-    except faults as error:
-        raise ValueError(f"{path}: not readable ({reason(error)}); {needed}") from error
+    except Exception as error:
+        raise ValueError(f"{path}: not readable ({reason(error)[:_LONGEST_REASON]}); {needed}") from error
 
 
 def check_output(path: FilePath) -> Path:

@@ -1,7 +1,6 @@
 """Two columns of numbers read from a file: force histories and tables of creep."""
 
 import contextlib
-import itertools
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -9,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from viscorough import units
-from viscorough.io.atomic import reading
+from viscorough.io.atomic import path_named, reading
 from viscorough.io.heights import npy_array
 from viscorough.types import Array, FilePath
 
@@ -19,6 +18,8 @@ _LAST_WORD = re.compile(
     r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1|[munµμ]m)"
 )
 _LOAD, _TIME = (re.compile(rf"(?:{names})(?![^\W\d_])", re.IGNORECASE) for names in ("force|depth|f|u", "time|t"))
+# A number, nan, infinity, or what starts with a digit: "1N" is a mistake, not a heading.
+_LIKE_A_NUMBER = re.compile(r"\s*[-+]?(?:\.?\d|(?:nan|inf|infinity)\s*$)", re.IGNORECASE)
 _LETTER = re.compile(r"[^\W\d_]")
 _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
 # What spreadsheets write for a number that is missing, such as #N/A, looks like a comment.
@@ -47,7 +48,7 @@ def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit
     if Path(path).suffix == ".npy":
         table = npy_array(path)
     else:
-        with reading(path, f"two columns, {names}, are needed", OSError, ValueError):
+        with reading(path, f"two columns, {names}, are needed"):
             table, factors = _rows_and_factors(path, columns.values(), length_unit)
     if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
         raise ValueError(f"{path}: has the shape {table.shape}; two columns, {names}, and two rows are needed")
@@ -61,8 +62,8 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
         raise ValueError(f"{missing[:40]!r} is no row of two numbers")
     comments = [line for line in lines if line.startswith("#")]
     rows = [line for line in lines if not line.startswith("#")]
-    above = [*itertools.takewhile(lambda line: line.startswith("#"), lines)]
-    if rows and not any(map(_starts_like_a_number, rows[0].split(","))):
+    above = lines[: lines.index(rows[0])] if rows else []
+    if rows and not any(map(_LIKE_A_NUMBER.match, rows[0].split(","))):
         heading = rows.pop(0)
     else:
         heading = above[-1] if above and _TWO_NAMES.fullmatch(above[-1]) else None
@@ -90,10 +91,8 @@ def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[floa
             text = "states a unit, but the unit of length is not known; --unit where the heights are read states it"
             raise ValueError(f"the heading {field[:40]!r} {text}")
         if stated is not None:
-            try:
+            with path_named(f"the heading {field[:40]!r}"):
                 factors[i] = units.factor(stated, unit)
-            except ValueError as error:
-                raise ValueError(f"the heading {field[:40]!r}: {error}") from error
     return factors
 
 
@@ -110,12 +109,3 @@ def _is_another(unit: str, wanted: str) -> bool:
     with contextlib.suppress(ValueError):
         return units.factor(unit, wanted) != 1
     return False
-
-
-def _starts_like_a_number(field: str) -> bool:
-    """Whether a field is a number, nan or infinite, or starts with a digit ("1N" is a mistake, not a heading)."""
-    field = field.strip().lower()
-    with contextlib.suppress(ValueError):
-        float(field)
-        return True
-    return bool(re.match(r"[-+]?\.?\d", field))

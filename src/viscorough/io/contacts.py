@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from viscorough.contact_maps import Contact
-from viscorough.io.curves import OVER_LEVELS
-from viscorough.io.netcdf import Content, Variable, centred_axes
-from viscorough.summaries import si_unit, unit_power
+from viscorough.io.curves import NORMAL_FORCE, OVER_LEVELS
+from viscorough.io.netcdf import Content, Quantities, Variable, centred_axes, described
+from viscorough.summaries import si_unit
 from viscorough.types import Array
 
 COMMENT = (
@@ -19,7 +19,6 @@ COMMENT = (
     "of an element is the sum of sqrt(dx dy)/(4 pi) K pressure, K Love's influence coefficients. In contact, the gap "
     "is zero within residual times depth. Patches are regions in contact that are connected by sides of elements."
 )
-# Maps over (y, x): long_name, and the power of the length unit that is their unit.
 MAPS = {
     "pressure": ("pressure over shear modulus p/G", 0),
     "gap": ("gap between the deformed surface and the indenter", 1),
@@ -33,6 +32,7 @@ NUMBERS = {
     "largest_pressure": ("largest pressure over shear modulus", 0),
     "residual": OVER_LEVELS["residual"],
 }
+_PATCHES = {"patches": ("number of patches of contact", 0), "patch_area": ("area of a patch", 2)}
 # Tolerance from which on maps are stored in single precision, as the solver has them, and the range of their numbers.
 _SINGLE_FROM, _SINGLE_RANGE = 1e-4, (1e-25, 1e30)
 
@@ -48,26 +48,21 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     """
     first = contacts[0]
     unit, level = first.length_unit, ("level",) if len(contacts) > 1 else ()
-    variables: dict[str, Variable] = {}
 
-    def add(name: str, dimensions: tuple[str, ...], values: Sequence[Any], long_name: str, units: str) -> None:
-        stacked = np.stack(values) if level else np.asarray(values[0])
-        variables[name] = Variable((*level, *dimensions), stacked, {"long_name": long_name, "units": units})
+    def add(dimensions: tuple[str, ...], quantities: Quantities, **values: Sequence[Any]) -> None:
+        stacked = {name: np.stack(each) if level else np.asarray(each[0]) for name, each in values.items()}
+        variables.update(described((*level, *dimensions), stacked, quantities, unit))
 
-    variables |= centred_axes(first.gap.shape, {"y": first.row_spacing, "x": first.spacing}, unit)
+    variables = centred_axes(first.gap.shape, {"y": first.row_spacing, "x": first.spacing}, unit)
     if heights is not None:
         variables["heights"] = Variable(("y", "x"), heights, {"long_name": "height", "units": unit})
     kinds = dict.fromkeys(MAPS, _kind_of_maps(contacts)) | {"contact": np.int8}
-    for name, (text, power) in MAPS.items():
-        maps = [getattr(contact, name).astype(kinds[name]) for contact in contacts]
-        add(name, ("y", "x"), maps, text, unit_power(unit, power))
-    flags = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "apart in_contact"}
-    variables["contact"].attributes.update(flags)
-    for name, (text, power) in NUMBERS.items():
-        add(name, (), [getattr(contact, name) for contact in contacts], text, unit_power(unit, power))
+    maps = {name: [getattr(contact, name).astype(kind) for contact in contacts] for name, kind in kinds.items()}
+    add(("y", "x"), MAPS, **maps)
+    variables["contact"].attributes.update(flag_values=np.array([0, 1], np.int8), flag_meanings="apart in_contact")
+    add((), NUMBERS, **{name: [getattr(contact, name) for contact in contacts] for name in NUMBERS})
     if first.shear_modulus is not None:
-        forces = [contact.normal_force for contact in contacts]
-        add("normal_force", (), forces, "normal force F", si_unit("N", unit))
+        add((), NORMAL_FORCE, normal_force=[contact.normal_force for contact in contacts])
         for name, text in {"": "", "mean_": "mean ", "largest_": "largest "}.items():
             dimensions, values, _ = variables[f"{name}pressure"]
             about = {"long_name": f"{text}normal pressure p", "units": si_unit("Pa", unit)}
@@ -76,8 +71,8 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     padded = np.full((len(areas), max(map(len, areas))), np.nan)
     for row, of_contact in zip(padded, areas, strict=True):
         row[: len(of_contact)] = of_contact
-    add("patches", (), [len(of_contact) for of_contact in areas], "number of patches of contact", "1")
-    add("patch_area", ("patch",), list(padded), "area of a patch", unit_power(unit, 2))
+    add((), _PATCHES, patches=[len(of_contact) for of_contact in areas])
+    add(("patch",), _PATCHES, patch_area=list(padded))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
 

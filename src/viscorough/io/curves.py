@@ -1,15 +1,16 @@
 """Loading curves in NetCDF files, one or a stack of them: variables over levels, and how the curve was obtained."""
 
 import contextlib
+import dataclasses
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from viscorough import units
-from viscorough.io.netcdf import Content, Variable
+from viscorough.io.netcdf import Content, Variable, described
 from viscorough.loading_curve import LoadingCurve
-from viscorough.summaries import si_unit, unit_power
+from viscorough.summaries import unit_power
 
 COMMENT = (
     "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "
@@ -21,7 +22,7 @@ _ROUNDING = 1e-6  # relative; of numbers that were stored in single precision
 # each other, they do decrease by up to the tolerance.
 _LOST = 10
 # Variables over levels: long_name, and the power of the length unit that is their unit.
-OVER_LEVELS = {
+OVER_LEVELS: dict[str, tuple[str, int]] = {
     "depth": ("depth of indentation u", 1),
     "force": ("normal force over shear modulus F/G", 2),
     "stiffness": ("tangent stiffness over shear modulus k/G", 1),
@@ -29,6 +30,7 @@ OVER_LEVELS = {
     "contact_fraction": ("share of the indenter's elements in contact", 0),
     "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
 }
+NORMAL_FORCE = {"normal_force": ("normal force F", "N")}
 STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]  # fields of LoadingCurve, not derived
 PER_CURVE = {
     "elements": (int, "number of elements of the indenter"),
@@ -38,27 +40,19 @@ PER_CURVE = {
 }
 
 
-def level_attributes(name: str, length_unit: str) -> dict[str, str]:
-    """Attributes of a variable of OVER_LEVELS: long_name and units, a power of the length unit."""
-    long_name, power = OVER_LEVELS[name]
-    return {"long_name": long_name, "units": unit_power(length_unit, power)}
-
-
 def curve_to_content(curve: LoadingCurve) -> Content:
     """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE."""
-    variables = {
-        name: Variable(("level",), getattr(curve, name), level_attributes(name, curve.length_unit))
-        for name in OVER_LEVELS
-    }
+    values = {name: getattr(curve, name) for name in OVER_LEVELS}
     attributes = {"title": "Loading curve of a rigid indenter", "comment": COMMENT}
-    return Content(variables, attributes | {name: getattr(curve, name) for name in PER_CURVE})
+    attributes |= {name: getattr(curve, name) for name in PER_CURVE}
+    return Content(described(("level",), values, OVER_LEVELS, curve.length_unit), attributes)
 
 
 def with_normal_force(content: Content, shear_modulus: float, length_unit: str) -> Content:
     """The Content of a curve with the force F [N] over its levels, or in consistent units if the unit is not known."""
     newtons = content.variables["force"].values * (shear_modulus * units.square_metres(length_unit))
-    about = {"long_name": "normal force F", "units": si_unit("N", length_unit)}
-    return Content(content.variables | {"normal_force": Variable(("level",), newtons, about)}, content.attributes)
+    force = described(("level",), {"normal_force": newtons}, NORMAL_FORCE, length_unit)
+    return Content(content.variables | force, content.attributes)
 
 
 def curve_from_content(content: Content) -> LoadingCurve:
@@ -67,23 +61,20 @@ def curve_from_content(content: Content) -> LoadingCurve:
     Raises ValueError if it holds none, for units that do not follow from that of the depth, and for numbers that no
     curve can have, within its tolerance.
     """
-    level_fields: dict[str, Any] = {}
-    curve_fields: dict[str, Any] = {}
+    fields: dict[str, Any] = {}
     for name in OVER_LEVELS:
         variable = content.variables.get(name)
         if variable is None and name not in STORED:
             continue
         if variable is None or variable.dimensions != ("level",) or variable.values.dtype.kind not in "iuf":
             raise ValueError(f"no numbers {name}(level); {_NEEDED}")
-        if not np.isfinite(variable.values).all():
-            raise ValueError(f"{name} must be finite at every level; {_NEEDED}")
-        level_fields[name] = variable.values
+        fields[name] = variable.values
     for name, (convert, _) in PER_CURVE.items():
         if name not in content.attributes:
             raise ValueError(f"no attribute {name}; {_NEEDED}")
-        curve_fields[name] = _converted(name, content.attributes[name], convert)
-    fraction = level_fields.pop("contact_fraction", None)
-    curve = LoadingCurve(**level_fields, **curve_fields, length_unit=_length_unit(content))
+        fields[name] = _converted(name, content.attributes[name], convert)
+    fraction = fields.pop("contact_fraction", None)
+    curve = LoadingCurve(**fields, length_unit=_length_unit(content))
     _check_contact(curve)
     if fraction is not None and not np.allclose(fraction, curve.contact_fraction, rtol=_ROUNDING, atol=0):
         raise ValueError(f"contact_fraction must be contact_count over {curve.elements} elements; {_NEEDED}")
@@ -121,13 +112,12 @@ def _check_contact(curve: LoadingCurve) -> None:
         slack = tolerance * stiffness * curve.depth
         too_soft = force_steps < np.append(0, stiffness[:-1]) * depth_steps - slack
         too_stiff = force_steps > stiffness * depth_steps + slack
+    no_count = (count != np.rint(count)) | (count < 1) | (count > curve.elements)
+    no_residual = ~((curve.residual >= 0) & (curve.residual <= tolerance))  # or nan
     wrong = {
-        f"contact_count must be a whole number from 1 to {curve.elements}": (count != np.rint(count))
-        | (count < 1)
-        | (count > curve.elements),
+        f"contact_count must be a whole number from 1 to {curve.elements}": no_count,
         "contact_count must not decrease": np.diff(count, prepend=0) < -_LOST * tolerance * count,
-        f"residual must be from 0 to the tolerance, {curve.tolerance:g}": (curve.residual < 0)
-        | (curve.residual > tolerance),
+        f"residual must be from 0 to the tolerance, {curve.tolerance:g}": no_residual,
         "stiffness must not decrease": np.diff(stiffness, prepend=0) < -_LOST * tolerance * stiffness,
         "force must rise with the depth as the stiffness requires": too_soft | too_stiff,
     }
@@ -158,12 +148,11 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
     if others:
         raise ValueError(f"curves: lengths are in {length_unit} and {others[0]}; one unit is allowed")
     levels = np.array([curve.depth.size for curve in curves])
-    variables = {}
-    for name in OVER_LEVELS:
-        padded = np.full((len(curves), levels.max()), np.nan)
-        for row, curve in zip(padded, curves, strict=True):
+    padded = {name: np.full((len(curves), levels.max()), np.nan) for name in OVER_LEVELS}
+    for name, rows in padded.items():
+        for row, curve in zip(rows, curves, strict=True):
             row[: curve.depth.size] = getattr(curve, name)
-        variables[name] = Variable(("realization", "level"), padded, level_attributes(name, length_unit))
+    variables = described(("realization", "level"), padded, OVER_LEVELS, length_unit)
     attributes = {"long_name": "number of levels of the curve", "units": "1"}
     variables["levels"] = Variable(("realization",), levels, attributes)
     for name, (kind, long_name) in PER_CURVE.items():
@@ -175,14 +164,13 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
 
 def unstack_curves(content: Content) -> list[LoadingCurve]:
     """The LoadingCurves in a Content made by stack_curves, in order. Raises ValueError as curve_from_content."""
-    if missing := [name for name in (*STORED, *PER_CURVE, "levels") if name not in content.variables]:
-        raise ValueError(f"no variable {missing[0]}; loading curves of viscorough reduce are needed")
-    values = {name: content.variables[name].values for name in (*STORED, *PER_CURVE, "levels")}
-    length_unit, curves = _length_unit(content), []
-    for index, levels in enumerate(values["levels"].tolist()):
-        level_fields: dict[str, Any] = {name: values[name][index, :levels] for name in STORED}
-        level_fields["contact_count"] = level_fields["contact_count"].astype(int)  # stored as floats because of nan
-        curve_fields = {name: convert(values[name][index]) for name, (convert, _) in PER_CURVE.items()}
-        curves.append(LoadingCurve(**level_fields, **curve_fields, length_unit=length_unit))
-        _check_contact(curves[-1])
+    padded = {n: v for n, v in content.variables.items() if v.dimensions == ("realization", "level")}
+    per_curve = {name: content.variables[name].values for name in PER_CURVE if name in content.variables}
+    curves = []
+    for i, levels in enumerate(content.variables["levels"].values.tolist()):
+        variables = {name: Variable(("level",), v.values[i, :levels], v.attributes) for name, v in padded.items()}
+        attributes = content.attributes | {name: values[i] for name, values in per_curve.items()}
+        curve = curve_from_content(Content(variables, attributes))
+        # Counts are stored as floats because of nan.
+        curves.append(dataclasses.replace(curve, contact_count=curve.contact_count.astype(int)))
     return curves

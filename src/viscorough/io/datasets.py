@@ -22,12 +22,10 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     """
     labels = {name: f"{name}_index" for name in ds.indexes if ds[name].dtype.kind not in "biuf"}
     ds = ds.reset_index(list(labels)).rename_dims(labels)
-    encoding = {}
-    for name, variable in ds.variables.items():
-        if variable.dtype.kind in "fi":
-            encoding[name] = netcdf.compression(variable.size)
-            if name in ds.coords:
-                encoding[name]["_FillValue"] = None  # in CF no value of a coordinate may be missing
+    numeric = {name: variable for name, variable in ds.variables.items() if variable.dtype.kind in "fi"}
+    encoding = {name: netcdf.compression(variable.size) for name, variable in numeric.items()}
+    for name in numeric.keys() & ds.coords.keys():
+        encoding[name]["_FillValue"] = None  # in CF no value of a coordinate may be missing
     ds = ds.drop_encoding().assign_attrs(netcdf.global_attributes())
     with atomic_write(path) as temporary:
         ds.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
@@ -39,6 +37,7 @@ def read_dataset(path: FilePath) -> xr.Dataset:
     Raises a one-line ValueError if it is missing or damaged.
     """
     as_stored: dict[str, Any] = {"decode_times": False, "decode_timedelta": False}
-    with netcdf.faults_named(path), xr.open_dataset(path, engine="netcdf4", **as_stored) as ds:
-        labels = {dim: dim.removesuffix("_index") for dim in map(str, ds.dims) if dim.endswith("_index")}
-        return ds.load().drop_encoding().swap_dims(labels)
+    with netcdf.opened(path) as file:
+        ds = xr.open_dataset(xr.backends.NetCDF4DataStore(file), **as_stored).load()
+    labels = {dim: dim.removesuffix("_index") for dim in map(str, ds.dims) if dim.endswith("_index")}
+    return ds.drop_encoding().swap_dims(labels)

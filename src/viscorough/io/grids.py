@@ -18,7 +18,15 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
     Where a point of the grid is missing, the height is nan. Raises ValueError for required points that form no grid.
     """
     try:
-        column, row, columns, rows, spacing = _places(points)
+        if points.shape[1] != 3:
+            raise ValueError(f"{points.shape[1]} columns; three, x, y and z, are needed")
+        if not np.isfinite(points[:, :2]).all():
+            raise ValueError("x and y must be finite")
+        (column, columns, dx), (row, rows, dy) = map(_axis, points[:, :2].T)
+        if columns * rows > max(4 * len(points), 100):
+            raise ValueError(f"{len(points)} points on a grid of {columns} by {rows}")
+        if np.bincount(row * columns + column).max() > 1:
+            raise ValueError("some points stand twice")
         if not required and len(points) < max(_LEAST_POINTS, _LEAST_SHARE * columns * rows):
             raise ValueError("few of its points")
     except ValueError as fault:
@@ -27,21 +35,7 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
         return None
     heights = np.full((rows, columns), np.nan)
     heights[row, column] = points[:, 2]
-    return heights, spacing
-
-
-def _places(points: Array) -> tuple[Integers, Integers, int, int, tuple[float, float]]:
-    """(column and row of each point, numbers of columns and rows, (dx, dy)). Raises ValueError."""
-    if points.shape[1] != 3:
-        raise ValueError(f"{points.shape[1]} columns; three, x, y and z, are needed")
-    if not np.isfinite(points[:, :2]).all():
-        raise ValueError("x and y must be finite")
-    (column, columns, dx), (row, rows, dy) = map(_axis, points[:, :2].T)
-    if columns * rows > max(4 * len(points), 100):
-        raise ValueError(f"{len(points)} points on a grid of {columns} by {rows}")
-    if np.bincount(row * columns + column).max() > 1:
-        raise ValueError("some points stand twice")
-    return column, row, columns, rows, (dx, dy)
+    return heights, (dx, dy)
 
 
 def _axis(positions: Array) -> tuple[Integers, int, float]:

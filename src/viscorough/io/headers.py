@@ -8,10 +8,10 @@ refused, and so is what can be read in two ways.
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from viscorough import units
 
+Spacing = tuple[float, float]
 Stated = dict[str, list[tuple[str, str, str]]]  # what a header states, by role: line, unit in brackets, value
 
 _AGREEMENT = 1e-3  # relative difference up to which statements of the same length agree
@@ -28,15 +28,14 @@ _FACTOR = re.compile(
 )
 _DEGREES = {"lon", "lat", "longitude", "latitude"}
 
-_STEPS = (
-    "pixelsize pixelspacing pointspacing samplespacing spacing step stepsize pitch increment pixelgröße pixelabstand d"
-)
-_STEP = "pixelsize pixelspacing pointspacing samplespacing gridspacing lateralspacing spacing pixelgröße pixelabstand"
+_STEP = "pixelsize pixelspacing pointspacing samplespacing spacing pixelgröße pixelabstand"
+_STEPS = f"{_STEP} step stepsize pitch increment d"
 # The spellings of keys by what they state; the axis stands before or behind, as in "x pixel size" and "pixel size x".
 _ROLES = {
     "step x": {f"x{key}" for key in _STEPS.split()} | {f"{key}x" for key in _STEPS.split()} | {"deltax", "pixelwidth"},
     "step y": {f"y{key}" for key in _STEPS.split()} | {f"{key}y" for key in _STEPS.split()} | {"deltay", "pixelheight"},
-    "step": set(_STEP.split()) | {"tailledepixel", "tailledupixel", "taillepixel", "cellsize"},
+    "step": {*_STEP.split(), "gridspacing", "lateralspacing", "tailledepixel", "tailledupixel", "taillepixel"}
+    | {"cellsize"},
     "extent x": {"width", "breite", "largeur", "scanwidth", "imagewidth"},
     "extent y": {"height", "höhe", "hoehe", "hauteur", "scanheight", "imageheight"},
     "unit z": {"zunit", "unitz", "valueunit", "heightunit", "dataunit", "werteinheit", "zeinheit", "einheitz"}
@@ -49,32 +48,23 @@ _ROLES = {
 _ROLE_OF = {key: role for role, keys in _ROLES.items() for key in keys}
 
 
-class Header(NamedTuple):
-    """What a header states.
-
-    spacing : (dx, dy), in the unit spacing_unit; None if it states none, nan for a direction of which it states none
-    spacing_unit, lateral_unit : of the spacing, and of positions x and y; "1" if it states none
-    unit : of the heights; "1" if it states none
-    columns : names of the columns of points in their order, such as ("x", "y", "z"); None if it states none
-    """
-
-    spacing: tuple[float, float] | None
-    spacing_unit: str
-    lateral_unit: str
-    unit: str
-    columns: tuple[str, ...] | None
-
-
 def states(line: str) -> bool:
     """Whether a line states a length, a unit or the name of a map."""
     match = _STATEMENT.match(line)
     return match is not None and bool(_role(match[1]))
 
 
-def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str) -> Header:
-    """The Header in lines of text above, below and beside a table of that shape.
+def read_header(
+    lines: Sequence[str], shape: tuple[int, ...], decimal: str
+) -> tuple[str, Spacing | None, str, tuple[str, ...] | None]:
+    """(unit, spacing, lateral unit, columns) in lines of text above, below and beside a table of that shape.
 
     decimal : mark of the table; a decimal comma there makes "1,234" a number below two
+
+    unit : of the heights; "1" if it is not stated
+    spacing : (dx, dy); None if it is not stated, nan for a direction in which it is not
+    lateral unit : of the spacing, or of positions x and y; "1" if it is not stated
+    columns : names of the columns of points in their order, such as ("x", "y", "z"); None if they are not stated
 
     Raises ValueError for statements that contradict each other or can be read in two ways.
     """
@@ -86,7 +76,7 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str) -> H
             others.append(line)
             continue
         key, value = match[1], match[3].strip(" \t,;|\"'")
-        if role := _role(key):
+        if (role := _role(key)) and value:  # "Height (nm):" heads numbers below
             stated[role].append((line.strip()[:80], match[2] or "", value))
         elif _FACTOR.match(key) and ("factor" in key.lower() or _LENGTH.match(value)):
             text = "heights are the numbers times a factor; without this line, and with --scale, they are read"
@@ -99,10 +89,9 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str) -> H
     def unit_among(role: str, *axes: str) -> str:
         return _agreed([*(_unit_text(value) for _, _, value in stated[role]), *(of_columns.get(a, "") for a in axes)])
 
-    lateral = unit_among("unit xy", "x", "y")
-    spacing, spacing_unit = _spacing(stated, shape, lateral, decimal)
+    spacing, lateral = _spacing(stated, shape, unit_among("unit xy", "x", "y"), decimal)
     unit = unit_among("unit z", "z") or unit_among("unit")
-    return Header(spacing, spacing_unit, lateral or units.UNKNOWN, unit or units.UNKNOWN, columns)
+    return unit or units.UNKNOWN, spacing, lateral or units.UNKNOWN, columns
 
 
 def _role(key: str) -> str:
@@ -126,18 +115,17 @@ def _agreed(texts: Iterable[str]) -> str:
     return different[0] if different else ""
 
 
-def _spacing(
-    stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str
-) -> tuple[tuple[float, float] | None, str]:
-    """((dx, dy), unit) that statements give; (None, "1") for none; nan for a direction without statement."""
+def _spacing(stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str) -> tuple[Spacing | None, str]:
+    """((dx, dy), unit) that statements give, the unit being the lateral one if it is stated; "" for none.
+
+    The spacing is None if there is no statement, and nan for a direction without one.
+    """
     steps: list[list[float]] = [[], []]
     extents: list[list[float]] = [[], []]
     have_units = set()
     axes_of = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,)}
     for role, axes in axes_of.items():
         for line, bracket, value in stated[role]:
-            if not value:
-                continue  # "Height (nm):" heads numbers below
             of_both = role == "step" and value.count(" x ") == 1  # "0.5 um x 0.8 um"
             for axis, text in zip(axes, value.split(" x ") if of_both else [value] * len(axes), strict=True):
                 number, unit = _length(line, text, decimal)
@@ -148,15 +136,15 @@ def _spacing(
                     unit = unit or lateral
                     have_units.add(bool(unit))
                     lengths = extents if role.startswith("extent") else steps
-                    lengths[axis].append(number * units.metres(unit) if unit else number)
+                    lengths[axis].append(number * units.metres(unit) / units.metres(lateral or "m") if unit else number)
                 elif role.startswith("extent") and number != shape[1 - axis]:
                     raise ValueError(f"header {line!r}: the table has {shape[1 - axis]} points there")
     if not (any(steps) or all(extents)):  # a height alone may be one of the heights
-        return None, units.UNKNOWN
+        return None, lateral
     if len(have_units) > 1:
         raise ValueError("the header states units for some of the lengths only; one for all, or none, is needed")
     dx, dy = (_agreed_step(axis, steps[axis], extents[axis], shape[1 - axis]) for axis in (0, 1))
-    return (dx, dy), "m" if have_units == {True} else units.UNKNOWN
+    return (dx, dy), lateral or ("m" if have_units == {True} else "")
 
 
 def _length(line: str, value: str, decimal: str) -> tuple[float, str]:
@@ -211,11 +199,8 @@ def _columns(lines: Sequence[str], count: int) -> tuple[tuple[str, ...] | None, 
         if words & _DEGREES:
             raise ValueError(f"heading {text[:60]!r}: positions in degrees; lengths x and y are needed")
         of_units = len(cells) == count > 1 and all(map(units.is_length, cells))
-        if (
-            of_units
-            or words >= {"x", "y", "z"}
-            or any(map(units.is_length, re.findall(r"[\[(]([^\W\d]\w*)[\])]", text)))
-        ):
+        in_brackets = map(units.is_length, re.findall(r"[\[(]([^\W\d]\w*)[\])]", text))
+        if of_units or words >= {"x", "y", "z"} or any(in_brackets):
             needed = "one heading, such as 'x [um], y [um], z [nm]', is allowed"
             raise ValueError(f"header {text[:60]!r}: which columns and units these are is not stated; {needed}")
     return names, found

@@ -4,24 +4,22 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+import netCDF4
 import numpy as np
-from netCDF4 import Dataset
-from netCDF4 import Variable as NetCDFVariable
 from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, positive
 from viscorough.io import netcdf
-from viscorough.io.atomic import check_readable, path_named, reading
-from viscorough.io.scan import Distance, Scan, Spacing, to_indenter, uniform_spacing
+from viscorough.io.atomic import path_named, reading
+from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
 from viscorough.preparation import doubts, prepare
 from viscorough.types import Array, FilePath
 
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".tsv")
-TIFF = (".tif", ".tiff")
 
 
 def read_heights(
@@ -75,9 +73,8 @@ def read_heights(
     ((8, 8), 0.5, 'um')
     """
     with path_named(path):
-        given = None if spacing is None else _pair(spacing)
         scan = _read_scan(path, channel)
-        indenter = to_indenter(scan if scale is None else _scaled(scan, scale), given, unit)
+        indenter = to_indenter(scan if scale is None else _scaled(scan, scale), spacing, unit)
         indenter = prepare(indenter, **preparation)
     for text in doubts(indenter):
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
@@ -90,39 +87,25 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
     number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
     if unit and scan.unit.strip() not in ("", units.UNKNOWN):
         raise ValueError(f"--scale {scale}: heights are in {scan.unit} in the file; a plain number is needed")
-    if not (np.isfinite(number) and number > 0):
-        raise ValueError(f"--scale {scale}: allowed are numbers above 0, plain or with a unit of length")
+    number = positive("--scale", number)
     if scan.heights.dtype.kind not in "iuf":
         return scan  # is refused for what it holds
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
-def _pair(spacing: Any) -> Spacing:
-    """A spacing as (dx, dy)."""
-    pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
-    if len(pair) != 2:
-        raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
-    return units.with_unit(pair[0]), units.with_unit(pair[1])
-
-
 def _read_scan(path: FilePath, channel: str | None) -> Scan:
     """The Scan in a file, by the reader for its suffix."""
-    check_readable(path)
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
         return netcdf_scan(path, channel)
-    if suffix in TIFF:
+    if suffix in (".tif", ".tiff"):
         from viscorough.io.tiff import read_tiff
 
         return read_tiff(path, channel)
-    if suffix in TEXT and is_binary(path):  # some instruments use the same suffix
-        suffix = None
-    if suffix in TEXT or suffix == ".npy":
+    if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):  # some instruments use the suffixes of texts
         if channel is not None:
             raise ValueError(f"--channel {channel}: a file of this kind holds one map; leave it out")
-        if suffix == ".npy":
-            return Scan(npy_array(path))
-        return read_text(path)
+        return Scan(npy_array(path)) if suffix == ".npy" else read_text(path)
     from viscorough.io.instruments import read_instrument
 
     return read_instrument(path, channel)
@@ -130,16 +113,14 @@ def _read_scan(path: FilePath, channel: str | None) -> Scan:
 
 def npy_array(path: FilePath) -> NDArray[Any]:
     """The array in a .npy file. Raises a one-line ValueError if it cannot be read; pickled objects are refused."""
-    # numpy parses the header as Python code, so damage raises errors of many kinds.
-    with reading(path, "a .npy file of numbers is needed", Exception), open(path, "rb") as file:
+    with reading(path, "a .npy file of numbers is needed"), open(path, "rb") as file:
         return np.lib.format.read_array(file, allow_pickle=False)
 
 
 def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Scan:
     """The variable named `channel` of a NetCDF file, or `heights`, or else the only one of so many dimensions."""
     with netcdf.opened(path) as file:
-        fitting = [name for name, each in file.variables.items() if each.ndim == dimensions]
-        maps = [name for name in fitting if name not in file.dimensions]
+        maps = [name for name in file.variables if file[name].ndim == dimensions and name not in file.dimensions]
         names = [channel] if channel else ["heights"] if "heights" in file.variables else maps
         if found := len(names) == 1 and names[0] in file.variables:
             variable = file.variables[names[0]]
@@ -152,22 +133,19 @@ def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Sca
         return Scan(heights, unit)
     if [axis.lower() for axis in axes] == ["x", "y"]:
         heights, positions = heights.T, positions[::-1]
-    spacing, spacing_unit = _spacing(positions[0], positions[-1])
-    return Scan(heights, unit, spacing, spacing_unit)
+    return Scan(heights, unit, *_spacing(positions[0], positions[-1]))
 
 
-def _unit_of(variable: NetCDFVariable) -> str:
+def _unit_of(variable: netCDF4.Variable) -> str:
     """The attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" if it has none."""
-    attributes = netcdf.attributes_of(variable)
-    unit = attributes.get("units", attributes.get("unit"))
+    unit = getattr(variable, "units", getattr(variable, "unit", None))
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
-def _positions_along(file: Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
+def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
     """Name, positions and unit along a dimension: of the variable of that name, or of the only one that has only it."""
     variables = {name: each for name, each in file.variables.items() if each.dimensions == (dimension,)}
-    numeric = {name for name, each in variables.items() if each.dtype is not str and np.dtype(each.dtype).kind in "iuf"}
-    along = sorted(numeric - {heights})
+    along = [name for name, each in variables.items() if np.dtype(each.dtype).kind in "iuf" and name != heights]
     name = dimension if dimension in along else along[0] if len(along) == 1 else None
     return None if name is None else (name, unpacked(file.variables[name]), _unit_of(file.variables[name]))
 
@@ -193,8 +171,6 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
 
 def _are_indices(positions: Array, unit: str) -> bool:
     """Whether positions only count points, from 0 or 1 on, so that they state no distance."""
-    if units.counts_points(unit):
-        return True
-    if unit != "1" or not positions.size or np.ma.is_masked(positions):
-        return False
-    return positions[0] in (0, 1) and np.array_equal(positions - positions[0], np.arange(positions.size))
+    counts = (np.arange(first, first + positions.size) for first in (0, 1))
+    counts_up = not np.ma.is_masked(positions) and any(np.array_equal(positions, count) for count in counts)
+    return units.counts_points(unit) or (unit == "1" and counts_up)

@@ -8,7 +8,7 @@ import numpy as np
 
 from viscorough import units
 from viscorough.errors import AccuracyWarning
-from viscorough.io.atomic import reason
+from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
 from viscorough.types import FilePath
 
@@ -24,36 +24,31 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 
     Raises a one-line ValueError for files of no known format, line scans and channels that hold no heights.
     """
-    if not Path(path).exists() or not Path(path).stat().st_size:
-        fault = "it is empty" if Path(path).exists() else "No such file or directory"
-        raise ValueError(f"{path}: not readable ({fault}); a file of heights is needed")
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about optional packages
-            from SurfaceTopography.IO import open_topography
-    except ImportError as error:
-        text = "unknown kind of file; .npy, .nc, text and TIFF are read directly, formats of instruments with"
-        raise ValueError(f"{path}: {text} pip install 'viscorough[formats]'") from error
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # about the layout of files, which no user can change
+    # The warnings are about optional packages and the layout of files, which no user can change.
+    with reading(path, "a file of heights is needed"), warnings.catch_warnings(action="ignore"):
+        if not Path(path).stat().st_size:
+            raise ValueError("it is empty")
         try:
-            with open_topography(str(path)) as file:
-                kind, suffix = file.format(), Path(path).suffix.lower()
-                if kind == "hgt" and suffix != ".hgt":  # which any file of a suitable size could be
-                    raise ValueError("no known format")
-                chosen, others = _choose(file, channel)
-                # A size is required also where the file states none; it is not used then.
-                size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
-                topography = chosen.topography(**size)
-                heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
-                # HDF5 files that MATLAB wrote hold its arrays transposed.
-                if kind not in _OF_ARRAYS or (kind == "h5" and suffix == ".mat"):
-                    heights = heights.T
-        except MemoryError:
-            raise
-        except Exception as error:  # each format raises other errors
-            fault = "no known format" if type(error).__name__ == "CannotDetectFileFormat" else reason(error)[:200]
-            raise ValueError(f"{path}: not readable ({fault}); a file of heights is needed") from error
+            from SurfaceTopography.IO import CannotDetectFileFormat, open_topography
+        except ImportError as error:
+            text = "unknown kind of file; .npy, .nc, text and TIFF are read directly, formats of instruments with"
+            raise ValueError(f"{text} pip install 'viscorough[formats]'") from error
+        try:
+            file = open_topography(str(path))
+        except CannotDetectFileFormat as error:
+            raise ValueError("no known format") from error
+        with file:
+            kind, suffix = file.format(), Path(path).suffix.lower()
+            if kind == "hgt" and suffix != ".hgt":  # which any file of a suitable size could be
+                raise ValueError("no known format")
+            chosen, others = _choose(file, channel)
+            # A size is required also where the file states none; it is not used then.
+            size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
+            topography = chosen.topography(**size)
+            heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
+            # HDF5 files that MATLAB wrote hold its arrays transposed.
+            if kind not in _OF_ARRAYS or (kind == "h5" and suffix == ".mat"):
+                heights = heights.T
     if others:
         text = f"the channel {chosen.channel_id!r} is read; --channel chooses another of {', '.join(map(repr, others))}"
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
@@ -61,28 +56,19 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         text = "states that it is one period of a periodic surface; it is treated as a body with edges"
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     unit = chosen.unit or units.UNKNOWN
-    if chosen.physical_sizes is None:
-        return Scan(heights, unit, None, unit)
-    dx, dy = map(float, chosen.pixel_size)
-    return Scan(heights, unit, (dx, dy), unit)
+    return Scan(heights, unit, chosen.pixel_size, unit)
 
 
 def _choose(file: Any, wanted: str | None) -> Any:
     """The channel to read, and the names of the other channels of heights if none was asked for."""
     maps = [channel for channel in file.channels if channel.dim == 2]
-    if not maps:
-        raise ValueError("it holds no map but line scans; a two-dimensional map is needed")
-    names = ", ".join(repr(channel.channel_id) for channel in maps)
-    if wanted is not None:
-        matches = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
-        if not matches:
-            raise ValueError(f"no map is called {wanted!r}; its maps are {names}")
-        if not _holds_heights(matches[0]):
-            raise ValueError(f"the channel {matches[0].channel_id!r} holds no heights; its maps are {names}")
-        return matches[0], []
-    of_heights = [channel for channel in maps if _holds_heights(channel)]
+    called = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
+    matches = maps if wanted is None else called[:1]
+    of_heights = [channel for channel in matches if _holds_heights(channel)]
     if not of_heights:
-        raise ValueError(f"none of its maps {names} holds heights")
+        names = ", ".join(repr(channel.channel_id) for channel in maps) or "none"
+        what = "no map of heights" if wanted is None else f"no map of heights is called {wanted!r}"
+        raise ValueError(f"{what}; its maps of two dimensions are {names}")
     return of_heights[0], [channel.channel_id for channel in of_heights[1:]]
 
 

@@ -4,23 +4,22 @@ import contextlib
 import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import yaml
 
 from viscorough.io import tables
-from viscorough.io.atomic import atomic_write, check_readable, path_named, reason
+from viscorough.io.atomic import atomic_write, path_named, reading
 from viscorough.io.columns import read_columns
-from viscorough.io.netcdf import Content, Variable
+from viscorough.io.netcdf import Content, Quantities, described
 from viscorough.io.unique_keys import UniqueKeys
-from viscorough.summaries import si_unit
 from viscorough.types import FilePath
 from viscorough.viscous import media
 from viscorough.viscous.identification import IdentifiedMedium
 from viscorough.viscous.medium import Medium
 
 # Kinds of media. The keys of each are the parameters of its class, but for the table, which is in a file.
-KINDS: dict[str, type[Medium]] = {
+KINDS: dict[str, Any] = {
     "newtonian": media.Newtonian,
     "maxwell": media.Maxwell,
     "kelvin_voigt": media.KelvinVoigt,
@@ -28,6 +27,13 @@ KINDS: dict[str, type[Medium]] = {
     "prony": media.Prony,
     "springpot": media.Springpot,
     "creep_table": media.CreepTable,
+}
+# Columns of a creep table that was identified, with the ends of its interval.
+_TABLE: Quantities = {
+    "time": ("time since a step of the force", "s"),
+    "compliance": ("creep compliance J", "1/Pa"),
+    "low": ("creep compliance J, lower end of 95 %", "1/Pa"),
+    "high": ("creep compliance J, upper end of 95 %", "1/Pa"),
 }
 _LARGEST_FILE = 1_000_000  # bytes
 
@@ -81,16 +87,17 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
     """
     kind = mapping.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
-        raise ValueError(f"kind {_shown(kind)}; allowed: {', '.join(KINDS)}")
-    make, keys = KINDS[kind], _keys(kind)
+        raise ValueError(f"kind {repr(kind)[:60]}; allowed: {', '.join(KINDS)}")
+    make = KINDS[kind]
+    keys = ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
     if unknown := [key for key in mapping if key != "kind" and key not in keys]:
-        raise ValueError(f"unknown key {_shown(unknown[0])}; allowed for {kind}: {', '.join(keys)}")
+        raise ValueError(f"unknown key {repr(unknown[0])[:60]}; allowed for {kind}: {', '.join(keys)}")
     if missing := [key for key in keys if key not in mapping]:
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
     if make is media.CreepTable:
         name, columns = mapping["file"], {"time": "s", "compliance": "1/Pa"}
         if not isinstance(name, str) or not name or "\0" in name:
-            raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
+            raise ValueError(f"file: {repr(name)[:60]}; allowed: the name of a .csv or .npy file")
         return make(*read_columns(folder / name, "a creep table", columns, length_unit))
     return make(**{key: _values(key, mapping[key], length_unit) for key in keys})
 
@@ -140,10 +147,13 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     (kind,) = (kind for kind, make in KINDS.items() if make is type(medium))
     mapping: dict[str, Any] = {"kind": kind}
     if isinstance(medium, media.CreepTable):
-        tables.write(_content_of_table(identified).with_attributes(**attributes), table)
+        values = {name: getattr(identified, name) for name in _TABLE}
+        variables = described(("level",), values, _TABLE, identified.length_unit)
+        title = {"title": "Creep compliance identified from a record of depth over time"}
+        tables.write(Content(variables, title | attributes), table)
         mapping["file"] = table.name
     else:
-        mapping |= {key: getattr(medium, key) for key in _keys(kind)}
+        mapping |= dataclasses.asdict(cast(Any, medium))
     with atomic_write(path) as temporary:
         temporary.write_text(yaml.safe_dump(mapping, sort_keys=False, allow_unicode=True), encoding="utf-8")
 
@@ -155,27 +165,6 @@ def check_medium_file(path: FilePath) -> Path:
     return Path(path).with_suffix(".csv")
 
 
-def _keys(kind: str) -> list[str]:
-    make: Any = KINDS[kind]
-    return ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
-
-
-def _content_of_table(identified: IdentifiedMedium) -> Content:
-    """Creep compliance over time as a Content, with the ends of its interval."""
-    compliance = si_unit("1/Pa", identified.length_unit)
-    about = {
-        "time": ("time since a step of the force", si_unit("s", identified.length_unit)),
-        "compliance": ("creep compliance J", compliance),
-        "low": ("creep compliance J, lower end of 95 %", compliance),
-        "high": ("creep compliance J, upper end of 95 %", compliance),
-    }
-    variables = {
-        name: Variable(("level",), getattr(identified, name), {"long_name": text, "units": unit})
-        for name, (text, unit) in about.items()
-    }
-    return Content(variables, {"title": "Creep compliance identified from a record of depth over time"})
-
-
 class _WithoutAliases(UniqueKeys):
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
         if self.check_event(yaml.AliasEvent):
@@ -184,16 +173,12 @@ class _WithoutAliases(UniqueKeys):
 
 
 def _mapping(path: FilePath) -> dict[str, Any]:
-    wanted = "one mapping of YAML with the kind of medium and its parameters is needed"
-    check_readable(path)
-    try:
+    with reading(path, "one mapping of YAML with the kind of medium and its parameters is needed"):
         if Path(path).stat().st_size > _LARGEST_FILE:
             raise ValueError("it is too large")
         content = yaml.load(Path(path).read_bytes(), Loader=_WithoutAliases)
-    except (OSError, ValueError, yaml.YAMLError, RecursionError, AttributeError, TypeError, LookupError) as error:
-        raise ValueError(f"{path}: not readable ({reason(error)[:200]}); {wanted}") from error
-    if not isinstance(content, dict):
-        raise ValueError(f"{path}: holds {_shown(content)}; {wanted}")
+        if not isinstance(content, dict):
+            raise ValueError(f"it holds {repr(content)[:60]}")
     return content
 
 
@@ -201,15 +186,10 @@ def _values(key: str, value: object, length_unit: str) -> Any:
     """A value for the class of a medium, which converts units, or a list of them."""
     if isinstance(value, list):
         return [_values(f"{key}[{i}]", entry, length_unit) for i, entry in enumerate(value)]
-    if not isinstance(value, str):
-        return value
-    with contextlib.suppress(ValueError):
-        return float(value)  # YAML takes 1e6, without a point, for a text
-    if length_unit == "1":
-        raise ValueError(f"{key}: {_shown(value)}; allowed: a plain number, since the unit of length is not known")
+    if isinstance(value, str):
+        with contextlib.suppress(ValueError):
+            return float(value)  # YAML takes 1e6, without a point, for a text
+        if length_unit == "1":
+            text = "allowed: a plain number, since the unit of length is not known"
+            raise ValueError(f"{key}: {repr(value)[:60]}; {text}")
     return value
-
-
-def _shown(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:60]}..."

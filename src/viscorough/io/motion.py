@@ -9,9 +9,8 @@ from numpy.typing import ArrayLike
 
 from viscorough.io.atomic import path_named
 from viscorough.io.columns import read_columns
-from viscorough.io.curves import level_attributes
-from viscorough.io.netcdf import Content, Variable
-from viscorough.summaries import si_unit, velocity_unit
+from viscorough.io.curves import OVER_LEVELS
+from viscorough.io.netcdf import Content, Quantities, described
 from viscorough.types import Array, FilePath
 from viscorough.viscous.correspondence import ForceHistory, Kinetics, impulses
 
@@ -20,24 +19,15 @@ if TYPE_CHECKING:
     from viscorough.viscous.integration.internal_variables import MediumMotion
 
 
-# Quantities over time beside those of curves.OVER_LEVELS: long_name.
-_LONG_NAMES = {
-    "time": "time since the force was applied",
-    "x": "dimensionless force X = F J(t)/(4 h L)",
-    "velocity": "velocity of penetration du/dt",
-    "force": "force F at that time",
-    "overlap": "largest overlap of indenter and surface, over depth",
+# Quantities over time.
+_QUANTITIES: Quantities = {
+    **OVER_LEVELS,
+    "time": ("time since the force was applied", "time"),
+    "x": ("dimensionless force X = F J(t)/(4 h L)", 0),
+    "velocity": ("velocity of penetration du/dt", "velocity"),
+    "force": ("force F at that time", "N"),
+    "overlap": ("largest overlap of indenter and surface, over depth", 0),
 }
-
-
-def _over_levels(length_unit: str, **values: Any) -> dict[str, Variable]:
-    """Variables over levels, by the names of quantities."""
-    units = {"time": "s", "velocity": velocity_unit(length_unit), "force": si_unit("N", length_unit)}
-    own = {name: {"long_name": text, "units": units.get(name, "1")} for name, text in _LONG_NAMES.items()}
-    return {
-        name: Variable(("level",), array, own.get(name) or level_attributes(name, length_unit))
-        for name, array in values.items()
-    }
 
 
 def viscous_motion_to_content(motion: dict[str, Array], length_unit: str) -> Content:
@@ -49,7 +39,7 @@ def viscous_motion_to_content(motion: dict[str, Array], length_unit: str) -> Con
         raise ValueError("times or velocities overflow; a force and a viscosity closer to each other are needed")
     load = " under a force history" if "force" in motion else ""
     title = f"Penetration of a rigid indenter{load}, integrated directly in time"
-    return Content(_over_levels(length_unit, **motion), {"title": title})
+    return Content(described(("level",), motion, _QUANTITIES, length_unit), {"title": title})
 
 
 def medium_motion_to_content(motion: MediumMotion) -> Content:
@@ -63,17 +53,16 @@ def medium_motion_to_content(motion: MediumMotion) -> Content:
     if np.isfinite(motion.receding_from):
         text = "From the time receding_from on the contact recedes; no elastic contact corresponds to it."
         attributes |= {"receding_from": motion.receding_from, "comment": text}
-    return Content(_over_levels(motion.length_unit, **values), attributes)
+    return Content(described(("level",), values, _QUANTITIES, motion.length_unit), attributes)
 
 
 def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
     """An estimates.Estimate as a Content; values are nan at times at which the law does not hold."""
-    variables, per_time = _over_levels(length_unit, time=estimate.time, x=estimate.x), velocity_unit(length_unit)
-    about = (("depth", "depth of penetration u", length_unit), ("velocity", "velocity of penetration du/dt", per_time))
-    for name, text, unit in about:
+    quantities = {name: _QUANTITIES[name] for name in ("time", "x")}
+    for name, text, unit in (("depth", "depth of penetration u", 1), ("velocity", *_QUANTITIES["velocity"])):
         for end, meaning in {"": "", "_low": ", lower end of 95 %", "_high": ", upper end of 95 %"}.items():
-            attributes = {"long_name": text + meaning, "units": unit}
-            variables[name + end] = Variable(("level",), getattr(estimate, name + end), attributes)
+            quantities[name + end] = text + meaning, unit
+    variables = described(("level",), {name: getattr(estimate, name) for name in quantities}, quantities, length_unit)
     return Content(variables, {"title": "Penetration of a self-affine indenter by the calibrated law, no simulation"})
 
 
@@ -115,5 +104,6 @@ def kinetics_to_content(motion: Kinetics, force: ArrayLike | None = None) -> Con
     """
     given = {} if force is None else {"force": np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)}
     velocity = np.where(np.isinf(motion.velocity), np.nan, motion.velocity)
-    variables = _over_levels(motion.length_unit, time=motion.time, depth=motion.depth, **given, velocity=velocity)
+    values = {"time": motion.time, "depth": motion.depth, **given, "velocity": velocity}
+    variables = described(("level",), values, _QUANTITIES, motion.length_unit)
     return Content(variables, {"title": "Penetration of a rigid indenter into a viscoelastic half-space"})

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import netCDF4
@@ -12,8 +11,12 @@ from viscorough import __version__
 from viscorough.arrays import read_only
 from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.unpacking import STORAGE, unpacked
+from viscorough.summaries import si_unit, unit_power, velocity_unit
 from viscorough.types import FilePath
 
+# {name of a variable: (long_name, unit)}, the unit being a power of that of length, "time", which is in s in any case,
+# "velocity", or an SI unit, such as "N", which is "1" where the unit of length is not known.
+Quantities = Mapping[str, tuple[str, int | str]]
 COMPRESSED_FROM = 4096  # number of values; for fewer, chunks cost more than compression saves
 
 
@@ -25,16 +28,29 @@ class Variable(NamedTuple):
     attributes: dict
 
 
-@dataclass(frozen=True)
-class Content:
+class Content(NamedTuple):
     """The content of a NetCDF file: variables {name: Variable} and global attributes {name: value}."""
 
-    variables: "dict[str, Variable]"
+    variables: dict[str, Variable]
     attributes: dict[str, Any]
 
     def with_attributes(self, **attributes: Any) -> "Content":
         """The same variables, with global attributes added or replaced."""
         return Content(self.variables, self.attributes | attributes)
+
+
+def described(
+    dimensions: tuple[str, ...], values: Mapping[str, Any], quantities: Quantities, length_unit: str
+) -> dict[str, Variable]:
+    """Variables over the same dimensions, each with the long_name and the unit of the quantity of its name."""
+    spelled: dict[int | str, str] = {power: unit_power(length_unit, power) for power in (0, 1, 2)}
+    spelled |= {"time": "s", "velocity": velocity_unit(length_unit)}
+    variables = {}
+    for name, array in values.items():
+        long_name, unit = quantities[name]
+        attributes = {"long_name": long_name, "units": spelled.get(unit) or si_unit(str(unit), length_unit)}
+        variables[name] = Variable(dimensions, array, attributes)
+    return variables
 
 
 def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: str) -> dict[str, Variable]:
@@ -79,18 +95,9 @@ def write(content: Content, path: FilePath) -> None:
 
 
 @contextmanager
-def faults_named(path: FilePath) -> Iterator[None]:
-    """Context in which a file is read: any fault of it becomes a one-line ValueError that names it."""
-    faults = OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError
-    with reading(path, "a whole NetCDF file is needed", *faults):
-        open(path, "rb").close()  # its message is clearer than that of the NetCDF library
-        yield
-
-
-@contextmanager
 def opened(path: FilePath) -> Iterator[netCDF4.Dataset]:
     """Context that yields the netCDF4.Dataset of a file; any fault of the file becomes a one-line ValueError."""
-    with faults_named(path), netCDF4.Dataset(path) as file:
+    with reading(path, "a whole NetCDF file is needed"), netCDF4.Dataset(path) as file:
         yield file
 
 

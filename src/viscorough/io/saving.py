@@ -1,5 +1,7 @@
 """Results as files that the command line reads and writes."""
 
+from pathlib import Path
+
 from viscorough.contact_maps import Contact
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf, tables
@@ -99,4 +101,4 @@ def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> Content:
 
 def write_content(content: Content, path: FilePath) -> None:
     """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as of `save`."""
-    (tables if tables.is_table(path) else netcdf).write(content, path)
+    (tables if Path(path).suffix.lower() == ".csv" else netcdf).write(content, path)

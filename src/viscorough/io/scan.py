@@ -1,16 +1,14 @@
 """What a file states about a measured surface, and how that becomes an indenter."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscorough import units
 from viscorough.indenter import Indenter, positive
 from viscorough.types import Array
-from viscorough.units import Quantity
 
 Distance = float | units.Quantity
-Spacing = tuple[Distance, Distance]  # between columns and between rows
 _AGREEMENT = 1e-3  # relative difference up to which a spacing that is given agrees with the file's
 _UNIFORMITY = 1e-2  # deviation from equal spacing that rounding of coordinates may cause, relative to the spacing
 
@@ -31,49 +29,48 @@ class Scan(NamedTuple):
     spacing_unit: str = units.UNKNOWN
 
 
-def to_indenter(scan: Scan, spacing: Spacing | None = None, unit: str | None = None) -> Indenter:
+def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, *, dimensions: int = 2) -> Indenter:
     """The Indenter of a Scan: heights in their unit, spacings converted to it.
 
-    spacing : (dx, dy), numbers in the unit of the heights, or a viscorough.units.Quantity each, needed where the file
-        states none; must agree with the file's
+    spacing : one distance, or (dx, dy), each a number in the unit of the heights, or what viscorough.units.with_unit
+        takes; needed where the file states none, must agree with the file's
     unit : of the heights, and of a spacing without one, needed where the file states none; must agree with the file's
+    dimensions : of the heights, 2 of a map or 1 of a line
 
     Raises ValueError where file and arguments contradict each other, where something is missing, for a unit that is
     not one of length, and for heights that Indenter refuses.
     """
-    heights = scan.heights
-    if heights.dtype.kind not in "iuf":
-        raise ValueError(f"heights are of type {heights.dtype}; real numbers are needed")
-    if heights.ndim != 2:
-        raise ValueError(f"heights have the shape {heights.shape}; a two-dimensional map is needed")
+    if scan.heights.ndim != dimensions:
+        needed = "a line" if dimensions == 1 else "a two-dimensional map"
+        raise ValueError(f"heights have the shape {scan.heights.shape}; {needed} is needed")
     length_unit = _length_unit(scan, unit)
-    stated = _stated_spacing(scan, length_unit, spacing)
-    in_plain_numbers = spacing is not None and not all(isinstance(each, Quantity) and each.unit for each in spacing)
-    if in_plain_numbers and scan.spacing is None and scan.spacing_unit not in (units.UNKNOWN, scan.unit):
+    in_file = _stated_spacing(scan, length_unit, is_given=spacing is not None)
+    own = in_file if spacing is None else _given_spacing(scan, length_unit, spacing)
+    if not np.isfinite(own).all():
+        which = "neighbouring points" if np.isnan(own).all() else "columns" if np.isnan(own[0]) else "rows"
+        raise ValueError(f"the distance between {which} is not stated; --spacing is needed")
+    for name, distance, stated in zip(("columns", "rows"), own, in_file, strict=True):
+        if abs(distance - stated) > _AGREEMENT * abs(stated):
+            unit = "" if length_unit == units.UNKNOWN else f" {length_unit}"
+            text = f"--spacing {distance:g}{unit} contradicts the file, in which {name} are {stated:g}{unit} apart"
+            raise ValueError(f"{text}; leave it out")
+    dx, dy = in_file if np.isfinite(in_file).all() else own
+    return Indenter(scan.heights, dx, dy, length_unit=length_unit)
+
+
+def _given_spacing(scan: Scan, length_unit: str, spacing: Any) -> tuple[float, ...]:
+    """A given spacing as (dx, dy), in the unit of the heights."""
+    pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
+    if len(pair) != 2:
+        raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
+    pair = [units.with_unit(distance) for distance in pair]
+    have_units = all(isinstance(distance, units.Quantity) and distance.unit for distance in pair)
+    if not have_units and scan.spacing is None and scan.spacing_unit not in (units.UNKNOWN, scan.unit):
         text = f"heights are in {scan.unit}, x and y in {scan.spacing_unit}; a spacing with a unit is needed"
         raise ValueError(f"--spacing in plain numbers: {text}")
-    given = None if spacing is None else (_number(spacing[0], length_unit), _number(spacing[1], length_unit))
-    if given is None and (stated is None or not np.isfinite(stated).all()):
-        which = "neighbouring points" if stated is None else "columns" if np.isnan(stated[0]) else "rows"
-        raise ValueError(f"the distance between {which} is not stated; --spacing is needed")
-    if given is not None and stated is not None:
-        for name, own, in_file in zip(("columns", "rows"), given, stated, strict=True):
-            if abs(own - in_file) > _AGREEMENT * in_file:
-                unit = "" if length_unit == units.UNKNOWN else f" {length_unit}"
-                text = f"--spacing {own:g}{unit} contradicts the file, in which {name} are {in_file:g}{unit} apart"
-                raise ValueError(f"{text}; leave it out")
-    known = stated if given is None or (stated is not None and np.isfinite(stated).all()) else given
-    assert known is not None
-    return Indenter(heights, *known, length_unit=length_unit)
-
-
-def _number(distance: float | Quantity, length_unit: str) -> float:
-    """A given distance, in the unit of the heights."""
-    if not isinstance(distance, units.Quantity):
-        return positive("spacing", distance)
-    if distance.unit and length_unit == units.UNKNOWN:
-        raise ValueError(f"--spacing {distance}: the unit of the heights is not known; --unit is needed")
-    return distance.to(length_unit)
+    return tuple(
+        positive("spacing", units.number(distance, length_unit, length_unit, "--spacing")) for distance in pair
+    )
 
 
 def _length_unit(scan: Scan, given: str | None) -> str:
@@ -85,25 +82,24 @@ def _length_unit(scan: Scan, given: str | None) -> str:
     return stated or given or units.UNKNOWN
 
 
-def _stated_spacing(scan: Scan, length_unit: str, given: Spacing | None) -> tuple[float, float] | None:
-    """The spacing (dx, dy) that the file states, in the unit of the heights; None if it states none.
+def _stated_spacing(scan: Scan, length_unit: str, is_given: bool) -> tuple[float, ...]:
+    """The spacing (dx, dy) that the file states, in the unit of the heights; nan where it states none.
 
-    given : a given spacing, which then stands for one without a unit, or None
+    is_given : whether a spacing is given, which then stands for one without a unit
     """
     if scan.spacing is None:
-        return None
+        return np.nan, np.nan
     if scan.spacing_unit.strip() in ("", units.UNKNOWN):
         if scan.unit.strip() in ("", units.UNKNOWN):
             return scan.spacing
-        if given is not None:
-            return None
+        if is_given:
+            return np.nan, np.nan
         raise ValueError(f"heights are in {length_unit}, coordinates in no stated unit; --spacing is needed")
     unit = units.length_unit(scan.spacing_unit)
     if length_unit == units.UNKNOWN:
         raise ValueError(f"coordinates are in {unit}, heights in no stated unit; --unit is needed")
     factor = units.factor(unit, length_unit)
-    dx, dy = (float(f"{factor * distance:.14g}") for distance in scan.spacing)
-    return dx, dy
+    return tuple(float(f"{factor * distance:.14g}") for distance in scan.spacing)
 
 
 def uniform_spacing(name: str, positions: Array) -> float:

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-from viscorough import units
 from viscorough.indenter import Indenter
 from viscorough.io.atomic import path_named
 from viscorough.io.heights import netcdf_scan, npy_array
@@ -52,14 +51,9 @@ def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str |
     >>> line.heights.shape
     (64,)
     """
-    scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else netcdf_scan(path, None, dimensions=1)
-    if scan.heights.dtype.kind not in "iuf" or scan.heights.ndim != 1:
-        kind = f"type {scan.heights.dtype} and shape {scan.heights.shape}"
-        raise ValueError(f"{path}: heights are of {kind}; a line is needed")
     with path_named(path):
-        given = None if spacing is None else (units.with_unit(spacing),) * 2
-        row = to_indenter(scan._replace(heights=scan.heights[None]), given, unit)
-        return Indenter(row.heights[0], row.spacing, length_unit=row.length_unit)
+        scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else netcdf_scan(path, None, dimensions=1)
+        return to_indenter(scan, None if spacing is None else (spacing, spacing), unit, dimensions=1)
 
 
 def dimensions_of_heights(path: FilePath) -> int:

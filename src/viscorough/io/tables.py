@@ -8,7 +8,6 @@ parentheses, and a row for each level, in full precision. Where a value is missi
 import csv
 import io
 import json
-from pathlib import Path
 
 import numpy as np
 
@@ -16,11 +15,6 @@ from viscorough.io import netcdf
 from viscorough.io.atomic import atomic_write
 from viscorough.io.netcdf import Content
 from viscorough.types import FilePath
-
-
-def is_table(path: FilePath) -> bool:
-    """Whether a file name asks for a table: it ends in .csv."""
-    return Path(path).suffix.lower() == ".csv"
 
 
 def write(content: Content, path: FilePath) -> None:
@@ -37,15 +31,12 @@ def write(content: Content, path: FilePath) -> None:
     lines += [f"# column {name}: {_as_text(variable.attributes['long_name'])}" for name, variable in columns.items()]
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    table.writerow(_title(name, variable.attributes.get("units", "1")) for name, variable in columns.items())
+    units = {name: variable.attributes.get("units", "1") for name, variable in columns.items()}
+    table.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in units.items())
     cells = [["" if value != value else repr(value) for value in v.values.tolist()] for v in columns.values()]
     table.writerows(zip(*cells, strict=True))
     with atomic_write(path) as temporary:
         temporary.write_text("\n".join(lines) + "\n" + text.getvalue(), encoding="utf-8")
-
-
-def _title(name: str, unit: str) -> str:
-    return name if unit == "1" else f"{name} ({unit})"
 
 
 def _as_text(value: object) -> str:

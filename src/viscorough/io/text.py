@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from viscorough import units
 from viscorough.io.atomic import reading, reason
 from viscorough.io.grids import gridded
-from viscorough.io.headers import Header, read_header, states
+from viscorough.io.headers import Spacing, read_header, states
 from viscorough.io.scan import Scan
 from viscorough.io.zygo import zygo_scan
 from viscorough.types import Array, FilePath
@@ -29,10 +28,10 @@ _MISSING = (
 _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
 _ALMOST_A_NUMBER = re.compile(rf"[^\w\s]?\s?\d.*|{_MISSING}", re.IGNORECASE)
-_UTF16 = (b"\xff\xfe", b"\xfe\xff")
 _HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # not that of a mark such as #N/A or #DIV/0!
 _COMMENT = re.compile(rf"[ \t]*(?:[%;!]|//|{_HASH})", re.IGNORECASE)
 _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
+_QUOTED = re.compile(r'"([^".]*|[^",]*)"')  # commas are decimal, without points beside them
 _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
 _PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
@@ -59,16 +58,16 @@ def read_text(path: FilePath) -> Scan:
     _check_above(lines[:first], delimiter, {table.shape[1], len(cells)}, esri)
     if esri:
         return _esri_scan(table, esri)
-    header = read_header([*lines[:first], *comments], table.shape, decimal)
-    lateral_unit = header.spacing_unit if header.lateral_unit == units.UNKNOWN else header.lateral_unit
-    grid = _grid(table, header, lateral_unit, required=header.columns is not None or str(path).lower().endswith(".xyz"))
+    unit, spacing, lateral_unit, columns = read_header([*lines[:first], *comments], table.shape, decimal)
+    points = table if columns is None else table[:, [columns.index(name) for name in "xyz"]]
+    grid = _grid(points, spacing, required=columns is not None or str(path).lower().endswith(".xyz"))
     if grid is not None:
         heights, spacing = grid
-        return Scan(heights, header.unit, spacing, lateral_unit)
+        return Scan(heights, unit, spacing, lateral_unit)
     if separated:
         raise ValueError(f"line {separated}: empty lines separate it from the rows above; one map is needed")
     _check_labels(table)
-    return Scan(table, header.unit, header.spacing, header.spacing_unit if header.spacing else header.lateral_unit)
+    return Scan(table, unit, spacing, lateral_unit)
 
 
 def is_binary(path: FilePath) -> bool:
@@ -79,7 +78,7 @@ def is_binary(path: FilePath) -> bool:
 
 def _utf16(start: bytes) -> str | None:
     """The encoding of UTF-16 text, with or without a byte order mark; None for other text."""
-    if start.startswith(_UTF16):
+    if start.startswith((b"\xff\xfe", b"\xfe\xff")):
         return "utf-16"
     places = np.flatnonzero(np.frombuffer(start, np.uint8) == 0) % 2
     if not places.size or 2 * places.size < 0.9 * (len(start) // 2 * 2) or np.ptp(places):
@@ -89,7 +88,7 @@ def _utf16(start: bytes) -> str | None:
 
 def _content(path: FilePath, size: int = -1) -> bytes:
     """The first bytes of a file."""
-    with reading(path, "a text file of heights is needed", OSError), open(path, "rb") as file:
+    with reading(path, "a text file of heights is needed"), open(path, "rb") as file:
         return file.read(size)
 
 
@@ -111,8 +110,7 @@ def _is_row(line: str) -> bool:
     line = _REMARK.sub("", _MARK.sub("nan", line.replace('"', "").strip()))
     if (_COMMENT.match(line) and not line.startswith(";")) or not re.search(r"\d|nan", line, re.IGNORECASE):
         return False
-    cells = re.split(r"[;\t]|,(?!\d)|(?<!\d),|\s+", line)
-    return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
+    return all(map(_FIELD.fullmatch, re.split(r"[;,\s]", line)))
 
 
 def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], int]:
@@ -134,7 +132,9 @@ def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], 
             comments[number] = line
         else:
             line = _REMARK.sub("", line) if "#" in line or "%" in line else line
-            rows[number] = (_without_quotes(number, line) if '"' in line else line).strip(" ")
+            rows[number] = _QUOTED.sub(lambda cell: cell[1].replace(",", "."), line).strip(" ")
+            if '"' in rows[number]:
+                raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; one decimal mark is needed")
             empty.append(0)
     last, least = max(rows), min(empty[1:-1], default=0)
     for number, comment in comments.items():
@@ -165,17 +165,6 @@ def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
         where = next(f"line {number} ({line[:40]!r})" for number, line in rows.items())
         raise ValueError(f"{where}: commas may be decimal marks or not; decimal points, or semicolons, are needed")
     return delimiter or ",", "," if delimiter else "."
-
-
-def _without_quotes(number: int, line: str) -> str:
-    """A row without quotation marks; commas inside them are decimal commas."""
-
-    def unquoted(match: re.Match[str]) -> str:
-        if "." in match[1] and "," in match[1]:
-            raise ValueError(f"line {number}: {match[0]} is not a number for certain; one decimal mark is needed")
-        return match[1].replace(",", ".")
-
-    return re.sub(r'"([^"]*)"', unquoted, line)
 
 
 def _table(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
@@ -209,8 +198,7 @@ def _fill_empty_cells(text: str, delimiter: str) -> str:
         lines = [line[1:] for line in lines]
     text = "\n".join(lines)
     if f"{delimiter}{delimiter}" in text or any(not line or delimiter in (line[0], line[-1]) for line in lines):
-        mark = re.escape(delimiter)
-        text = re.sub(rf"(?:(?<={mark})|^)(?={mark}|$)", "nan", text, flags=re.MULTILINE)
+        text = re.sub(rf"(?:(?<={delimiter})|^)(?={delimiter}|$)", "nan", text, flags=re.MULTILINE)
     return text
 
 
@@ -237,9 +225,8 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
     """
     for number, line in enumerate(lines, 1):
         is_comment = _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";"))
-        if is_comment or not line.strip(" " if delimiter == "\t" else None):
-            continue
-        if re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line)):
+        is_statement = re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line))
+        if is_comment or is_statement or not line.strip(" " if delimiter == "\t" else None):
             continue
         cells = [cell.strip(' "') for cell in _REMARK.sub("", line).strip(" ").split(delimiter)]
         if delimiter is not None and len(cells) > 1 and not any(cells):
@@ -273,21 +260,20 @@ def _is_even(values: Any) -> bool:
     return bool(np.isfinite(steps).all() and steps[0] != 0 and np.ptp(steps) <= 1e-6 * abs(steps[0]))
 
 
-def _grid(table: Array, header: Header, lateral_unit: str, required: bool) -> Any:
-    """(heights, (dx, dy)) of a table with columns x, y, z, these in the lateral unit; None for a matrix of heights.
+def _grid(table: Array, stated: Spacing | None, required: bool) -> tuple[Array, Spacing] | None:
+    """(heights, (dx, dy)) of a table with columns x, y, z; None for a matrix of heights.
 
-    Raises ValueError for points that form no grid, and for a table that may be either.
+    stated : spacing that a header states, in the unit of x and y
+
+    Raises ValueError for points that form no grid or one of another spacing, and for a table that may be either.
     """
-    if header.columns is not None:
-        table = table[:, [header.columns.index(name) for name in "xyz"]]
     grid = gridded(table, required=required) if required or table.shape[1] == 3 else None
     if grid is None and 3 < table.shape[1] <= 6 and gridded(table[:, :3], required=False) is not None:
         raise ValueError(f"{table.shape[1]} columns, of which two are positions; three, x, y and z, are needed")
-    if grid is not None and header.spacing is not None:
-        ratio = 1.0 if header.spacing_unit == units.UNKNOWN else units.factor(header.spacing_unit, lateral_unit)
-        if any(abs(ratio * a - b) > 1e-3 * b for a, b in zip(header.spacing, grid[1], strict=True)):
-            a, b = ratio * np.array(header.spacing), grid[1]
-            text = f"({a[0]:g}, {a[1]:g}) in the header, ({b[0]:g}, {b[1]:g}) between points x, y, z"
+    if grid is not None and stated is not None:
+        dx, dy = grid[1]
+        if any(abs(a - b) > 1e-3 * b for a, b in zip(stated, (dx, dy), strict=True)):
+            text = f"({stated[0]:g}, {stated[1]:g}) in the header, ({dx:g}, {dy:g}) between points x, y, z"
             raise ValueError(f"spacing {text}; statements that agree are needed")
     return grid
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscorough import units
-from viscorough.io.atomic import reason
+from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
 from viscorough.types import FilePath
 
@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 
 _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
 _LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "survey_foot", 9036: "km"}
-_GEOGRAPHIC = 2
-_GDAL_METADATA = 42112
+_GDAL_METADATA, _GDAL_NODATA = 42112, 42113
 # What tifffile logs about a damaged file is not printed: the error says it in one line.
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
@@ -34,29 +33,24 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
     """
     import tifffile
 
-    try:
-        with tifffile.TiffFile(path) as file:
-            page = _page(file, channel)
-            if _PARK_SYSTEMS in page.tags:
-                from viscorough.io.instruments import read_instrument
+    with reading(path, "a TIFF file of one channel is needed"), tifffile.TiffFile(path) as file:
+        page = _page(file, channel)
+        if _PARK_SYSTEMS in page.tags:
+            from viscorough.io.instruments import read_instrument
 
-                return read_instrument(path, channel)
-            if page.samplesperpixel != 1:
-                raise ValueError(f"a picture of {page.samplesperpixel} colours; a map of heights is needed")
-            if page.photometric in (0, 3):
-                text = "in which low numbers are white" if page.photometric == 0 else "in false colours"
-                raise ValueError(f"a picture {text}; a map of heights is needed")
-            is_calibrated = file.is_imagej and "cf" in (file.imagej_metadata or {})
-            if is_calibrated or re.search('role="(scale|offset)"', _gdal_metadata(page)):
-                text = "its numbers are heights only after a scale and an offset are applied"
-                raise ValueError(f"{text}; heights are needed")
-            spacing, spacing_unit, unit = _stated(file, page)
-            heights = _without(page.asarray(), page.tags.get(42113))
-    except (MemoryError, ModuleNotFoundError):
-        raise
-    except Exception as error:  # damage raises errors of many kinds, and codecs that are not installed do, too
-        raise ValueError(f"{path}: not readable ({reason(error)}); a TIFF file of one channel is needed") from error
-    return Scan(heights, unit, spacing, spacing_unit)
+            return read_instrument(path, channel)
+        if page.samplesperpixel != 1:
+            raise ValueError(f"a picture of {page.samplesperpixel} colours; a map of heights is needed")
+        if page.photometric in (0, 3):
+            text = "in which low numbers are white" if page.photometric == 0 else "in false colours"
+            raise ValueError(f"a picture {text}; a map of heights is needed")
+        gdal_metadata = str(page.tags[_GDAL_METADATA].value) if _GDAL_METADATA in page.tags else ""
+        is_calibrated = file.is_imagej and "cf" in (file.imagej_metadata or {})
+        if is_calibrated or re.search('role="(scale|offset)"', gdal_metadata):
+            text = "its numbers are heights only after a scale and an offset are applied"
+            raise ValueError(f"{text}; heights are needed")
+        spacing, spacing_unit, unit = _stated(file, page, gdal_metadata)
+        return Scan(_without(page.asarray(), page.tags.get(_GDAL_NODATA)), unit, spacing, spacing_unit)
 
 
 def _page(file: tifffile.TiffFile, channel: str | None) -> Any:
@@ -64,25 +58,23 @@ def _page(file: tifffile.TiffFile, channel: str | None) -> Any:
     pages: list[Any] = [page for page in cast(Any, file.pages) if page.imagewidth and not page.is_reduced]
     if not pages:
         raise ValueError("it has no picture")
-    if channel is None and len(pages) > 1 and _PARK_SYSTEMS not in pages[0].tags:
-        raise ValueError(f"it has {len(pages)} pages; --channel 0 to {len(pages) - 1} chooses one")
-    if channel is None or _PARK_SYSTEMS in pages[0].tags:
+    if _PARK_SYSTEMS in pages[0].tags or (channel is None and len(pages) == 1):
         return pages[0]
-    if not (channel.isascii() and channel.isdigit() and int(channel) < len(pages)):
-        raise ValueError(f"--channel {channel} is none of its pages; 0 to {len(pages) - 1} are allowed")
+    if channel is None or not (channel.isascii() and channel.isdigit() and int(channel) < len(pages)):
+        raise ValueError(f"it has {len(pages)} pages; --channel 0 to {len(pages) - 1} chooses one")
     return pages[int(channel)]
 
 
-def _stated(file: tifffile.TiffFile, page: Any) -> tuple[Any, ...]:
+def _stated(file: tifffile.TiffFile, page: Any, gdal_metadata: str) -> tuple[Any, ...]:
     """((dx, dy) or None, unit of the spacing, unit of the heights) that tags state."""
     if page.is_geotiff:
         keys = page.geotiff_tags
         projected = {"ProjectedCSTypeGeoKey", "ProjLinearUnitsGeoKey", "ProjCoordTransGeoKey"} & set(keys)
         angles = {"GeographicTypeGeoKey", "GeogAngularUnitsGeoKey"} & set(keys)
-        if keys.get("GTModelTypeGeoKey") == _GEOGRAPHIC or (angles and not projected):
+        if keys.get("GTModelTypeGeoKey") == 2 or (angles and not projected):  # 2: a geographic model
             raise ValueError("its coordinates are in degrees; a map in projected coordinates is needed")
         height_unit = _unit_of_key(keys.get("VerticalUnitsGeoKey"))
-        if of_gdal := re.search(r'role="unittype"[^>]*>\s*([^<]*\S)\s*<', _gdal_metadata(page)):
+        if of_gdal := re.search(r'role="unittype"[^>]*>\s*([^<]*\S)\s*<', gdal_metadata):
             if height_unit != units.UNKNOWN and units.metres(height_unit) != units.metres(of_gdal[1]):
                 raise ValueError(f"its heights are in {height_unit} and in {of_gdal[1]}; one unit is needed")
             height_unit = of_gdal[1]
@@ -96,11 +88,6 @@ def _stated(file: tifffile.TiffFile, page: Any) -> tuple[Any, ...]:
         return None, units.UNKNOWN, units.UNKNOWN
     dx, dy = (length / points for points, length in (page.tags[name].value for name in ("XResolution", "YResolution")))
     return (dx, dy), unit, units.UNKNOWN
-
-
-def _gdal_metadata(page: Any) -> str:
-    """The XML text of GDAL's metadata; "" if there is none."""
-    return str(page.tags[_GDAL_METADATA].value) if _GDAL_METADATA in page.tags else ""
 
 
 def _unit_of_key(key: Any) -> str:

@@ -3,13 +3,12 @@
 from typing import Any
 
 import yaml
-from yaml import MappingNode
 
 
 class UniqueKeys(yaml.SafeLoader):
     """A loader of yaml.load; raises a MarkedYAMLError at the second of two equal keys."""
 
-    def construct_mapping(self, node: MappingNode, deep: bool = False) -> Any:
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> Any:
         seen = set()
         for key, _ in node.value:
             if isinstance(key, yaml.ScalarNode) and key.value in seen:

@@ -8,7 +8,6 @@ from typing import Any
 
 import netCDF4
 import numpy as np
-from netCDF4 import Variable as NetCDFVariable
 from numpy.typing import NDArray
 
 from viscorough.types import Array
@@ -19,7 +18,7 @@ STORAGE = (*MISSING, "scale_factor", "add_offset", "_Unsigned")
 _DEFAULT_FILL = {kind: [fill] for kind, fill in netCDF4.default_fillvals.items() if kind not in ("i1", "u1")}
 
 
-def unpacked(variable: NetCDFVariable) -> NDArray[Any]:
+def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
     """The values of a netCDF4.Variable: unpacked, as a masked array if any are missing; text is returned unchanged.
 
     Missing are those that equal _FillValue (without it, what the format writes where nothing was written, except for
@@ -44,7 +43,7 @@ def unpacked(variable: NetCDFVariable) -> NDArray[Any]:
     return np.ma.array(values, mask=missing) if missing.any() else values
 
 
-def _numbers(variable: NetCDFVariable, name: str, stored: np.dtype[Any]) -> Array:
+def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any]) -> Array:
     """An attribute as an array of numbers; those that are compared with stored values have their precision."""
     value = variable.getncattr(name)
     numbers = np.ravel(value)

@@ -17,7 +17,7 @@ from viscorough.io.unique_keys import UniqueKeys
 
 def read_settings_file(path):
     """The mapping in a file. Raises ValueError with one line that names the file and, where possible, the line."""
-    with reading(path, "a mapping of YAML in UTF-8 is needed", OSError, ValueError, yaml.YAMLError):
+    with reading(path, "a mapping of YAML in UTF-8 is needed"):
         settings = yaml.load(Path(path).read_bytes().decode("utf-8-sig"), UniqueKeys)
         if not isinstance(settings, dict):
             raise ValueError("it holds no settings")

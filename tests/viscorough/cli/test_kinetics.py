@@ -125,7 +125,7 @@ BAD_MEDIA = [
     (medium_text("creep_table", file=3), "the name of a .csv or .npy file"),
     (medium_text("creep_table", file="curve.nc"), "a creep table is read from .csv and .npy"),
     ("viscosity: 1", "kind None; allowed: newtonian, maxwell"),
-    ("- kind: newtonian", "holds [{'kind': 'newtonian'}]; one mapping"),
+    ("- kind: newtonian", "it holds [{'kind': 'newtonian'}]); one mapping"),
     ("kind: newtonian\nviscosity: 1\nviscosity: 2", "key viscosity for the second time"),
     ("kind: newtonian\nviscosity: &a 1\nmore: *a", "aliases are not allowed"),
     ("!!python/object/apply:os.system ['touch here']", "not readable"),

@@ -10,7 +10,7 @@ import pytest
 
 from support.contract import refused
 from support.faults import namespace
-from viscorough.io.atomic import atomic_write, check_output, check_readable
+from viscorough.io.atomic import atomic_write, check_output, reading
 
 
 def write(path, text, error=None):
@@ -126,9 +126,11 @@ def test_only_files_with_an_end_are_readable(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "link").symlink_to(tmp_path / "pipe")
     (tmp_path / "file").write_text("")
-    kinds = {tmp_path / "pipe": "a pipe", tmp_path / "link": "a pipe", tmp_path: "a folder", "/dev/zero": "a device"}
-    for path, kind in kinds.items():
-        with refused(rf"{path}: not readable \(it is {kind}\); a regular file is"):
-            check_readable(path)
-    for path in (tmp_path / "file", tmp_path / "none", "a\0b"):
-        check_readable(path)
+    faults = {tmp_path / name: "it is a pipe" for name in ("pipe", "link")}
+    faults |= {tmp_path: "it is a folder", "/dev/zero": "it is a device"}
+    faults |= {tmp_path / "none": "No such file or directory", "a\0b": "embedded null byte"}
+    for path, fault in faults.items():
+        with refused(rf"{path}: not readable \({fault}\); text is needed"), reading(path, "text is needed"):
+            pytest.fail("it was opened")
+    with reading(tmp_path / "file", "text is needed"):
+        pass

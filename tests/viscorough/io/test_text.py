@@ -146,6 +146,8 @@ BAD = [
     ("1;2;3\n4;<0.1;6\n", "line 2: '<0.1' is not a number"),
     ("1,5, 2,5\n3,5, 4,5\n", "line 1 .*commas may be decimal marks or not"),
     ("0,5\n1,5\n", "commas may be decimal marks or not"),
+    ('"1,234 5.5"\n"1,5 2.5"\n', "line 1 .*one decimal mark is needed"),
+    ('"1";"2"\n"3.234,5";"4"\n', "line 2 .*one decimal mark is needed"),
     ("1,234.5;2\n3;4\n", "line 1 .*commas may be decimal marks or not"),
     ("1\u202f234 5\n6 7\n", "line 1 holds"),
     ("1 2\n\n3 4\n\n\n5 6\n\n7 8\n", "line 6: empty lines separate it"),

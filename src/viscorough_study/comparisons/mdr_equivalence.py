@@ -118,12 +118,12 @@ def _exponent_rows(discs, lines, windows, *, seed, **bootstrap):
         if None in pair:
             continue
         # Separate seeds make the bootstrap samples of discs and lines independent.
-        first, second = (
+        (first, _), (second, _) = (
             fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=sample_seed)
             for ensemble, window, sample_seed in zip(
                 (discs, lines), pair, np.random.SeedSequence(seed).spawn(2), strict=True
             )
         )
-        number = min(first.realizations, second.realizations)
-        rows[-1] |= three_columns("difference", with_interval(second.betas - first.betas, number))
+        number = min(ensemble.sizes["realization"] for ensemble in (discs, lines))
+        rows[-1] |= three_columns("difference", with_interval(second - first, number))
     return rows

@@ -112,17 +112,15 @@ def _exponent_rows(discs, lines, windows, *, seed, **bootstrap):
     windows : named windows of discs and of lines
     """
     regions, kappa = ([rules[rule] for rules in windows] for rule in ("default", "kappa"))
-    rows = []
+    # Separate seeds make the bootstrap samples of discs and lines independent.
+    rows, seeds = [], np.random.SeedSequence(seed).spawn(2)
     for name, pair in zip(WINDOWS, (regions, [regions[0], regions[0]], kappa), strict=True):
         rows.append({"window": name})
         if None in pair:
             continue
-        # Separate seeds make the bootstrap samples of discs and lines independent.
         (first, _), (second, _) = (
-            fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=sample_seed)
-            for ensemble, window, sample_seed in zip(
-                (discs, lines), pair, np.random.SeedSequence(seed).spawn(2), strict=True
-            )
+            fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=own)
+            for ensemble, window, own in zip((discs, lines), pair, seeds, strict=True)
         )
         number = min(ensemble.sizes["realization"] for ensemble in (discs, lines))
         rows[-1] |= three_columns("difference", with_interval(second - first, number))

@@ -8,6 +8,7 @@ They include the scatter between surfaces, but not the choice of the window, whi
 """
 
 import numpy as np
+from scipy.ndimage import find_objects, label
 
 from viscorough_study.fits.conventions import FITTED
 
@@ -84,13 +85,9 @@ def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
     x, stiffness = mean["x"].values, mean["stiffness_geometric"].values
     allowed = allowed & (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
     allowed &= mean["fraction_defined"].values >= fraction_min
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], allowed, [False]])))
-    first, last = edges[::2], edges[1::2] - 1
-    decades = np.log10(x[last] / x[first])
-    if decades.size == 0 or decades.max() < decades_min * (1 - ROUNDING):
-        return None
-    longest = np.argmax(decades)
-    return x[first[longest]], x[last[longest]]
+    runs = [(x[run][0], x[run][-1]) for (run,) in find_objects(label(allowed)[0])]
+    decades = [np.log10(last / first) for first, last in runs]
+    return runs[np.argmax(decades)] if max(decades, default=-1) >= decades_min * (1 - ROUNDING) else None
 
 
 def in_window(x, window):

@@ -28,7 +28,6 @@ COLUMNS = {
     "low": ("lower end of its 95 % interval", "1"),
     "high": ("upper end of its 95 % interval", "1"),
 }
-KNOWN = ("year", "source", "place", "when", "statement", "sure", "read")
 OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, for quantities that need it
 NONE = dict.fromkeys(OURS, np.nan)
 X_COMPARED = 0.01  # X in region (b) at which lines are compared with their discs
@@ -54,11 +53,10 @@ def literature(scaling, interface, reduction, *, entries, conventions):
     }
     rows = []
     for entry in sorted(entries, key=lambda entry: entry["year"]):
-        known = {name: entry[name] for name in KNOWN}
         for quantity in entry["ours"] or ["none"]:
             for row in ours.get(quantity) or [NONE]:
                 theirs = dict(zip(("theirs_low", "theirs_high"), _theirs(entry, row), strict=True))
-                rows.append(known | {"quantity": quantity} | theirs | row)
+                rows.append(entry | {"quantity": quantity} | theirs | row)
     return pd.DataFrame(rows)[list(COLUMNS)]
 
 

@@ -55,21 +55,17 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low,
         compared = []
         for number in range(realizations):
             seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
-            disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
+            surface_seed, line_seed = seed_of_both.spawn(2)
+            square = self_affine_square(hurst, elements, seed=surface_seed)
+            square /= np.nanstd(cut_disc(square, elements))
+            disc = Indenter(cut_disc(square, elements), 1 / elements)
+            line = line_of_surface(square, 1 / elements, line_seed)
             curves = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1]), reduce(line)
             pairs = zip((disc, line), curves, strict=True)
             gaps = [np.log(mean_gaps(indenter, curve, force_with_gap, tolerance)) for indenter, curve in pairs]
             compared.append([*_compare(*curves, force), gaps[1] - gaps[0]])
         tables.append(_table(hurst, x, np.array(compared)))
     return pd.concat(tables, ignore_index=True)
-
-
-def _disc_and_line(hurst, elements, surface_seed, line_seed):
-    """A disc of rms height 1, cut from a square, and the line with the spectrum of the square."""
-    square = self_affine_square(hurst, elements, seed=surface_seed)
-    square /= np.nanstd(cut_disc(square, elements))
-    disc = Indenter(cut_disc(square, elements), 1 / elements)
-    return disc, line_of_surface(square, 1 / elements, line_seed)
 
 
 def _compare(disc, line, force):

@@ -51,7 +51,7 @@ def measure(problem, repeats, *, longest, methods=METHODS):
     """
     rows, functions, elements = {}, {}, len(problem.indenter.heights)
     for method in methods:
-        if elements > method.largest or (method.rough_only and problem.hurst is None):
+        if elements > method.largest or (method.rough_only and problem.body):
             continue
         for value in method.values:
             logging.info("%s: %s, %s %g", problem.name, method.name, method.parameter, value)
@@ -59,9 +59,6 @@ def measure(problem, repeats, *, longest, methods=METHODS):
             (velocity, steps), *seconds = timing.timed(function)
             key = method.name, value
             rows[key] = {
-                "problem": problem.name,
-                "hurst": np.nan if problem.hurst is None else problem.hurst,
-                "elements": elements,
                 "method": method.name,
                 "group": method.group,
                 "parameter": method.parameter,
@@ -78,4 +75,5 @@ def measure(problem, repeats, *, longest, methods=METHODS):
     logging.info("%s: %d repeats", problem.name, repeats)
     for key, seconds in timing.interleaved(functions, repeats).items():
         rows[key] |= dict(zip(TIMES, seconds, strict=True))
-    return pd.DataFrame(rows.values(), columns=list(COLUMNS))
+    table = pd.DataFrame(rows.values()).assign(problem=problem.name, hurst=problem.hurst, elements=elements)
+    return table[list(COLUMNS)]

@@ -23,7 +23,7 @@ class Problem:
     """An indenter with h = L = 1 and its reference solution; arrays of shape (levels,).
 
     depth, force, velocity : u, F/G and vt = (F/G)/(k/G) of the reference solution
-    hurst, seed : of a rough disc; body : of a body of revolution with an exact solution; otherwise None
+    hurst, seed : of a rough disc; body : of a body of revolution with an exact solution; otherwise nan or None
     """
 
     name: str
@@ -31,7 +31,7 @@ class Problem:
     depth: np.ndarray
     force: np.ndarray
     velocity: np.ndarray
-    hurst: float | None = None
+    hurst: float = np.nan
     seed: np.random.SeedSequence | None = None
     body: reference.PowerLawBody | None = None
 

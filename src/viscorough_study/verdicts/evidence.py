@@ -188,4 +188,5 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, 
 
 def exact(name, value, expected, met, values):
     """Case of a quantity without statistical scatter; values : over grids, times or realizations, for its extremes."""
-    return judged(name, (float(value), *NO_INTERVAL), expected, bool(met), extremes=(min(values), max(values)))
+    extremes = min(values, default=np.nan), max(values, default=np.nan)
+    return judged(name, (float(value), *NO_INTERVAL), expected, bool(met), extremes=extremes)

@@ -84,10 +84,8 @@ def first_region(evidence, tolerance):
     for hurst, ensemble in evidence.pooled.items():
         alone = ensemble["contact_count"].values <= ONE_ELEMENT
         ratio = ensemble["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
-        if not ratio.size:
-            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
-            continue
-        yield exact(hurst_name(hurst), np.median(ratio), 1.0, np.all(np.abs(ratio - 1) <= tolerance), ratio)
+        value = np.median(ratio) if ratio.size else np.nan
+        yield exact(hurst_name(hurst), value, 1.0, np.all(np.abs(ratio - 1) <= tolerance), ratio)
 
 
 def last_region(evidence, tolerance):

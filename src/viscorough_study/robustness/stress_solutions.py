@@ -91,16 +91,14 @@ def _path(options, case, solution):
 
 
 def _interpolated(case, solution):
-    """Depths interpolated between automatic levels: for every depth, the largest error since the previous one."""
+    """Depths interpolated between automatic levels, at several forces from each of these depths to the next one."""
     curve = indent(case.indenter, tolerance=case.tolerance, until_fraction=1.0, until_force=solution.force[-1])
     kinetics(curve, 1.0, 1.0, solution.force[:1])  # refuses forces beyond the last level
     ends = np.minimum(solution.force, curve.force[-1])
     starts = np.append(ends[0], ends[:-1])
     force = starts[:, None] * (ends / starts)[:, None] ** np.linspace(0, 1, INTERPOLATED_FORCES)
     events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
-    ratios = curve.at_force(force)[0] / events.depth_at(force)
-    worst = np.abs(ratios - 1).argmax(axis=1)
-    return ratios[np.arange(worst.size), worst]
+    return curve.at_force(force)[0] / events.depth_at(force)
 
 
 def _last_fraction(case, solution):

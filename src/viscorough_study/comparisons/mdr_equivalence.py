@@ -88,15 +88,15 @@ def _lambda_rows(discs, lines, window, **bootstrap):
     lambdas, errors, rows = match.lambda_at(x[chosen]), match.deviation(best, chosen), []
     for i, abscissa in enumerate(x[chosen]):
         row = {"x": abscissa, "in_region": int(in_window(abscissa, window))}
-        row |= three_columns("lambda", match.with_interval(lambdas[:, i]))
-        rows.append(row | three_columns("velocity_ratio", match.with_interval(np.exp(errors[:, i]))))
+        row |= three_columns("lambda", with_interval(lambdas[:, i], match.realizations))
+        rows.append(row | three_columns("velocity_ratio", with_interval(np.exp(errors[:, i]), match.realizations)))
     summary = {}
     for name, values in (
         ("drift", np.exp(2 * _rise(x[region], match.stretch_at(x[region])))),
         ("error_trend", _rise(x[region], match.deviation(best, region)) / 2),
         ("error_whole", np.abs(errors[:, x[chosen] >= window[0]]).max(axis=1)),
     ):
-        summary |= three_columns(name, match.with_interval(values))
+        summary |= three_columns(name, with_interval(values, match.realizations))
     return rows, summary
 
 

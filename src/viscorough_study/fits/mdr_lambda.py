@@ -71,10 +71,6 @@ class LineMatch:
             low, high = np.where(too_large, low, middle), np.where(too_large, middle, high)
         return (low + high) / 2
 
-    def with_interval(self, samples):
-        """(value, low, high): the value of the ensembles and its 95 % interval; samples : shape (1 + resamples,)."""
-        return with_interval(samples, self.realizations)
-
 
 def match_lines(x, discs, lines, *, average, resamples, seed):
     """LineMatch of an ensemble of discs and one of lines; both are resampled.
@@ -96,4 +92,4 @@ def match_lambda(x, discs, lines, window, **options):
     Values are nan if the lines, where all of them are defined, do not reach the stiffness of the discs.
     """
     match = match_lines(x, discs, lines, **options)
-    return match.with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0])
+    return with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0], match.realizations)

@@ -79,8 +79,7 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
 
 def measure_value(table, quantity, law, measure, hurst_min=0.0):
     """Value and 95 % interval, (value, low, high), of one row of the table; nan without such a row."""
-    wanted = {"quantity": quantity, "law": law, "measure": measure, "hurst_min": hurst_min}
-    rows = table[np.logical_and.reduce([table[name] == value for name, value in wanted.items()])]
+    rows = table.query("quantity == @quantity and law == @law and measure == @measure and hurst_min == @hurst_min")
     return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
 
 

@@ -99,10 +99,8 @@ METHODS = (
     Method("path, automatic levels", "path", "tolerance", TOLERANCES, _automatic),
     Method("path, at the depths", "path", "tolerance", FINE_TOLERANCES, _at_levels),
     Method("events", "marching", "contact fraction", (1.0,), _events, 65),
-    *(
-        Method(f"{scheme}, logarithmic steps", "marching", "steps", STEPS, partial(_steps, scheme), 257)
-        for scheme in ("explicit", "heun")
-    ),
+    Method("explicit, logarithmic steps", "marching", "steps", STEPS, partial(_steps, "explicit"), 257),
+    Method("heun, logarithmic steps", "marching", "steps", STEPS, partial(_steps, "heun"), 257),
     Method("implicit", "marching", "tolerance", (1e-2, 1e-4, 1e-6, 1e-8), _implicit, 257),
     Method("MDR", "model", "points", tuple(2**n for n in range(6, 23, 2)), _reduction),
     Method("Eq. 12 without Γ", "model", "gamma", (0,), _law, rough_only=True),

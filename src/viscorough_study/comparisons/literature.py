@@ -55,8 +55,7 @@ def literature(scaling, interface, reduction, *, entries, conventions):
     for entry in sorted(entries, key=lambda entry: entry["year"]):
         for quantity in entry["ours"] or ["none"]:
             for row in ours.get(quantity) or [NONE]:
-                theirs = dict(zip(("theirs_low", "theirs_high"), _theirs(entry, row), strict=True))
-                rows.append(entry | {"quantity": quantity} | theirs | row)
+                rows.append(entry | {"quantity": quantity} | _theirs(entry, row) | row)
     return pd.DataFrame(rows)[list(COLUMNS)]
 
 
@@ -92,17 +91,13 @@ def persson_u0(hurst, band):
 
 
 def _theirs(entry, row):
-    """Lower and upper end of the source's value for the Hurst exponent and the grid of a row of this study."""
+    """Columns of the source's value for the Hurst exponent and the grid of a row of this study."""
     theirs = entry.get("theirs") or entry.get("factor") or {"low": 1.0, "high": 1.0}
-    if entry.get("law") == "exponent_alpha":
-        scale = reference.exponent_alpha(row["hurst"])
-    elif entry.get("law") == "persson_u0":
-        scale = _persson(row)
-    else:
-        scale = 1.0 if "theirs" in entry else np.nan
-    return scale * theirs["low"], scale * theirs["high"]
+    laws = {"exponent_alpha": reference.exponent_alpha(row["hurst"]), "persson_u0": _persson(row)}
+    scale = laws.get(entry.get("law"), 1.0 if "theirs" in entry else np.nan)
+    return {"theirs_low": scale * theirs["low"], "theirs_high": scale * theirs["high"]}
 
 
 def _persson(row):
-    """u₀/h of Persson's law, without a factor, for waves from the diameter down to two elements."""
-    return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["hurst"]) else np.nan
+    """u₀/h of Persson's law, without a factor, for waves from the diameter down to two elements; nan without a grid."""
+    return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["across"]) else np.nan

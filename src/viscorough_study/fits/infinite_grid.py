@@ -82,14 +82,15 @@ def fit(log_x, log_y, weights, *, corrected):
     return best
 
 
-def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
+def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
     """Exponents of an infinitely fine grid: a table (pandas.DataFrame) with the columns of `COLUMNS`.
 
-    grids_by_hurst : of fits.scaling_collapse.grids; elements_min, x_high : of the ranges, of which the first are
-        those of the fit itself; tolerance : of β
+    grids_by_source : {source: its grids, of fits.scaling_collapse.grids}; elements_min, x_high : of the ranges, of
+        which the first are those of the fit itself; tolerance : of β
     """
     rows = []
-    for (hurst, hurst_grids), quantity, law in product(grids_by_hurst.items(), QUANTITIES, x_high):
+    cases = [(source, *case) for source, by_hurst in grids_by_source.items() for case in by_hurst.items()]
+    for (source, hurst, hurst_grids), quantity, law in product(cases, QUANTITIES, x_high):
         fits = []
         for start, end in product(elements_min, x_high[law]):
             if values := points(hurst_grids, quantity, elements_min=start, x_high=end):
@@ -127,14 +128,8 @@ def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
     ends = {"power": ranges["x_high"], "corrected": ranges["corrected_x_high"]}
     pools = {"discs": discs, "controls": discs, "lines": lines}
     by_source = {source: grids(pool, source, **options) for source, pool in pools.items()}
-    limits = {"elements_min": ranges["elements_min"], "x_high": ends, "tolerance": tolerance}
-    collapses = [
-        collapse_table(of_source, source, x_high=ranges["x_high"], tolerance=tolerance)
-        for source, of_source in by_source.items()
-    ]
-    infinite = [limit_table(by_source[source], source, **limits) for source in ("discs", "lines")]
-    return {
-        "collapse": pd.concat(collapses, ignore_index=True),
-        "infinite_grid": pd.concat(infinite, ignore_index=True),
-        "collapse_curves": curve_table(by_source["discs"], CURVES_END),
-    }
+    curves = curve_table(by_source["discs"], CURVES_END)
+    collapses = collapse_table(by_source, x_high=ranges["x_high"], tolerance=tolerance)
+    del by_source["controls"]
+    limits = limit_table(by_source, elements_min=ranges["elements_min"], x_high=ends, tolerance=tolerance)
+    return {"collapse": collapses, "infinite_grid": limits, "collapse_curves": curves}

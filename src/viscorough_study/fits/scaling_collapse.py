@@ -147,15 +147,16 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     return grids_by_hurst
 
 
-def collapse_table(grids_by_hurst, source, *, x_high, tolerance):
+def collapse_table(grids_by_source, *, x_high, tolerance):
     """Rows of `COLUMNS` for every Hurst exponent, quantity and end of the range.
 
-    grids_by_hurst : of `grids`; x_high : ends of the range, X; tolerance : of β
+    grids_by_source : {source: its `grids`}; x_high : ends of the range, X; tolerance : of β
     """
     rows = []
-    for (hurst, hurst_grids), quantity, end in product(grids_by_hurst.items(), QUANTITIES, x_high):
-        labels = {"source": source, "hurst": hurst, "quantity": quantity, "x_high": end}
-        rows.append(labels | collapse(hurst_grids, hurst, quantity, end, tolerance=tolerance))
+    for source, grids_by_hurst in grids_by_source.items():
+        for (hurst, hurst_grids), quantity, end in product(grids_by_hurst.items(), QUANTITIES, x_high):
+            labels = {"source": source, "hurst": hurst, "quantity": quantity, "x_high": end}
+            rows.append(labels | collapse(hurst_grids, hurst, quantity, end, tolerance=tolerance))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

@@ -129,11 +129,8 @@ def _steps(case, solution):
 def _reduction(case, solution):
     """Depths by the MDR, with the exact line of a body of revolution or a random line of the same h, L and H."""
     across = case.indenter.spacing * len(case.indenter.heights)
-    if case.body is not None:
-        line = case.body.mdr_line(LINE_POINTS, across)
-    else:
-        rms = np.nanstd(case.indenter.heights)
-        line = self_affine_line(case.hurst, LINE_POINTS, rms=rms, length=across, seed=1)
+    random_line = partial(self_affine_line, rms=np.nanstd(case.indenter.heights), length=across, seed=1)
+    line = case.body.mdr_line(LINE_POINTS, across) if case.body else random_line(case.hurst, LINE_POINTS)
     depth, _ = reduce(line, until_force=1.01 * solution.force[-1]).at_force(solution.force)
     return depth / solution.depth
 

@@ -132,6 +132,6 @@ def test_grids_of_a_pool():
     assert member.log_x[0] == pytest.approx(np.log(1e-3))
     np.testing.assert_allclose(member.log_velocity, np.tile(0.4 * member.log_x, (21, 1)))
     assert member.curve("whole", 1e-9) is None
-    table = collapse_table(by_hurst, "discs", x_high=[0.03], tolerance=0.03)
+    table = collapse_table({"discs": by_hurst}, x_high=[0.03], tolerance=0.03)
     assert list(table) == list(scaling_collapse.COLUMNS)
     assert table["finding"].tolist() == ["undecided"] * 2

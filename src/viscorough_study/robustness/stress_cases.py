@@ -91,8 +91,7 @@ def _tied_cases(across, seed):
     """Maps with many elements of exactly the same height."""
 
     def tied(name, heights, **options):
-        indenter = Indenter(np.asarray(heights, dtype=float), 1.0)
-        return StressCase("ties", name, indenter, stated=NOT_SELF_AFFINE, **options)
+        return StressCase("ties", name, Indenter(heights, 1.0), stated=NOT_SELF_AFFINE, **options)
 
     checkered = np.add.outer(np.arange(across), np.arange(across)) % 2
     apart = np.full((across, across), np.nan)

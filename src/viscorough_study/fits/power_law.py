@@ -136,8 +136,7 @@ def log_means(velocity, average, resamples, generator):
     weights = np.bincount(drawn.ravel(), minlength=resamples * n).reshape(resamples, n)
     weights = np.vstack([np.ones(n), weights])
     defined = np.isfinite(velocity)
-    positive = np.where(defined, velocity, 1)
-    values = np.where(defined, np.log(positive) if average == "geometric" else positive, 0)
+    values = np.where(defined, np.log(velocity) if average == "geometric" else velocity, 0)
     with np.errstate(invalid="ignore", divide="ignore"):  # nan where a resample has no realization
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)

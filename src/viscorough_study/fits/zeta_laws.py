@@ -109,8 +109,7 @@ def _ratios(ensembles, windows, *, average, resamples, seed):
     zeta_ratios, curve_ratios = {law: [] for law in LAWS}, {law: [] for law in LAWS}
     for i, ((hurst, ensemble), window) in enumerate(zip(ensembles.items(), windows, strict=True)):
         x, velocity = ensemble["x"].values, ensemble["velocity"].values
-        own = {"average": average, "resamples": resamples, "seed": [seed, i]}
-        betas, zetas = fit_power_law(x, velocity, window, **own)
+        betas, zetas = fit_power_law(x, velocity, window, average=average, resamples=resamples, seed=[seed, i])
         inside, generator = in_window(x, common), np.random.default_rng([seed, i])
         means = log_means(velocity[:, inside], average, resamples, generator)
         for law, (function, gamma) in LAWS.items():

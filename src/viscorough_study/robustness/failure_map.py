@@ -55,20 +55,18 @@ def failure_map(cases, methods=METHODS):
 
 def _cell(case, solution, ratios, limit, *, is_model):
     """Error, limit, verdict and reason of a method, of which these are the ratios and the limit, on one case."""
-    messages, error, refused = [], 1.0, False
+    messages, error, verdict = [], 1.0, ""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         try:
             impulses(np.array(case.force), np.arange(len(case.force), dtype=float))  # refuses tensile forces
             error = float(np.abs(np.nan_to_num(ratios(case, solution), nan=0.0) - 1).max())
         except (ValueError, ConvergenceError, MemoryError) as reason:
-            messages, refused = [str(reason)], True
+            messages, verdict = [str(reason)], "refused"
     messages += [str(warning.message) for warning in caught if issubclass(warning.category, AccuracyWarning)]
-    if refused:
-        verdict = "refused"
-    elif error <= limit:
+    if not verdict and error <= limit:
         verdict = "model" if is_model else "holds"
-    else:
+    elif not verdict:
         limits = {case.stated: is_model, FEW_ELEMENTS: is_model and solution.count[0] < MIN_ELEMENTS}
         stated = [text for text, applies in limits.items() if text and applies]  # in the documentation of models
         verdict = "warned" if messages else "stated" if stated else "unnoticed"

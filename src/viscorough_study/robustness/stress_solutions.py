@@ -114,10 +114,9 @@ def _events(case, solution):
 
 def _steps(case, solution):
     """Depths by the case's number of explicit steps: uniform in time, or in equal ratios for a constant force."""
-    ends = []
-    if case.steps > 1 and min(case.force) == max(case.force):
+    if min(case.force) == max(case.force):
         ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
-    elif case.steps > 1:
+    else:
         samples = np.arange(len(case.force))
         times = np.linspace(0, samples[-1], case.steps)
         impulse = impulses(np.interp(times, samples, case.force), times).impulse

@@ -54,8 +54,7 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low,
     for hurst in hursts:
         compared = []
         for number in range(realizations):
-            seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
-            surface_seed, line_seed = seed_of_both.spawn(2)
+            surface_seed, line_seed = realization_seed(seed, *mdr_comparison_key(hurst, number)).spawn(2)
             square = self_affine_square(hurst, elements, seed=surface_seed)
             square /= np.nanstd(cut_disc(square, elements))
             disc = Indenter(cut_disc(square, elements), 1 / elements)

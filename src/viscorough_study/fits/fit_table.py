@@ -86,8 +86,7 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
         ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
         ensemble_columns |= {"rms_convention": rms_convention, "realizations": selected.sizes["realization"]}
         for average, (rule, window) in product(FITTED["average"], named_windows(selected, **limits).items()):
-            options = {"average": average, "resamples": resamples, "seed": seed}
-            fitted = _fit(selected, lines, window, **options) if window else {}
+            fitted = _fit(selected, lines, window, average=average, resamples=resamples, seed=seed) if window else {}
             row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
             rows.append({name: row.get(name, np.nan) for name in COLUMNS})
     return rows
@@ -98,8 +97,7 @@ def _fit(ensemble, lines, window, **options):
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
     betas, zetas = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
-    columns |= three_columns("beta", with_interval(betas, len(velocity)))
-    columns["zeta"] = zetas[0]
+    columns |= three_columns("beta", with_interval(betas, len(velocity))) | {"zeta": zetas[0]}
     for gamma in GAMMA:
         _, *ends = with_interval(zeta_scale(betas, gamma) * zetas, len(velocity))
         columns |= dict(zip(interval_columns(gamma), ends, strict=True))

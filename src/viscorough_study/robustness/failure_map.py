@@ -32,8 +32,7 @@ VERDICTS = ("holds", "model", "stated", "warned", "refused", "unnoticed")
 
 def map_failures(*, seed, across, grids, hurst_min):
     """`failure_map` of all stress-test cases, with a warning in the log for every unnoticed failure."""
-    cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
-    table = failure_map(cases)
+    table = failure_map(stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min))
     for row in table[table["verdict"] == "unnoticed"].itertuples():
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
     return table

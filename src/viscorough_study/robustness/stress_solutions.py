@@ -168,8 +168,7 @@ def _by_steps(case, solution):
     """Depths by the second-order steps of direct integration, over those of the reference."""
     if case.medium is None:
         times = np.append(0.0, solution.force)
-        moved = march_medium(case.indenter, Newtonian(1.0), times, force=np.ones(times.size))
-        return moved.depth[1:] / solution.depth
+        return march_medium(case.indenter, Newtonian(1.0), times, force=np.ones(times.size)).depth[1:] / solution.depth
     return _ratios(_stepped(case, solution, STEPS), _motion_reference(case, solution))
 
 

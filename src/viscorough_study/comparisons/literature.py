@@ -28,7 +28,6 @@ COLUMNS = {
     "low": ("lower end of its 95 % interval", "1"),
     "high": ("upper end of its 95 % interval", "1"),
 }
-KNOWN = ("year", "source", "place", "when", "statement", "sure", "read")
 OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, for quantities that need it
 NONE = dict.fromkeys(OURS, np.nan)
 X_COMPARED = 0.01  # X in region (b) at which lines are compared with their discs
@@ -54,11 +53,9 @@ def literature(scaling, interface, reduction, *, entries, conventions):
     }
     rows = []
     for entry in sorted(entries, key=lambda entry: entry["year"]):
-        known = {name: entry[name] for name in KNOWN}
         for quantity in entry["ours"] or ["none"]:
-            for row in ours.get(quantity) or [NONE]:
-                theirs = dict(zip(("theirs_low", "theirs_high"), _theirs(entry, row), strict=True))
-                rows.append(known | {"quantity": quantity} | theirs | row)
+            known = entry | {"quantity": quantity}
+            rows += [known | _theirs(entry, row) | row for row in ours.get(quantity) or [NONE]]
     return pd.DataFrame(rows)[list(COLUMNS)]
 
 
@@ -94,17 +91,13 @@ def persson_u0(hurst, band):
 
 
 def _theirs(entry, row):
-    """Lower and upper end of the source's value for the Hurst exponent and the grid of a row of this study."""
+    """Columns of the source's value for the Hurst exponent and the grid of a row of this study."""
     theirs = entry.get("theirs") or entry.get("factor") or {"low": 1.0, "high": 1.0}
-    if entry.get("law") == "exponent_alpha":
-        scale = reference.exponent_alpha(row["hurst"])
-    elif entry.get("law") == "persson_u0":
-        scale = _persson(row)
-    else:
-        scale = 1.0 if "theirs" in entry else np.nan
-    return scale * theirs["low"], scale * theirs["high"]
+    laws = {"exponent_alpha": reference.exponent_alpha(row["hurst"]), "persson_u0": _persson(row)}
+    scale = laws.get(entry.get("law"), 1.0 if "theirs" in entry else np.nan)
+    return {"theirs_low": scale * theirs["low"], "theirs_high": scale * theirs["high"]}
 
 
 def _persson(row):
-    """u₀/h of Persson's law, without a factor, for waves from the diameter down to two elements."""
-    return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["hurst"]) else np.nan
+    """u₀/h of Persson's law, without a factor, for waves from the diameter down to two elements; nan without a grid."""
+    return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["across"]) else np.nan

@@ -50,27 +50,21 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low,
     """
     x, tables = abscissa(x_low, x_high, per_decade), []
     force = 4 * x  # F/G = 4hLX with h = L = 1
-    with_gap = is_power_of_ten(x)
+    force_with_gap = np.where(is_power_of_ten(x), force, np.nan)
     for hurst in hursts:
         compared = []
         for number in range(realizations):
-            seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
-            disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
+            surface_seed, line_seed = realization_seed(seed, *mdr_comparison_key(hurst, number)).spawn(2)
+            square = self_affine_square(hurst, elements, seed=surface_seed)
+            square /= np.nanstd(cut_disc(square, elements))
+            disc = Indenter(cut_disc(square, elements), 1 / elements)
+            line = line_of_surface(square, 1 / elements, line_seed)
             curves = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1]), reduce(line)
-            gaps = np.full((2, x.size), np.nan)
-            for row, indenter, curve in zip(gaps, (disc, line), curves, strict=True):
-                row[with_gap] = np.log(mean_gaps(indenter, curve, force[with_gap], tolerance))
+            pairs = zip((disc, line), curves, strict=True)
+            gaps = [np.log(mean_gaps(indenter, curve, force_with_gap, tolerance)) for indenter, curve in pairs]
             compared.append([*_compare(*curves, force), gaps[1] - gaps[0]])
         tables.append(_table(hurst, x, np.array(compared)))
     return pd.concat(tables, ignore_index=True)
-
-
-def _disc_and_line(hurst, elements, surface_seed, line_seed):
-    """A disc of rms height 1, cut from a square, and the line with the spectrum of the square."""
-    square = self_affine_square(hurst, elements, seed=surface_seed)
-    square /= np.nanstd(cut_disc(square, elements))
-    disc = Indenter(cut_disc(square, elements), 1 / elements)
-    return disc, line_of_surface(square, 1 / elements, line_seed)
 
 
 def _compare(disc, line, force):
@@ -97,7 +91,7 @@ def mean_gaps(indenter, curve, force, tolerance):
 
     curve : LoadingCurve of the indenter; tolerance : of the contacts of a map, which are solved at the curve's depths.
     Springs of a line deflect by u − g in contact, on average by F/(4GL), so the mean gap is ⟨g⟩ − u + F/(4GL).
-    Values are nan beyond the end of the curve.
+    Values are nan beyond the end of the curve, and where the force is nan.
     """
     depth, _ = curve.at_force(force)
     if indenter.heights.ndim == 1:

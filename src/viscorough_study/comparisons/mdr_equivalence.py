@@ -68,16 +68,20 @@ def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
     for hurst in sorted(set(discs) & set(lines)):
         pair = discs[hurst], lines[hurst]
         windows = [named_windows(ensemble, **limits) for ensemble in pair]
-        lambdas, summary = _lambda_rows(*pair, windows[0]["default"], **bootstrap)
-        made = lambdas, [summary], _exponent_rows(*pair, windows, **bootstrap)
-        labels = {"hurst": hurst, "realizations": min(ensemble.sizes["realization"] for ensemble in pair)}
+        number = min(ensemble.sizes["realization"] for ensemble in pair)
+        lambdas, summary = _lambda_rows(*pair, windows[0]["default"], number, **bootstrap)
+        made = lambdas, [summary], _exponent_rows(*pair, windows, number, **bootstrap)
+        labels = {"hurst": hurst, "realizations": number}
         for name, members in zip(TABLES, made, strict=True):
             rows[name] += [labels | row for row in members]
     return {name: pd.DataFrame(rows[name], columns=list(columns)) for name, columns in TABLES.items()}
 
 
-def _lambda_rows(discs, lines, window, **bootstrap):
-    """Rows of λ over X and the row of the summary, of one Hurst exponent; window : region (b) of the discs, or None."""
+def _lambda_rows(discs, lines, window, number, **bootstrap):
+    """Rows of λ over X and the row of the summary, of one Hurst exponent.
+
+    window : region (b) of the discs, or None; number : of realizations
+    """
     if window is None:
         return [], {}
     x = discs["x"].values
@@ -88,15 +92,15 @@ def _lambda_rows(discs, lines, window, **bootstrap):
     lambdas, errors, rows = match.lambda_at(x[chosen]), match.deviation(best, chosen), []
     for i, abscissa in enumerate(x[chosen]):
         row = {"x": abscissa, "in_region": int(in_window(abscissa, window))}
-        row |= three_columns("lambda", match.with_interval(lambdas[:, i]))
-        rows.append(row | three_columns("velocity_ratio", match.with_interval(np.exp(errors[:, i]))))
+        row |= three_columns("lambda", with_interval(lambdas[:, i], number))
+        rows.append(row | three_columns("velocity_ratio", with_interval(np.exp(errors[:, i]), number)))
     summary = {}
     for name, values in (
         ("drift", np.exp(2 * _rise(x[region], match.stretch_at(x[region])))),
         ("error_trend", _rise(x[region], match.deviation(best, region)) / 2),
         ("error_whole", np.abs(errors[:, x[chosen] >= window[0]]).max(axis=1)),
     ):
-        summary |= three_columns(name, match.with_interval(values))
+        summary |= three_columns(name, with_interval(values, number))
     return rows, summary
 
 
@@ -106,24 +110,21 @@ def _rise(x, values):
     return values @ offset / (offset @ offset) * np.ptp(offset)
 
 
-def _exponent_rows(discs, lines, windows, *, seed, **bootstrap):
+def _exponent_rows(discs, lines, windows, number, *, seed, **bootstrap):
     """Rows of the exponents of one Hurst exponent; those without a window have nan.
 
-    windows : named windows of discs and of lines
+    windows : named windows of discs and of lines; number : of realizations
     """
     regions, kappa = ([rules[rule] for rules in windows] for rule in ("default", "kappa"))
-    rows = []
+    # Separate seeds make the bootstrap samples of discs and lines independent.
+    rows, seeds = [], np.random.SeedSequence(seed).spawn(2)
     for name, pair in zip(WINDOWS, (regions, [regions[0], regions[0]], kappa), strict=True):
         rows.append({"window": name})
         if None in pair:
             continue
-        # Separate seeds make the bootstrap samples of discs and lines independent.
-        first, second = (
-            fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=sample_seed)
-            for ensemble, window, sample_seed in zip(
-                (discs, lines), pair, np.random.SeedSequence(seed).spawn(2), strict=True
-            )
+        (first, _), (second, _) = (
+            fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=own)
+            for ensemble, window, own in zip((discs, lines), pair, seeds, strict=True)
         )
-        number = min(first.realizations, second.realizations)
-        rows[-1] |= three_columns("difference", with_interval(second.betas - first.betas, number))
+        rows[-1] |= three_columns("difference", with_interval(second - first, number))
     return rows

@@ -41,6 +41,7 @@ def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
     pool : of all scans; curves, names, forces : of each scan the Content of its curve, its name and its forces [N]
     media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
     fit : settings in section `scaling`
+    Times at which a depth lies beyond the end of its curve are omitted.
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
     media, times = named_media(media), abscissa(**times)
@@ -48,7 +49,11 @@ def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
         (curve,), (settings,) = unstack_curves(batch), json.loads(batch.attributes["settings"])["ensembles"]
         labels = {"scan": name, "group": settings["group"]}
         scans.append(labels | {"file": settings["file"]} | settings["lengths"])
-        motions += [part.assign(**labels) for part in _motions(curve, media, scan_forces, times)]
+        for (medium_name, medium), force in product(media.items(), scan_forces):
+            if (reached := reached_times(curve.force[-1], force, medium, times)).size:
+                motion = kinetics(curve, force, medium, reached)
+                columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
+                motions.append(pd.DataFrame(labels | {"medium": medium_name, "force": force} | columns))
     groups = ensembles(pool, "group").items()
     fits = [fit_rows(ensemble, source="measured", case_group=group, seed=seed, **fit) for group, ensemble in groups]
     return {
@@ -56,15 +61,3 @@ def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
         "measured_fits": pd.DataFrame(chain.from_iterable(fits)),
         "measured_kinetics": pd.concat(motions[1:] or motions, ignore_index=True)[list(KINETICS)],
     }
-
-
-def _motions(curve, media, forces, times):
-    """Depth and velocity under every force in every medium; curve : LoadingCurve [m].
-
-    Times at which the depth lies beyond the end of the curve are omitted.
-    """
-    for (name, medium), force in product(media.items(), forces):
-        if (reached := reached_times(curve.force[-1], force, medium, times)).size:
-            motion = kinetics(curve, force, medium, reached)
-            columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
-            yield pd.DataFrame(columns).assign(medium=name, force=force)

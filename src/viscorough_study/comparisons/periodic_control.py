@@ -42,18 +42,17 @@ def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_d
     x_low, x_high, per_decade : of the levels, between which g_per is
     """
     x, tables = abscissa(x_low, x_high, per_decade), []
-    spectra = {np.nan: {}, roll_off["wavelength"]: {"roll_off_wavelength": points * roll_off["wavelength"]}}
-    spectra[roll_off["wavelength"]]["roll_off_level"] = roll_off["level"]
-    for hurst, (wavelength, waves) in product(hursts, spectra.items()):
+    rolled_off = {"roll_off_wavelength": points * roll_off["wavelength"], "roll_off_level": roll_off["level"]}
+    for hurst, (wavelength, waves) in product(hursts, ((np.nan, {}), (roll_off["wavelength"], rolled_off))):
         found = []
         for number in range(surfaces):
-            key = periodic_key(hurst, number)
-            heights = self_affine_square(hurst, points, seed=realization_seed(seed, *key), **waves)
+            own_seed = realization_seed(seed, *periodic_key(hurst, number))
+            heights = self_affine_square(hurst, points, seed=own_seed, **waves)
             found.append(mean_separations(heights, 4 / np.pi * x))
         separation, fraction = np.moveaxis(np.array(found), 1, 0)
         g = -np.diff(separation) / np.diff(np.log(x))
-        rows = pd.DataFrame([three_columns("g", mean_with_interval(values)) for values in g.T])
-        rows = rows.assign(hurst=hurst, roll_off_wavelength=wavelength, surfaces=surfaces, x=np.sqrt(x[1:] * x[:-1]))
+        rows = pd.DataFrame({"x": np.sqrt(x[1:] * x[:-1])} | three_columns("g", mean_with_interval(g)))
+        rows = rows.assign(hurst=hurst, roll_off_wavelength=wavelength, surfaces=surfaces)
         tables.append(rows.assign(contact_fraction=(fraction[:, 1:] + fraction[:, :-1]).mean(axis=0) / 2))
     return pd.concat(tables, ignore_index=True)[list(COLUMNS)]
 

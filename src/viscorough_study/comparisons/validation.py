@@ -33,7 +33,6 @@ CORRESPONDENCE_TOLERANCE = 1e-11  # of the elastic curve against direct integrat
 # inherit the order of force and of stiffness. Direct integration and the correspondence are both exact on the same
 # grid.
 ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "punch_stiffness": 1, "correspondence": 0}
-WITHOUT_ORDER = "rough_disc"
 GRIDS_FOR_ORDER = 3  # smallest number of grids from which an order is determined
 
 COLUMNS = {
@@ -74,9 +73,9 @@ def judge_errors(errors, limits, order_margin):
     errors : the columns of it up to the error, grids from coarse to fine
     """
     judged = []
-    for (case, quantity), rows in errors.groupby(["case", "quantity"], sort=False):
+    for (_, quantity), rows in errors.groupby(["case", "quantity"], sort=False):
         order, expected = np.nan, ORDERS[quantity]
-        if len(rows) >= GRIDS_FOR_ORDER and case != WITHOUT_ORDER:
+        if len(rows) >= GRIDS_FOR_ORDER and expected > 0:
             order = -np.polyfit(np.log(rows["elements"]), np.log(rows["error"]), 1)[0]
         passed = rows["error"].iloc[-1] <= limits[quantity] and not order < expected - order_margin
         judged.append(rows.assign(order=order, expected_order=expected, limit=limits[quantity], passed=int(passed)))
@@ -98,12 +97,12 @@ def _errors_on_grid(n):
     for name, body in BODIES.items():
         indenter = body.indenter(n)
         yield name, _indentation(indenter, body)
-        for history, errors in _penetration(indenter, body).items():
+        for history, errors in _penetration(indenter, body):
             yield f"{name}_{history}_force", errors
         yield f"{name}_reduction", _reduction(body.mdr_line(n), body)
     yield "sphere_on_rectangles", _indentation(BODIES["sphere"].indenter(2 * n, rows=n), BODIES["sphere"])
     yield from _flat_punches(n)
-    yield WITHOUT_ORDER, {"correspondence": _correspondence(self_affine_disc(elements_across=n, **ROUGH))}
+    yield "rough_disc", {"correspondence": _correspondence(self_affine_disc(elements_across=n, **ROUGH))}
 
 
 def _flat_punches(n):
@@ -137,29 +136,20 @@ def _indentation(indenter, body):
 
 
 def _penetration(indenter, body):
-    """Errors of the correspondence, on a curve with automatic levels, against the viscous solution.
+    """History of the force and errors of the correspondence, on a curve with automatic levels, for two histories.
 
     Constant force: F = FORCE. Rising force: F(t) = 2 FORCE t/T until T, with the same impulse at T.
     """
     loading = body.force(body.mdr_profile(RADII))  # F/G, and impulse over viscosity
     curve = indent(indenter, tolerance=TOLERANCE, until_force=1.01 * loading[-1])
-    exact = body.depth(loading)
-    times = loading * VISCOSITY / FORCE
-    constant = kinetics(curve, FORCE, VISCOSITY, times)
-    rising_times = np.append(0, np.sqrt(times * times[-1]))
+    depth = body.depth(loading)
+    times = np.append(0, loading * VISCOSITY / FORCE)
+    rising_times = np.sqrt(times * times[-1])
     rising_force = 2 * FORCE * rising_times / times[-1]
-    rising = kinetics(curve, rising_force, VISCOSITY, rising_times)
-    stiffness = body.stiffness(exact)
-    return {
-        "constant": {
-            "depth": _error(constant.depth, exact),
-            "velocity": _error(constant.velocity, FORCE / (VISCOSITY * stiffness)),
-        },
-        "rising": {
-            "depth": _error(rising.depth[1:], exact),
-            "velocity": _error(rising.velocity[1:], rising_force[1:] / (VISCOSITY * stiffness)),
-        },
-    }
+    for history, force, at in (("constant", FORCE, times), ("rising", rising_force, rising_times)):
+        motion = kinetics(curve, force, VISCOSITY, at)
+        velocity = np.broadcast_to(force, at.shape)[1:] / (VISCOSITY * body.stiffness(depth))
+        yield history, {"depth": _error(motion.depth[1:], depth), "velocity": _error(motion.velocity[1:], velocity)}
 
 
 def _reduction(line, body):

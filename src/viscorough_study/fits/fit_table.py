@@ -12,8 +12,8 @@ import pandas as pd
 
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
-from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_columns, source_values
-from viscorough_study.fits.intervals import described, described_ends, three_columns
+from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_columns, source_values, zeta_scale
+from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
 
@@ -86,8 +86,7 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
         ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
         ensemble_columns |= {"rms_convention": rms_convention, "realizations": selected.sizes["realization"]}
         for average, (rule, window) in product(FITTED["average"], named_windows(selected, **limits).items()):
-            options = {"average": average, "resamples": resamples, "seed": seed}
-            fitted = _fit(selected, lines, window, **options) if window else {}
+            fitted = _fit(selected, lines, window, average=average, resamples=resamples, seed=seed) if window else {}
             row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
             rows.append({name: row.get(name, np.nan) for name in COLUMNS})
     return rows
@@ -96,12 +95,12 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
 def _fit(ensemble, lines, window, **options):
     """Columns of the fit of an ensemble in one rms convention; options : average, resamples and seed."""
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
-    fit = fit_power_law(x, velocity, window, **options)
+    betas, zetas = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
-    columns |= three_columns("beta", fit.beta())
-    columns["zeta"] = fit.zeta()[0]
+    columns |= three_columns("beta", with_interval(betas, len(velocity))) | {"zeta": zetas[0]}
     for gamma in GAMMA:
-        columns |= dict(zip(interval_columns(gamma), fit.zeta(gamma)[1:], strict=True))
+        _, *ends = with_interval(zeta_scale(betas, gamma) * zetas, len(velocity))
+        columns |= dict(zip(interval_columns(gamma), ends, strict=True))
     if lines is not None:
         columns |= three_columns("lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **options))
     return columns

@@ -8,10 +8,11 @@ at given X changes with the grid and vt/h at the same X does not, it is the lowe
 
 import numpy as np
 import pandas as pd
+from scipy.integrate import cumulative_trapezoid
 from scipy.special import stdtrit
 
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
-from viscorough_study.fits.intervals import UNDEFINED, described, line_slope, three_columns
+from viscorough_study.fits.intervals import UNDEFINED, described, three_columns
 
 DEPTHS = (0.5, 1.0, 2.0)  # u/h at which κ is compared
 FORCES = (0.01, 0.1, 1.0)  # X at which vt/h and u/h are compared
@@ -53,8 +54,7 @@ def grid_dependence(discs, *, elements_min, rms_convention):
 def _quantities(ensemble):
     """{quantity: (its value, elements in contact) for every disc}; u/h = ∫dX/κ, with κ constant below the first X."""
     x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
-    steps = (1 / stiffness[:, 1:] + 1 / stiffness[:, :-1]) / 2 * np.diff(x)
-    depth = np.cumsum(np.column_stack([x[0] / stiffness[:, 0], steps]), axis=1)
+    depth = x[0] / stiffness[:, :1] + cumulative_trapezoid(1 / stiffness, x, axis=1, initial=0)
     curves = [np.broadcast_to(x, depth.shape), depth, stiffness, ensemble["contact_count"].values]
     curves = np.log(np.stack(curves, axis=1))
     found = {}
@@ -86,6 +86,8 @@ def _factor(grids):
     number, logarithms = grids["realizations"].to_numpy(), np.log(grids["value"])
     freedom = np.sum(number - 1)
     scatter = max(np.sqrt(np.sum(grids["variance"] * number) / max(freedom, 1)), ROUNDING)
-    slope, error = line_slope(np.log10(grids["elements"]), logarithms, scatter / np.sqrt(number))
-    half = stdtrit(freedom, 0.975) * error
-    return np.exp(slope + np.array([0.0, -half, half]))
+    x, errors = np.log10(grids["elements"]), scatter / np.sqrt(number)
+    line, covariance = np.polyfit(x, logarithms, 1, w=1 / errors, cov="unscaled")
+    excess = np.sum(((logarithms - np.polyval(line, x)) / errors) ** 2) / (len(grids) - 2)
+    half = stdtrit(freedom, 0.975) * np.sqrt(covariance[0, 0] * max(excess, 1.0))
+    return np.exp(line[0] + np.array([0.0, -half, half]))

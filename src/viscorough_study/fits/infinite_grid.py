@@ -62,7 +62,7 @@ def points(hurst_grids, quantity, *, elements_min, x_high):
     ]
     if len(parts) < 2:
         return None
-    return tuple(np.concatenate([part[i] for part in parts], axis=-1) for i in range(3))
+    return tuple(np.concatenate(arrays, axis=-1) for arrays in zip(*parts, strict=True))
 
 
 def fit(log_x, log_y, weights, *, corrected):
@@ -82,43 +82,37 @@ def fit(log_x, log_y, weights, *, corrected):
     return best
 
 
-def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
+def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
     """Exponents of an infinitely fine grid: a table (pandas.DataFrame) with the columns of `COLUMNS`.
 
-    grids_by_hurst : of fits.scaling_collapse.grids; elements_min, x_high : of the ranges, of which the first are
-        those of the fit itself; tolerance : of β
+    grids_by_source : {source: its grids, of fits.scaling_collapse.grids}; elements_min, x_high : of the ranges, of
+        which the first are those of the fit itself; tolerance : of β
     """
     rows = []
-    for (hurst, hurst_grids), quantity, law in product(grids_by_hurst.items(), QUANTITIES, x_high):
+    cases = [(source, *case) for source, by_hurst in grids_by_source.items() for case in by_hurst.items()]
+    for (source, hurst, hurst_grids), quantity, law in product(cases, QUANTITIES, x_high):
         fits = []
         for start, end in product(elements_min, x_high[law]):
-            values = points(hurst_grids, quantity, elements_min=start, x_high=end)
-            if values is not None:
+            if values := points(hurst_grids, quantity, elements_min=start, x_high=end):
                 fitted = _columns(fit(*values, corrected=law == "corrected"))
                 fits.append({"elements_min": start, "x_high": end} | fitted)
-        if fits:
-            labels = {"source": source, "hurst": hurst, "quantity": quantity, "law": law}
-            over_ranges = _over_ranges(fits, exponent_beta(hurst), tolerance)
-            rows.append(labels | {"grids": len(hurst_grids)} | fits[0] | over_ranges)
+        if not fits:
+            continue
+        low, high = min(row["beta_low"] for row in fits), max(row["beta_high"] for row in fits)
+        expected, undetermined = exponent_beta(hurst), place_in_range(*interval(fits[0], "omega")) == PLACES[2]
+        agrees = None if undetermined else equivalence((low - expected, high - expected), -tolerance, tolerance)
+        row = {"source": source, "hurst": hurst, "quantity": quantity, "law": law, "grids": len(hurst_grids)}
+        row |= fits[0] | {"expected": expected, "ranges": len(fits), "ranges_low": low, "ranges_high": high}
+        rows.append(row | {"finding": FINDINGS[agrees]})
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def _columns(coefficients):
     """Columns of one fit."""
-    _, beta, (correction, *_), omega = zip(
-        coefficients[0], *np.quantile(coefficients[1:], [0.025, 0.975], axis=0), strict=True
-    )
-    row = {"amplitude": np.exp(coefficients[0, 0]), "correction": correction}
+    ends = np.quantile(coefficients[1:], [0.025, 0.975], axis=0)
+    amplitude, beta, correction, omega = np.vstack([coefficients[:1], ends]).T
+    row = {"amplitude": np.exp(amplitude[0]), "correction": correction[0]}
     return row | three_columns("beta", beta) | three_columns("omega", omega)
-
-
-def _over_ranges(fits, expected, tolerance):
-    """Columns of the fits in all ranges, of which the first is that of the table."""
-    low, high = min(row["beta_low"] for row in fits), max(row["beta_high"] for row in fits)
-    undetermined = place_in_range(*interval(fits[0], "omega")) == PLACES[2]
-    agrees = None if undetermined else equivalence((low - expected, high - expected), -tolerance, tolerance)
-    ends = {"expected": expected, "ranges": len(fits), "ranges_low": low, "ranges_high": high}
-    return ends | {"finding": FINDINGS[agrees]}
 
 
 def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
@@ -132,13 +126,10 @@ def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
     options |= {name: conventions[name] for name in ("average", "rms_convention")}
     options |= {"elements_min": min(ranges["elements_min"]), "resamples": ranges["resamples"]}
     ends = {"power": ranges["x_high"], "corrected": ranges["corrected_x_high"]}
-    parts = {"collapse": [], "infinite_grid": []}
-    for source, pool in (("discs", discs), ("controls", discs), ("lines", lines)):
-        grids_by_hurst = grids(pool, source, **options)
-        parts["collapse"].append(collapse_table(grids_by_hurst, source, x_high=ranges["x_high"], tolerance=tolerance))
-        if source == "discs":
-            curves = curve_table(grids_by_hurst, CURVES_END)
-        if source != "controls":
-            limits = {"elements_min": ranges["elements_min"], "x_high": ends, "tolerance": tolerance}
-            parts["infinite_grid"].append(limit_table(grids_by_hurst, source, **limits))
-    return {name: pd.concat(tables, ignore_index=True) for name, tables in parts.items()} | {"collapse_curves": curves}
+    pools = {"discs": discs, "controls": discs, "lines": lines}
+    by_source = {source: grids(pool, source, **options) for source, pool in pools.items()}
+    curves = curve_table(by_source["discs"], CURVES_END)
+    collapses = collapse_table(by_source, x_high=ranges["x_high"], tolerance=tolerance)
+    del by_source["controls"]
+    limits = limit_table(by_source, elements_min=ranges["elements_min"], x_high=ends, tolerance=tolerance)
+    return {"collapse": collapses, "infinite_grid": limits, "collapse_curves": curves}

@@ -70,16 +70,6 @@ def mean_with_interval(samples):
     return mean, mean - error, mean + error
 
 
-def line_slope(x, y, errors):
-    """Slope of the weighted least-squares line, and its standard error; three points or more.
-
-    The error is widened where y scatters about the line more than its standard errors explain.
-    """
-    line, covariance = np.polyfit(x, y, 1, w=1 / errors, cov="unscaled")
-    scatter = np.sum(((y - np.polyval(line, x)) / errors) ** 2) / (len(x) - 2)
-    return line[0], np.sqrt(covariance[0, 0] * max(scatter, 1.0))
-
-
 def deviation_interval(deviation, freedom):
     """Standard deviation of normal samples and its interval by the χ² distribution: (value, low, high)."""
     ends = deviation * np.sqrt(freedom / (2 * gammaincinv(freedom / 2, [0.975, 0.025]))) if freedom else NO_INTERVAL

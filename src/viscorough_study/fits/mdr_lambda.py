@@ -20,14 +20,13 @@ _BISECTIONS = 40  # of ln s; their error is far below the rounding of λ in the 
 class LineMatch:
     """Mean curves of discs and lines: those of the ensembles in the first row, of their resamples in the others.
 
-    x : X, shape (abscissae,), logarithmically uniform; realizations : the smaller number of the two ensembles
+    x : X, shape (abscissae,), logarithmically uniform
     discs, lines : ln of the mean of vt/h over X, shape (1 + resamples, abscissae), nan where a line is undefined
     """
 
     x: np.ndarray
     discs: np.ndarray
     lines: np.ndarray
-    realizations: int
 
     def stretch_at(self, x):
         """ln s that matches discs and lines at X, shape (1 + resamples, X); nan where the lines do not reach."""
@@ -71,10 +70,6 @@ class LineMatch:
             low, high = np.where(too_large, low, middle), np.where(too_large, middle, high)
         return (low + high) / 2
 
-    def with_interval(self, samples):
-        """(value, low, high): the value of the ensembles and its 95 % interval; samples : shape (1 + resamples,)."""
-        return with_interval(samples, self.realizations)
-
 
 def match_lines(x, discs, lines, *, average, resamples, seed):
     """LineMatch of an ensemble of discs and one of lines; both are resampled.
@@ -86,7 +81,7 @@ def match_lines(x, discs, lines, *, average, resamples, seed):
     disc_curves = log_means(discs, average, resamples, generator) - log_x
     line_curves = log_means(lines, average, resamples, generator) - log_x
     line_curves = np.where(np.isfinite(lines).all(axis=0), line_curves, np.nan)
-    return LineMatch(x, disc_curves, line_curves, min(len(discs), len(lines)))
+    return LineMatch(x, disc_curves, line_curves)
 
 
 def match_lambda(x, discs, lines, window, **options):
@@ -96,4 +91,4 @@ def match_lambda(x, discs, lines, window, **options):
     Values are nan if the lines, where all of them are defined, do not reach the stiffness of the discs.
     """
     match = match_lines(x, discs, lines, **options)
-    return match.with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0])
+    return with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0], min(len(discs), len(lines)))

@@ -16,10 +16,9 @@ import pandas as pd
 
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.intervals import described, resampled_means, three_columns, with_interval
-from viscorough_study.fits.power_law import local_slopes
+from viscorough_study.fits.power_law import ROUNDING, local_slopes
 from viscorough_study.run.seeds import plateau_key, realization_seed
 
-ROUNDING = 1e-9  # relative difference below which distances on the logarithmic axis count as equal
 COLUMNS = {
     "case_group": ("base or name of the control, which has no power law", None),
     "hurst": ("Hurst exponent H", "1"),
@@ -124,7 +123,7 @@ def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_mi
     tolerance : of the local slope; decades_min : length for which an ensemble passes; random : numpy.random.Generator
     The results are undefined if a realization does not reach all abscissae.
     """
-    x, margin = ensemble["x"].values, 10 ** (half_width * (1 + 1e-9))
+    x, margin = ensemble["x"].values, 10 ** (half_width * (1 + ROUNDING))
     chosen = (x >= x_range[0] / margin) & (x <= x_range[1] * margin)
     log_x, log_y = np.log(x[chosen]), np.log(ensemble["velocity"].values[:, chosen])
     row = {"hurst": ensemble["hurst"].item(), "realizations": len(log_y), "draws": draws}

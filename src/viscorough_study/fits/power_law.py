@@ -7,12 +7,10 @@ Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn
 They include the scatter between surfaces, but not the choice of the window, which fits in other windows show.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
+from scipy.ndimage import find_objects, label
 
-from viscorough_study.fits.conventions import FITTED, zeta_scale
-from viscorough_study.fits.intervals import with_interval
+from viscorough_study.fits.conventions import FITTED
 
 ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of decades count as equal
 
@@ -87,13 +85,9 @@ def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
     x, stiffness = mean["x"].values, mean["stiffness_geometric"].values
     allowed = allowed & (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
     allowed &= mean["fraction_defined"].values >= fraction_min
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], allowed, [False]])))
-    first, last = edges[::2], edges[1::2] - 1
-    decades = np.log10(x[last] / x[first])
-    if decades.size == 0 or decades.max() < decades_min * (1 - ROUNDING):
-        return None
-    longest = np.argmax(decades)
-    return x[first[longest]], x[last[longest]]
+    runs = [(x[run][0], x[run][-1]) for (run,) in find_objects(label(allowed)[0])]
+    decades = [np.log10(last / first) for first, last in runs]
+    return runs[np.argmax(decades)] if max(decades, default=-1) >= decades_min * (1 - ROUNDING) else None
 
 
 def in_window(x, window):
@@ -104,29 +98,8 @@ def in_window(x, window):
 # ---- fits
 
 
-@dataclass(frozen=True)
-class PowerLaw:
-    """vt/h = X^β/ζ, fitted over a window of an ensemble.
-
-    betas, zetas : of the ensemble, then of its resamples, shape (resamples + 1,)
-    realizations : number in the ensemble
-    """
-
-    betas: np.ndarray
-    zetas: np.ndarray
-    realizations: int
-
-    def beta(self):
-        """β and its 95 % interval, (value, low, high)."""
-        return with_interval(self.betas, self.realizations)
-
-    def zeta(self, gamma="without"):
-        """ζ and its 95 % interval, (value, low, high), in a reading of the law (viscorough_study.fits.conventions)."""
-        return with_interval(zeta_scale(self.betas, gamma) * self.zetas, self.realizations)
-
-
 def fit_power_law(x, velocity, window, *, average, resamples, seed):
-    """PowerLaw of the mean curve: least squares of ln(vt/h) on ln X, equal weight for each abscissa.
+    """β and ζ of vt/h = X^β/ζ: least squares of ln(vt/h) of the mean curve on ln X, equal weight for each abscissa.
 
     x : X, shape (abscissae,), logarithmically uniform (viscorough_study.ensembles.averages.abscissa)
     velocity : vt/h, shape (realizations, abscissae), nan where undefined
@@ -134,6 +107,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     resamples : number of bootstrap samples; seed : int or SeedSequence. The same seed draws the same realizations
         for every window and average, so that the bootstrap adds no noise to differences between conventions.
 
+    Returns two arrays of shape (resamples + 1,): β, and ζ in the plain reading, of the ensemble, then of its resamples.
     Raises ValueError if fewer than three abscissae lie in the window, or one of them has no realization.
     """
     chosen = in_window(x, window)
@@ -147,7 +121,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     offset = log_x - log_x.mean()
     beta = mean @ offset / (offset @ offset)
     intercept = mean.mean(axis=1) - beta * log_x.mean()
-    return PowerLaw(beta, np.exp(-intercept), len(velocity))
+    return beta, np.exp(-intercept)
 
 
 def log_means(velocity, average, resamples, generator):
@@ -162,8 +136,7 @@ def log_means(velocity, average, resamples, generator):
     weights = np.bincount(drawn.ravel(), minlength=resamples * n).reshape(resamples, n)
     weights = np.vstack([np.ones(n), weights])
     defined = np.isfinite(velocity)
-    positive = np.where(defined, velocity, 1)
-    values = np.where(defined, np.log(positive) if average == "geometric" else positive, 0)
+    values = np.where(defined, np.log(velocity) if average == "geometric" else velocity, 0)
     with np.errstate(invalid="ignore", divide="ignore"):  # nan where a resample has no realization
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)

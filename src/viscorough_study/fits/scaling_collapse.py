@@ -24,7 +24,7 @@ from scipy.special import zeta
 from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.flat_punch import grid_and_punch
 from viscorough_study.ensembles.pool import ensembles, select
-from viscorough_study.fits.power_law import log_means
+from viscorough_study.fits.power_law import ROUNDING, log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
 FINDINGS = ("collapses", "does not collapse", "undecided")
@@ -84,7 +84,7 @@ class Grid:
             values = np.exp(values) - np.exp(log_x) / self.punch
             values = np.log(np.where(values > 0, values, np.nan))
         shift = np.log(self.share) / 2
-        kept = (log_x <= np.log(x_high) + 1e-9) & np.isfinite(values).all(axis=0)
+        kept = (log_x <= np.log(x_high) + ROUNDING) & np.isfinite(values).all(axis=0)
         kept &= np.logical_or.accumulate(self.count >= elements_min)
         if kept.sum() < FEWEST["abscissae"]:
             return None
@@ -147,15 +147,16 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     return grids_by_hurst
 
 
-def collapse_table(grids_by_hurst, source, *, x_high, tolerance):
+def collapse_table(grids_by_source, *, x_high, tolerance):
     """Rows of `COLUMNS` for every Hurst exponent, quantity and end of the range.
 
-    grids_by_hurst : of `grids`; x_high : ends of the range, X; tolerance : of β
+    grids_by_source : {source: its `grids`}; x_high : ends of the range, X; tolerance : of β
     """
     rows = []
-    for (hurst, hurst_grids), quantity, end in product(grids_by_hurst.items(), QUANTITIES, x_high):
-        labels = {"source": source, "hurst": hurst, "quantity": quantity, "x_high": end}
-        rows.append(labels | collapse(hurst_grids, hurst, quantity, end, tolerance=tolerance))
+    for source, grids_by_hurst in grids_by_source.items():
+        for (hurst, hurst_grids), quantity, end in product(grids_by_hurst.items(), QUANTITIES, x_high):
+            labels = {"source": source, "hurst": hurst, "quantity": quantity, "x_high": end}
+            rows.append(labels | collapse(hurst_grids, hurst, quantity, end, tolerance=tolerance))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -169,12 +170,11 @@ def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
         return row
     tried = expected + np.arange(-TRIED, TRIED + STEP / 2, STEP)
     accepted = [beta for beta in tried if 0 <= beta < 0.9 and p_value(curves, beta) >= 0.05]
-    row["p_value"] = p_value(curves, expected)
-    if accepted:
-        row["beta_low"], row["beta_high"] = min(accepted), max(accepted)
+    low, high = min(accepted, default=np.nan), max(accepted, default=np.nan)
+    row |= {"p_value": p_value(curves, expected), "beta_low": low, "beta_high": high}
     if row["p_value"] < 0.05:
         row["finding"] = FINDINGS[1]
-    elif accepted and min(accepted) >= expected - tolerance and max(accepted) <= expected + tolerance:
+    elif low >= expected - tolerance and high <= expected + tolerance:
         row["finding"] = FINDINGS[0]
     return row
 
@@ -190,16 +190,16 @@ def p_value(curves, beta):
     common_x = np.arange(min(x[0] for x in scaled), max(x[-1] for x in scaled), step)
     moved, weights = [], []
     for x, (grid, (_, log_y)) in zip(scaled, curves, strict=True):
-        inside = (common_x >= x[0] - 1e-9 * step) & (common_x < x[-1] - 1e-9 * step)
         values = make_interp_spline(x, log_y, k=1, axis=1)(common_x) + power * np.log(grid.number)
         values[1:] -= values[0]  # resamples of one common curve
-        moved.append(np.where(inside, values, 0.0))
+        moved.append(values)
+        inside = (common_x >= x[0] - ROUNDING * step) & (common_x < x[-1] - ROUNDING * step)
         weights.append(grid.realizations * inside)
-    moved, weights = np.array(moved), np.array(weights, dtype=float)
-    weights[:, np.count_nonzero(weights, axis=0) < 2] = 0.0
-    if not weights.any():
+    moved, weights = np.array(moved), np.array(weights)[:, None]
+    shared = np.count_nonzero(weights, axis=0)[0] > 1
+    if not shared.any():
         return np.nan
-    total = weights.sum(axis=0)
-    common = np.sum(weights[:, None] * moved, axis=0) / np.where(total > 0, total, 1)
-    spreads = np.sqrt(np.sum(weights[:, None] * (moved - common) ** 2, axis=(0, 2)) / total.sum())
+    moved, weights = moved[..., shared], weights[..., shared]
+    common = np.sum(weights * moved, axis=0) / weights.sum(axis=0)
+    spreads = np.sqrt(np.sum(weights * (moved - common) ** 2, axis=(0, 2)) / weights.sum())
     return np.mean(spreads[1:] >= spreads[0])

@@ -14,8 +14,6 @@ biased to large values.
 Eq. 4 is a law of the elastic contact, without the factor; the paper compares it with Eq. 11 with the factor.
 """
 
-from itertools import product
-
 import numpy as np
 import pandas as pd
 
@@ -65,24 +63,23 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
     Values are nan where a Hurst exponent has no region (b) or, of curves, where the regions have no X in common.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, []
-    for hurst_min, (quantity, ratios) in product(hurst_mins, (("zeta", _zeta_ratios), ("curve", _curve_ratios))):
+    for hurst_min in hurst_mins:
         chosen = {hurst: ensemble for hurst, ensemble in ensembles.items() if hurst >= hurst_min}
         number = min((ensemble.sizes["realization"] for ensemble in chosen.values()), default=0)
-        samples = ratios(chosen, {hurst: windows[hurst] for hurst in chosen}, **bootstrap)
-        measures = {law: _measures(values) for law, values in samples.items()}
-        for law in list(LAWS)[:-1]:
-            less = {name: measures[law][name] - measures[LAST][name] for name in ("deviation", "spread")}
-            measures[difference(law)] = less
-        for law, law_measures in measures.items():
-            for measure, values in law_measures.items():
-                rows.append((hurst_min, quantity, law, measure, *with_interval(values, number), number))
+        for quantity, ratios in _ratios(chosen, [windows[hurst] for hurst in chosen], **bootstrap).items():
+            measures = {law: _measures(values) for law, values in ratios.items()}
+            for law in list(LAWS)[:-1]:
+                less = {name: measures[law][name] - measures[LAST][name] for name in ("deviation", "spread")}
+                measures[difference(law)] = less
+            for law, law_measures in measures.items():
+                for measure, values in law_measures.items():
+                    rows.append((hurst_min, quantity, law, measure, *with_interval(values, number), number))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def measure_value(table, quantity, law, measure, hurst_min=0.0):
     """Value and 95 % interval, (value, low, high), of one row of the table; nan without such a row."""
-    wanted = {"quantity": quantity, "law": law, "measure": measure, "hurst_min": hurst_min}
-    rows = table[np.logical_and.reduce([table[name] == value for name, value in wanted.items()])]
+    rows = table.query("quantity == @quantity and law == @law and measure == @measure and hurst_min == @hurst_min")
     return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
 
 
@@ -101,33 +98,26 @@ def _measures(logarithms):
     }
 
 
-def _zeta_ratios(ensembles, windows, *, average, resamples, seed):
-    """{law: ln of ζ over the law}, shape (resamples + 1, Hurst exponents, 1); nan without a region (b)."""
-    if not windows or None in windows.values():
-        return UNCOMPARED
-    ratios = {law: [] for law in LAWS}
-    for i, (hurst, ensemble) in enumerate(ensembles.items()):
-        own = {"average": average, "resamples": resamples, "seed": [seed, i]}
-        fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, windows[hurst], **own)
-        for law, (function, gamma) in LAWS.items():
-            scale = zeta_scale(fit.betas, "with" if gamma else "without")
-            ratios[law].append(np.log(fit.zetas * scale / function(hurst)))
-    return {law: np.stack(values, axis=1)[..., None] for law, values in ratios.items()}
+def _ratios(ensembles, windows, *, average, resamples, seed):
+    """{quantity: {law: ln of ζ, or of vt/h of the curves, over the law}}, shape (resamples + 1, Hurst exponents, X).
 
-
-def _curve_ratios(ensembles, windows, *, average, resamples, seed):
-    """{law: ln of vt/h over the law}, shape (resamples + 1, Hurst exponents, X); nan without common abscissae."""
-    if not windows or None in windows.values():
-        return UNCOMPARED
-    lows, highs = zip(*windows.values(), strict=True)
-    if max(lows) >= min(highs):
-        return UNCOMPARED
-    ratios = {law: [] for law in LAWS}
-    for i, (hurst, ensemble) in enumerate(ensembles.items()):
-        x = ensemble["x"].values
-        chosen, generator = in_window(x, (max(lows), min(highs))), np.random.default_rng([seed, i])
-        means = log_means(ensemble["velocity"].values[:, chosen], average, resamples, generator)
+    windows : of the ensembles; nan without a region (b), and of curves without common abscissae
+    """
+    if not windows or None in windows:
+        return {"zeta": UNCOMPARED, "curve": UNCOMPARED}
+    common = max(low for low, _ in windows), min(high for _, high in windows)
+    zeta_ratios, curve_ratios = {law: [] for law in LAWS}, {law: [] for law in LAWS}
+    for i, ((hurst, ensemble), window) in enumerate(zip(ensembles.items(), windows, strict=True)):
+        x, velocity = ensemble["x"].values, ensemble["velocity"].values
+        betas, zetas = fit_power_law(x, velocity, window, average=average, resamples=resamples, seed=[seed, i])
+        inside, generator = in_window(x, common), np.random.default_rng([seed, i])
+        means = log_means(velocity[:, inside], average, resamples, generator)
         for law, (function, gamma) in LAWS.items():
-            alpha = reference.exponent_alpha(hurst)
-            ratios[law].append(means - np.log(reference.velocity_law(x[chosen], function(hurst), alpha, gamma=gamma)))
-    return {law: np.stack(values, axis=1) for law, values in ratios.items()}
+            zeta, scale = function(hurst), zeta_scale(betas, "with" if gamma else "without")
+            curve = reference.velocity_law(x[inside], zeta, reference.exponent_alpha(hurst), gamma=gamma)
+            zeta_ratios[law].append(np.log(zetas * scale / zeta)[:, None])
+            curve_ratios[law].append(means - np.log(curve))
+    zeta_ratios, curve_ratios = (
+        {law: np.stack(values, axis=1) for law, values in ratios.items()} for ratios in (zeta_ratios, curve_ratios)
+    )
+    return {"zeta": zeta_ratios, "curve": curve_ratios if common[0] < common[1] else UNCOMPARED}

@@ -7,7 +7,6 @@ than that of the automatic levels. The tolerance of every level is the required 
 """
 
 import logging
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -16,7 +15,6 @@ from threadpoolctl import threadpool_limits
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.performance import timing
 
@@ -39,88 +37,70 @@ COLUMNS = {
 }
 
 
-@dataclass(frozen=True)
-class Scene:
-    """An indenter, the accuracy required of the depth, and the contact fractions at the ends of the range of force."""
-
-    name: str
-    indenter: Indenter
-    accuracy: float
-    first: float
-    last: float
-
-
 def scenes(elements, hurst, seed):
-    """The scenes: one asperity, and a rough disc in region (b) alone and over a full curve with three accuracies."""
+    """The scenes: one asperity, and a rough disc in region (b) alone and over a full curve with three accuracies.
+
+    Returns tuples: name, indenter, accuracy required of the depth, contact fractions at the ends of the range of force.
+    """
     asperity = reference.sphere(1.0).indenter(elements)
     disc = self_affine_disc(hurst, elements, seed=seed)
     few = 10 / disc.elements
     return [
-        Scene("one asperity", asperity, 1e-3, 0.01, 0.5),
-        Scene("region (b)", disc, 1e-3, few, max(0.02, 4 * few)),
-        Scene("full curve", disc, 1e-3, few, 0.9),
-        Scene("coarse question", disc, 3e-2, few, 0.9),
-        Scene("fine question", disc, 1e-4, few, 0.9),
+        ("one asperity", asperity, 1e-3, 0.01, 0.5),
+        ("region (b)", disc, 1e-3, few, max(0.02, 4 * few)),
+        ("full curve", disc, 1e-3, few, 0.9),
+        ("coarse question", disc, 3e-2, few, 0.9),
+        ("fine question", disc, 1e-4, few, 0.9),
     ]
 
 
 def compare_scenes(*, elements, hurst, seed, repeats):
     """The three choices of levels for every scene, on one thread; a pandas.DataFrame with the columns of `COLUMNS`."""
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
-        return pd.concat([compare(scene, repeats) for scene in scenes(elements, hurst, seed)])
+        return pd.concat([compare(*scene, repeats) for scene in scenes(elements, hurst, seed)])
 
 
-def compare(scene, repeats, *, hand_picked=HAND_PICKED, naive=NAIVE):
+def compare(name, indenter, accuracy, first_fraction, last_fraction, repeats, *, hand_picked=HAND_PICKED, naive=NAIVE):
     """Cost and error of the three choices of levels for a scene.
 
+    name, indenter, accuracy, first_fraction, last_fraction : as of `scenes`
     repeats : number of interleaved repeats, of which the times are medians
     hand_picked, naive : numbers of levels to try, increasing
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per choice, "automatic", "best by hand" (absent if
     no number reaches the accuracy) and "naive".
     """
-    coarse = indent(scene.indenter, tolerance=1e-2, until_fraction=scene.last)
-    ends = np.interp([scene.first, scene.last], coarse.contact_fraction, coarse.depth)
-    exact = indent(scene.indenter, tolerance=REFERENCE_TOLERANCE, depths=np.geomspace(*ends, PROBES))
-    path = partial(indent, scene.indenter, tolerance=scene.accuracy)
+    coarse = indent(indenter, tolerance=1e-2, until_fraction=last_fraction)
+    ends = np.interp([first_fraction, last_fraction], coarse.contact_fraction, coarse.depth)
+    exact = indent(indenter, tolerance=REFERENCE_TOLERANCE, depths=np.geomspace(*ends, PROBES))
+    path = partial(indent, indenter, tolerance=accuracy)
     # With the margin of levels by hand: the level of a contact fraction first reached at a force may lie beyond it.
-    range_of_force = {"start_fraction": scene.first * (1 - MARGIN), "until_fraction": 1, "until_force": exact.force[-1]}
-    automatic = _row(scene, "automatic", partial(path, **range_of_force), exact)
+    start = {"start_fraction": first_fraction * (1 - MARGIN)}
+    automatic = _row("automatic", partial(path, **start, until_fraction=1, until_force=exact.force[-1]), exact)
     first, last = ends * [1 - MARGIN, 1 + MARGIN]
 
-    logging.info("%s: levels by hand", scene.name)
-    by_hand = []
+    logging.info("%s: levels by hand", name)
     for number in hand_picked:
-        row = _row(scene, "best by hand", partial(path, depths=np.geomspace(first, last, number)), exact)
-        if row["reached"]:
-            by_hand.append(row)
-        if row["reached"] or number > MAX_RATIO_HAND_PICKED * automatic["levels"]:  # more levels would cost more
+        by_hand = _row("best by hand", partial(path, depths=np.geomspace(first, last, number)), exact)
+        # More levels would cost more.
+        if by_hand["error"] <= accuracy or number > MAX_RATIO_HAND_PICKED * automatic["levels"]:
             break
-    logging.info("%s: naive levels", scene.name)
+    logging.info("%s: naive levels", name)
     for number in naive:
-        row = _row(scene, "naive", partial(path, depths=np.linspace(0, last, number + 1)[1:]), exact)
-        if row["error"] <= automatic["error"] or row["wall_s"] > MAX_RATIO_NAIVE * automatic["wall_s"]:
+        by_steps = _row("naive", partial(path, depths=np.linspace(0, last, number + 1)[1:]), exact)
+        if by_steps["error"] <= automatic["error"] or by_steps["wall_s"] > MAX_RATIO_NAIVE * automatic["wall_s"]:
             break
 
-    rows = [automatic, *by_hand, row]
-    functions = {i: row.pop("function") for i, row in enumerate(rows)}
-    for i, (wall, _) in timing.interleaved(functions, repeats).items():
-        rows[i]["wall_s"] = wall
-        rows[i]["ratio"] = wall / rows[0]["wall_s"]
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+    rows = [automatic, *([by_hand] if by_hand["error"] <= accuracy else []), by_steps]
+    times = timing.interleaved({i: row["function"] for i, row in enumerate(rows)}, repeats)
+    table = pd.DataFrame(rows).assign(scene=name, accuracy=accuracy, wall_s=[wall for wall, _ in times.values()])
+    table = table.assign(ratio=table["wall_s"] / table["wall_s"][0], reached=(table["error"] <= accuracy).astype(int))
+    return table[list(COLUMNS)]
 
 
-def _row(scene, choice, levels, exact):
+def _row(choice, levels, exact):
+    """Choice, function that computes its curve, number of levels, error and time."""
     curve, wall, _ = timing.timed(levels)
     depth, _ = curve.at_force(exact.force)
     error = np.nan_to_num(np.abs(depth / exact.depth - 1), nan=1.0).max()
-    return {
-        "scene": scene.name,
-        "choice": choice,
-        "accuracy": scene.accuracy,
-        "error": error,
-        "reached": int(error <= scene.accuracy),
-        "levels": curve.depth.size,
-        "wall_s": wall,
-        "function": levels,
-    }
+    return {"choice": choice, "function": levels, "error": error, "levels": curve.depth.size, "wall_s": wall}

@@ -49,26 +49,23 @@ def measure(problem, repeats, *, longest, methods=METHODS):
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, one row per method and value.
     """
-    rows, functions = {}, {}
+    rows, functions, elements = {}, {}, len(problem.indenter.heights)
     for method in methods:
-        if problem.elements_across > method.largest or (method.rough_only and problem.hurst is None):
+        if elements > method.largest or (method.rough_only and problem.body):
             continue
         for value in method.values:
             logging.info("%s: %s, %s %g", problem.name, method.name, method.parameter, value)
             function = partial(method.run, problem, value)
-            answer, *seconds = timing.timed(function)
+            (velocity, steps), *seconds = timing.timed(function)
             key = method.name, value
             rows[key] = {
-                "problem": problem.name,
-                "hurst": np.nan if problem.hurst is None else problem.hurst,
-                "elements": problem.elements_across,
                 "method": method.name,
                 "group": method.group,
                 "parameter": method.parameter,
                 "value": float(value),
                 **dict(zip(TIMES, seconds, strict=True)),
-                "error": np.sqrt(np.mean((answer.velocity / problem.velocity - 1) ** 2)),
-                "steps": answer.steps,
+                "error": np.sqrt(np.mean((velocity / problem.velocity - 1) ** 2)),
+                "steps": steps,
             }
             spent = min(seconds)  # on a busy machine only the wall time grows
             if spent < min(longest, MAX_REPEATED):
@@ -78,4 +75,5 @@ def measure(problem, repeats, *, longest, methods=METHODS):
     logging.info("%s: %d repeats", problem.name, repeats)
     for key, seconds in timing.interleaved(functions, repeats).items():
         rows[key] |= dict(zip(TIMES, seconds, strict=True))
-    return pd.DataFrame(rows.values(), columns=list(COLUMNS))
+    table = pd.DataFrame(rows.values()).assign(problem=problem.name, hurst=problem.hurst, elements=elements)
+    return table[list(COLUMNS)]

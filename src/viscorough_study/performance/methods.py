@@ -19,17 +19,11 @@ from viscorough.viscous.integration.stepping import march_steps
 
 
 @dataclass(frozen=True)
-class Answer:
-    """Velocities vt at a problem's levels; steps : levels, events, time steps or points."""
-
-    velocity: np.ndarray
-    steps: int = 0
-
-
-@dataclass(frozen=True)
 class Method:
-    """A method; `run(problem, value)` returns an Answer, `values` are those of its parameter, from coarse to fine.
+    """A method; `values` are those of its parameter, from coarse to fine.
 
+    run : function of problem and value; returns the velocities vt at the problem's levels, and the number of steps:
+        levels, events, time steps or points
     group : of methods in tables and figures; largest : elements across the indenter up to which it is measured
     rough_only : whether it applies to rough discs only
     """
@@ -50,13 +44,13 @@ def _automatic(problem, tolerance):
     """Levels chosen automatically, and interpolation between them."""
     curve = indent(problem.indenter, tolerance=tolerance, until_fraction=1, until_force=problem.force[-1] * (1 + 1e-12))
     _, stiffness = curve.at_force(problem.force)
-    return Answer(problem.force / stiffness, curve.depth.size)
+    return problem.force / stiffness, curve.depth.size
 
 
 def _at_levels(problem, tolerance):
     """Exactly the problem's depths, with the exact tangent stiffness there."""
     curve = indent(problem.indenter, tolerance=tolerance, depths=problem.depth)
-    return Answer(curve.force / curve.stiffness, curve.depth.size)
+    return curve.force / curve.stiffness, curve.depth.size
 
 
 # ---- direct integration
@@ -65,8 +59,7 @@ def _at_levels(problem, tolerance):
 def _events(problem, fraction):
     """Direct integration from contact event to contact event, up to a contact fraction."""
     events = march_events(problem.indenter, until_fraction=fraction)
-    last = np.searchsorted(events.impulse, problem.force, side="right") - 1
-    return Answer(problem.force / events.resistance[last], events.impulse.size)
+    return problem.force / events.resistance[events.event_at(problem.force)], events.impulse.size
 
 
 def _steps(scheme, problem, number):
@@ -74,13 +67,13 @@ def _steps(scheme, problem, number):
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
-    return Answer(problem.force / resistance, steps.impulse.size)
+    return problem.force / resistance, steps.impulse.size
 
 
 def _implicit(problem, tolerance):
     """Backward Euler steps that end at the problem's impulses."""
     steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
-    return Answer(problem.force / steps.resistance, steps.impulse.size)
+    return problem.force / steps.resistance, steps.impulse.size
 
 
 # ---- models
@@ -90,12 +83,12 @@ def _reduction(problem, points):
     """MDR with the exact line of a body of revolution, or for a rough disc one random line of the same h, L and H."""
     line = problem.body.mdr_line(points) if problem.body else self_affine_line(problem.hurst, points, seed=problem.seed)
     _, stiffness = reduce(line, until_force=problem.force[-1] * (1 + 1e-12)).at_force(problem.force)
-    return Answer(problem.force / stiffness, points)
+    return problem.force / stiffness, points
 
 
 def _law(problem, gamma):
     """The closed law, Eq. 12, with or without the factor 1/Γ(2−α), in units of h = 1."""
-    return Answer(reference.rate_law(problem.force / 4, problem.hurst, gamma=bool(gamma)))
+    return reference.rate_law(problem.force / 4, problem.hurst, gamma=bool(gamma)), 0
 
 
 TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
@@ -106,10 +99,8 @@ METHODS = (
     Method("path, automatic levels", "path", "tolerance", TOLERANCES, _automatic),
     Method("path, at the depths", "path", "tolerance", FINE_TOLERANCES, _at_levels),
     Method("events", "marching", "contact fraction", (1.0,), _events, 65),
-    *(
-        Method(f"{scheme}, logarithmic steps", "marching", "steps", STEPS, partial(_steps, scheme), 257)
-        for scheme in ("explicit", "heun")
-    ),
+    Method("explicit, logarithmic steps", "marching", "steps", STEPS, partial(_steps, "explicit"), 257),
+    Method("heun, logarithmic steps", "marching", "steps", STEPS, partial(_steps, "heun"), 257),
     Method("implicit", "marching", "tolerance", (1e-2, 1e-4, 1e-6, 1e-8), _implicit, 257),
     Method("MDR", "model", "points", tuple(2**n for n in range(6, 23, 2)), _reduction),
     Method("Eq. 12 without Γ", "model", "gamma", (0,), _law, rough_only=True),

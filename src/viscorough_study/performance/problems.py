@@ -23,7 +23,7 @@ class Problem:
     """An indenter with h = L = 1 and its reference solution; arrays of shape (levels,).
 
     depth, force, velocity : u, F/G and vt = (F/G)/(k/G) of the reference solution
-    hurst, seed : of a rough disc; body : of a body of revolution with an exact solution; otherwise None
+    hurst, seed : of a rough disc; body : of a body of revolution with an exact solution; otherwise nan or None
     """
 
     name: str
@@ -31,38 +31,27 @@ class Problem:
     depth: np.ndarray
     force: np.ndarray
     velocity: np.ndarray
-    hurst: float | None = None
+    hurst: float = np.nan
     seed: np.random.SeedSequence | None = None
     body: reference.PowerLawBody | None = None
 
-    @property
-    def elements_across(self):
-        """Elements across the indenter."""
-        return len(self.indenter.heights)
-
-
-def rough_problem(hurst, elements, levels, root):
-    """A self-affine disc, at depths in equal ratios from just above the second contact to FINAL_X or FINAL_FRACTION.
-
-    hurst : Hurst exponent; elements : across the disc; levels : number of depths; root : root seed
-    """
-    seed = realization_seed(root, *method_problem_key(hurst, elements))
-    disc = self_affine_disc(hurst, elements, seed=seed)
-    coarse = indent(disc, tolerance=1e-2, until_fraction=FINAL_FRACTION, until_force=4 * FINAL_X)
-    first = coarse.depth[np.argmax(coarse.contact_count > 1)]
-    depth = np.geomspace(1.5 * first, coarse.depth[-1], levels)
-    exact = indent(disc, tolerance=REFERENCE_TOLERANCE, depths=depth)
-    velocity = exact.force / exact.stiffness
-    return Problem(f"rough disc, H = {hurst:g}", disc, depth, exact.force, velocity, hurst=hurst, seed=seed)
-
 
 def named_problem(name, elements, levels, *, root=None, hurst=None):
-    """A problem by the name of its body, "sphere", "cone" or "rough disc"; root, hurst : of a rough disc.
+    """A problem by the name of its body, "sphere", "cone" or "rough disc", a self-affine one.
 
-    Sphere and cone are at contact radii from 0.1 to 0.45 L, with the velocities of the exact solution.
+    elements : across the indenter; levels : number of depths; root, hurst : root seed and Hurst exponent of a disc
+    Sphere and cone are at contact radii from 0.1 to 0.45 L, with the velocities of the exact solution; discs at depths
+    in equal ratios from just above the second contact to FINAL_X or FINAL_FRACTION.
     """
     if name == "rough disc":
-        return rough_problem(hurst, elements, levels, root)
+        seed = realization_seed(root, *method_problem_key(hurst, elements))
+        disc = self_affine_disc(hurst, elements, seed=seed)
+        coarse = indent(disc, tolerance=1e-2, until_fraction=FINAL_FRACTION, until_force=4 * FINAL_X)
+        first = coarse.depth[np.argmax(coarse.contact_count > 1)]
+        depth = np.geomspace(1.5 * first, coarse.depth[-1], levels)
+        exact = indent(disc, tolerance=REFERENCE_TOLERANCE, depths=depth)
+        velocity = exact.force / exact.stiffness
+        return Problem(f"rough disc, H = {hurst:g}", disc, depth, exact.force, velocity, hurst=hurst, seed=seed)
     body = BODIES[name]
     depth = body.mdr_profile(np.geomspace(0.1, 0.45, levels))
     force, indenter = body.force(depth), body.indenter(elements)

@@ -12,11 +12,8 @@ import numpy as np
 
 def interleaved(functions, repeats):
     """{name: (wall, processor) seconds} of functions that have run before, medians over interleaved repeats."""
-    times = {name: [] for name in functions}
-    for _ in range(repeats):
-        for name, function in functions.items():
-            times[name].append(timed(function)[1:])
-    return {name: tuple(np.median(seconds, axis=0).tolist()) for name, seconds in times.items()}
+    times = [[timed(function)[1:] for function in functions.values()] for _ in range(repeats)]
+    return dict(zip(functions, map(tuple, np.median(times, axis=0).tolist()), strict=True))
 
 
 def timed(function):

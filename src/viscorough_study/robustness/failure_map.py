@@ -13,7 +13,7 @@ import pandas as pd
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.viscous.correspondence import impulses
 from viscorough_study.robustness.stress_cases import stress_cases
-from viscorough_study.robustness.stress_solutions import METHODS, reference_solution
+from viscorough_study.robustness.stress_solutions import METHODS, MODELS, reference_solution
 from viscorough_study.run.seeds import failure_map_key, realization_seed
 
 MIN_ELEMENTS = 10  # elements in contact below which the grid determines the result, region (a)
@@ -32,8 +32,7 @@ VERDICTS = ("holds", "model", "stated", "warned", "refused", "unnoticed")
 
 def map_failures(*, seed, across, grids, hurst_min):
     """`failure_map` of all stress-test cases, with a warning in the log for every unnoticed failure."""
-    cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
-    table = failure_map(cases)
+    table = failure_map(stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min))
     for row in table[table["verdict"] == "unnoticed"].itertuples():
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
     return table
@@ -47,36 +46,29 @@ def failure_map(cases, methods=METHODS):
         question = (case.indenter.heights.tobytes(), case.indenter.spacing, case.fractions)  # shared by many cases
         if question not in solutions:
             solutions[question] = reference_solution(case)
-        rows += [_cell(case, solutions[question], method) for method in methods]
+        for name, (ratios, limit) in methods.items():
+            cell = _cell(case, solutions[question], ratios, limit(case), is_model=name in MODELS)
+            rows.append((case.group, case.name, name, *cell))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _cell(case, solution, method):
-    """Row of one method on one case."""
-    messages, error, refused = [], 1.0, False
+def _cell(case, solution, ratios, limit, *, is_model):
+    """Error, limit, verdict and reason of a method, of which these are the ratios and the limit, on one case."""
+    messages, error, verdict = [], 1.0, ""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         try:
             impulses(np.array(case.force), np.arange(len(case.force), dtype=float))  # refuses tensile forces
-            ratios = method.ratios(case, solution)
-            error = float(np.abs(np.nan_to_num(ratios, nan=0.0) - 1).max())
+            error = float(np.abs(np.nan_to_num(ratios(case, solution), nan=0.0) - 1).max())
         except (ValueError, ConvergenceError, MemoryError) as reason:
-            messages, refused = [str(reason)], True
+            messages, verdict = [str(reason)], "refused"
     messages += [str(warning.message) for warning in caught if issubclass(warning.category, AccuracyWarning)]
-    limit = method.limit(case)
-    if refused:
-        verdict = "refused"
-    elif error <= limit:
-        verdict = "model" if method.model else "holds"
-    else:
-        stated = _stated_limits(case, solution) if method.model else []
+    if not verdict and error <= limit:
+        verdict = "model" if is_model else "holds"
+    elif not verdict:
+        limits = {case.stated: is_model, FEW_ELEMENTS: is_model and solution.count[0] < MIN_ELEMENTS}
+        stated = [text for text, applies in limits.items() if text and applies]  # in the documentation of models
         verdict = "warned" if messages else "stated" if stated else "unnoticed"
         messages += stated
     reason = " ".join("; ".join(dict.fromkeys(messages)).split())
-    return case.group, case.name, method.name, error, limit, verdict, reason
-
-
-def _stated_limits(case, solution):
-    """Documented limits of models that apply to a case."""
-    limits = [case.stated] if case.stated else []
-    return limits + ([FEW_ELEMENTS] if solution.count[0] < MIN_ELEMENTS else [])
+    return error, limit, verdict, reason

@@ -1,6 +1,7 @@
 """Stress-test cases: indenters and loads for every method."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -24,7 +25,7 @@ class StressCase:
     force : F at equal intervals of time; constant by default
     stated : reason, in their documentation, why models do not apply to this case
     medium : a viscoelastic medium; None for a Newtonian one
-    medium_load : (time, force) in it, up to a factor of the force; recedes : whether the contact recedes under it
+    medium_load : (time, force) in it, up to a factor of the force
     """
 
     group: str
@@ -39,7 +40,6 @@ class StressCase:
     stated: str = ""
     medium: object = None
     medium_load: tuple = ()
-    recedes: bool = False
 
 
 def stress_cases(seed, across, grids, hurst_min):
@@ -49,83 +49,69 @@ def stress_cases(seed, across, grids, hurst_min):
     grids : elements across the discs of the group that varies the grid
     hurst_min : Hurst exponent above which the paper says that Eq. 5 holds (resources/paper/numbers.yaml)
     """
-    maps = _Maps(seed, across)
-    yield from _disc_cases(maps, grids, hurst_min)
-    yield from _tied_cases(maps)
-    yield from _shape_cases(maps)
-    yield from _question_cases(maps)
-    yield from _medium_cases(maps)
+    disc = partial(self_affine_disc, elements_across=across, seed=seed)
+    usual = {"indenter": disc(0.7), "hurst": 0.7}
+    yield from _disc_cases(disc, usual, grids, hurst_min)
+    yield from _tied_cases(across, seed)
+    yield from _shape_cases(across)
+    yield from _question_cases(usual)
+    yield from _medium_cases(usual)
 
 
-@dataclass(frozen=True)
-class _Maps:
-    """Height maps of `across` elements across."""
+def _disc_cases(disc, usual, grids, hurst_min):
+    """Rough discs: numbers of time steps, Hurst exponents, grids, and contact fractions.
 
-    seed: np.random.SeedSequence
-    across: int
-
-    def disc(self, hurst, elements=None, **options):
-        return self_affine_disc(hurst, elements or self.across, seed=self.seed, **options)
-
-    @property
-    def usual(self):
-        """The disc of most cases, and its Hurst exponent."""
-        return {"indenter": self.disc(0.7), "hurst": 0.7}
-
-    def shape(self, function):
-        """Heights 0.1 times a function of x and y from −1 to 1; spacing 2/across."""
-        x = (np.arange(self.across) - (self.across - 1) / 2) * 2 / self.across
-        return Indenter(0.1 * (function(x[:, None], x) + np.zeros((self.across, self.across))), 2 / self.across)
-
-
-def _disc_cases(maps, grids, hurst_min):
-    """Rough discs: numbers of time steps, Hurst exponents, grids, and contact fractions."""
-    usual, elements = maps.usual, maps.usual["indenter"].elements
+    disc : makes them from a Hurst exponent; usual : the disc of most cases, and its Hurst exponent
+    """
+    elements = usual["indenter"].elements
     for steps, name in ((4096, "4096 steps"), (256, "256 steps"), (16, "16 steps"), (1, "one step")):
         yield StressCase("step size", name, **usual, steps=steps)
     for hurst in (0.0, 0.2, 0.4, 0.7, 1.0):
         stated = f"Eq. 5 is said to hold above H = {hurst_min:g}" if hurst <= hurst_min else ""
-        yield StressCase("Hurst exponent", f"H = {hurst:g}", maps.disc(hurst), hurst, stated=stated)
-    rolled_off = maps.disc(0.7, roll_off_wavelength=0.2, roll_off_level=1.0)
+        yield StressCase("Hurst exponent", f"H = {hurst:g}", disc(hurst), hurst, stated=stated)
+    rolled_off = disc(0.7, roll_off_wavelength=0.2, roll_off_level=1.0)
     yield StressCase("Hurst exponent", "H = 0.7, roll-off", rolled_off, 0.7, stated=ROLL_OFF)
     for n in grids:
         fractions = (0.05, 0.5) if n < 65 else (30 / n**2, 300 / n**2)
         steps = 256 if n < 257 else 64
-        yield StressCase("grid", f"{n} elements across", maps.disc(0.7, n), 0.7, fractions, steps=steps)
+        yield StressCase("grid", f"{n} elements across", disc(0.7, elements_across=n), 0.7, fractions, steps=steps)
     yield StressCase("contact", "up to 2 elements", **usual, fractions=(1 / elements, 2 / elements))
     yield StressCase("contact", "95 % to all but one", **usual, fractions=(0.95, 1 - 1 / elements))
     yield StressCase("contact", "to all elements", **usual, fractions=(0.5, 1.0))
     yield StressCase("contact", "past all elements", **usual, fractions=(0.9, 1.1))
 
 
-def _tied_cases(maps):
+def _shape(across, function):
+    """Map of `across` elements across, whose heights are 0.1 times a function of x and y from −1 to 1."""
+    x = (np.arange(across) - (across - 1) / 2) * 2 / across
+    return Indenter(0.1 * (function(x[:, None], x) + np.zeros((across, across))), 2 / across)
+
+
+def _tied_cases(across, seed):
     """Maps with many elements of exactly the same height."""
 
     def tied(name, heights, **options):
-        indenter = Indenter(np.asarray(heights, dtype=float), 1.0)
-        return StressCase("ties", name, indenter, stated=NOT_SELF_AFFINE, **options)
+        return StressCase("ties", name, Indenter(heights, 1.0), stated=NOT_SELF_AFFINE, **options)
 
-    across = maps.across
-    checkered = np.add.outer(np.arange(across), np.arange(across)) % 2
     apart = np.full((across, across), np.nan)
     apart[0, 0], apart[-1, -1] = 0, -0.1
     yield tied("exactly flat", np.zeros((across, across)))
     yield tied("one element", [[1.0]])
     yield tied("two, far apart", apart, fractions=(0.5, 1.0))
-    yield tied("plateau on a hill", maps.shape(lambda x, y: -np.maximum(np.hypot(x, y), 0.3)).heights * 10)
-    yield tied("terraces", maps.shape(lambda x, y: -np.floor(6 * np.hypot(x, y))).heights)
-    yield tied("one step", maps.shape(lambda x, y: -1.0 * (x > 0.1)).heights)
-    yield tied("checkered", -0.5 * checkered, fractions=(0.5, 1.0))
-    yield tied("whole numbers", np.random.default_rng(maps.seed).integers(0, 4, (across, across)))
+    yield tied("plateau on a hill", _shape(across, lambda x, y: -np.maximum(np.hypot(x, y), 0.3)).heights * 10)
+    yield tied("terraces", _shape(across, lambda x, y: -np.floor(6 * np.hypot(x, y))).heights)
+    yield tied("one step", _shape(across, lambda x, y: -1.0 * (x > 0.1)).heights)
+    yield tied("checkered", -0.5 * (np.indices((across, across)).sum(axis=0) % 2), fractions=(0.5, 1.0))
+    yield tied("whole numbers", np.random.default_rng(seed).integers(0, 4, (across, across)))
 
 
-def _shape_cases(maps):
+def _shape_cases(across):
     def shaped(name, function, **options):
-        return StressCase("shape", name, maps.shape(function), stated=NOT_SELF_AFFINE, **options)
+        return StressCase("shape", name, _shape(across, function), stated=NOT_SELF_AFFINE, **options)
 
     sphere, cone = reference.PowerLawBody(0.05, 2), reference.PowerLawBody(0.1, 1)
-    yield StressCase("shape", "sphere", maps.shape(lambda x, y: -(x**2 + y**2) / 2), body=sphere)
-    yield StressCase("shape", "cone", maps.shape(lambda x, y: -np.hypot(x, y)), body=cone)
+    yield StressCase("shape", "sphere", _shape(across, lambda x, y: -(x**2 + y**2) / 2), body=sphere)
+    yield StressCase("shape", "cone", _shape(across, lambda x, y: -np.hypot(x, y)), body=cone)
     yield shaped("ridge", lambda x, y: -(x**2))
     yield shaped("wedge", lambda x, y: -abs(x))
     yield shaped("two spheres", lambda x, y: -np.minimum((x - 0.5) ** 2, (x + 0.5) ** 2) - y**2)
@@ -135,9 +121,9 @@ def _shape_cases(maps):
     yield shaped("steep: slope 20", lambda x, y: -200 * np.hypot(x, y))
 
 
-def _question_cases(maps):
-    """One rough disc: in extreme units, under varying forces, and with other tolerances."""
-    usual, rough = maps.usual, maps.usual["indenter"]
+def _question_cases(usual):
+    """The usual disc: in extreme units, under varying forces, and with other tolerances."""
+    rough = usual["indenter"]
     for name, height, length in (
         ("heights times 1e12", 1e12, 1.0),
         ("heights times 1e-12", 1e-12, 1.0),
@@ -158,21 +144,20 @@ def _question_cases(maps):
         yield StressCase("tolerance", f"{tolerance:g}", **usual, tolerance=tolerance)
 
 
-def _medium_cases(maps):
+def _medium_cases(usual):
     """Media and loads in them; times are from 0 to 1, and a repeated time marks a step."""
     step, ramp = ((0, 1), (1, 1)), ((0, 0), (0.5, 0.4), (1, 1))
     hold, unloading = ((0, 0), (0.1, 1), (1, 1)), ((0, 0), (0.4, 1), (0.5, 0.3), (1, 0.3))
     solid = StandardLinearSolid(3.0, 1.0, 0.3)
-    series = Prony(0.5, (2.0, 1.0, 1.0), (0.03, 0.3, 3.0))
     for name, medium, load in (
         ("Maxwell, step", Maxwell(1.0, 0.5), step),
         ("Kelvin-Voigt, ramp", KelvinVoigt(1.0, 0.5), ramp),
         ("solid, two steps", solid, ((0, 0.5), (0.5, 0.5), (0.5, 1), (1, 1))),
-        ("Prony series, hold", series, hold),
+        ("Prony series, hold", Prony(0.5, (2.0, 1.0, 1.0), (0.03, 0.3, 3.0)), hold),
         ("relaxation time 1e-6", StandardLinearSolid(3.0, 1.0, 1e-6), hold),
         ("relaxation time 1e6", StandardLinearSolid(3.0, 1.0, 1e6), hold),
         ("moduli 1 and 1e-10", Prony(1e-10, (1.0,), (1e-4,)), hold),
+        ("Maxwell, unloading", Maxwell(1.0, 0.5), unloading),
+        ("solid, unloading", solid, unloading),
     ):
-        yield StressCase("medium", name, **maps.usual, medium=medium, medium_load=load)
-    for name, medium in (("Maxwell, unloading", Maxwell(1.0, 0.5)), ("solid, unloading", solid)):
-        yield StressCase("medium", name, **maps.usual, medium=medium, medium_load=unloading, recedes=True)
+        yield StressCase("medium", name, **usual, medium=medium, medium_load=load)

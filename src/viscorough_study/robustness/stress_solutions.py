@@ -6,10 +6,9 @@ half-space. Elastic methods give the forces at the depths, the others the depths
 """
 
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 
@@ -54,20 +53,6 @@ class Solution:
     count: np.ndarray
 
 
-@dataclass(frozen=True)
-class StressedMethod:
-    """A method; `ratios(case, solution)` are its depths or forces over those of the reference solution.
-
-    limit : largest error for which the method holds, as a function of the case
-    model : whether the method is a model, which is not exact
-    """
-
-    name: str
-    ratios: Callable
-    limit: Callable
-    model: bool = False
-
-
 def reference_solution(case):
     """Solution of a case at `DEPTHS` depths, in equal ratios between those of the case's contact fractions."""
     solver = ContactSolver(case.indenter, REFERENCE_TOLERANCE, DENSE_ONLY)
@@ -75,12 +60,9 @@ def reference_solution(case):
     last = _depth_of_fraction(solver, min(case.fractions[1], 1.0), first)
     depths = np.geomspace(first, last, DEPTHS) if last > first else first * np.arange(1.0, DEPTHS + 1)
     depths *= BEYOND_FULL_CONTACT if case.fractions[1] > 1 else 1.0
-    contact, force, count = solver.unloaded_state(), [], []
-    for depth in depths:
-        contact = solver.advance_reduced(contact, depth)
-        force.append(contact.force)
-        count.append(contact.count)
-    return Solution(depths * solver.units.length, np.array(force), np.array(count))
+    contacts = accumulate(depths, solver.advance_reduced, initial=solver.unloaded_state())
+    _, *levels = ((contact.force, contact.count) for contact in contacts)
+    return Solution(depths * solver.units.length, *np.array(levels).T)
 
 
 def _depth_of_fraction(solver, fraction, low):
@@ -109,33 +91,32 @@ def _path(options, case, solution):
 
 
 def _interpolated(case, solution):
-    """Depths interpolated between automatic levels: for every depth, the largest error since the previous one."""
+    """Depths interpolated between automatic levels, at several forces from each of these depths to the next one."""
     curve = indent(case.indenter, tolerance=case.tolerance, until_fraction=1.0, until_force=solution.force[-1])
     kinetics(curve, 1.0, 1.0, solution.force[:1])  # refuses forces beyond the last level
     ends = np.minimum(solution.force, curve.force[-1])
     starts = np.append(ends[0], ends[:-1])
     force = starts[:, None] * (ends / starts)[:, None] ** np.linspace(0, 1, INTERPOLATED_FORCES)
-    ratios = curve.at_force(force)[0] / _exact_events(case, solution).depth_at(force)
-    worst = np.abs(ratios - 1).argmax(axis=1)
-    return ratios[np.arange(worst.size), worst]
+    events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
+    return curve.at_force(force)[0] / events.depth_at(force)
 
 
-def _exact_events(case, solution):
-    until = min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
-    return march_events(case.indenter, until_fraction=until)
+def _last_fraction(case, solution):
+    """Contact fraction a little above that of the last depth."""
+    return min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
 
 
 def _events(case, solution):
     """Depths of the direct integration from contact event to contact event."""
-    return _exact_events(case, solution).depth_at(solution.force) / solution.depth
+    events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
+    return events.depth_at(solution.force) / solution.depth
 
 
 def _steps(case, solution):
     """Depths by the case's number of explicit steps: uniform in time, or in equal ratios for a constant force."""
-    ends = []
-    if case.steps > 1 and min(case.force) == max(case.force):
+    if min(case.force) == max(case.force):
         ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
-    elif case.steps > 1:
+    else:
         samples = np.arange(len(case.force))
         times = np.linspace(0, samples[-1], case.steps)
         impulse = impulses(np.interp(times, samples, case.force), times).impulse
@@ -147,11 +128,8 @@ def _steps(case, solution):
 def _reduction(case, solution):
     """Depths by the MDR, with the exact line of a body of revolution or a random line of the same h, L and H."""
     across = case.indenter.spacing * len(case.indenter.heights)
-    if case.body is not None:
-        line = case.body.mdr_line(LINE_POINTS, across)
-    else:
-        rms = np.nanstd(case.indenter.heights)
-        line = self_affine_line(case.hurst, LINE_POINTS, rms=rms, length=across, seed=1)
+    random_line = partial(self_affine_line, rms=np.nanstd(case.indenter.heights), length=across, seed=1)
+    line = case.body.mdr_line(LINE_POINTS, across) if case.body else random_line(case.hurst, LINE_POINTS)
     depth, _ = reduce(line, until_force=1.01 * solution.force[-1]).at_force(solution.force)
     return depth / solution.depth
 
@@ -162,8 +140,7 @@ def _power_law(gamma, case, solution):
     zeta, alpha = reference.zeta_elastic(case.hurst), reference.exponent_alpha(case.hurst)
     if case.body is not None:
         alpha = 1 / (1 + case.body.exponent)
-        x, kappa = (1 / (4 * rms * across), 1 / (4 * across))
-        zeta = case.body.stiffness(1.0) * kappa / (case.body.force(1.0) * x) ** alpha
+        zeta = case.body.stiffness(1.0) / (4 * across) / (case.body.force(1.0) / (4 * rms * across)) ** alpha
     if rms == 0:
         raise ValueError("power law: the rms height is 0; allowed: above 0")
     if gamma:
@@ -191,8 +168,7 @@ def _by_steps(case, solution):
     """Depths by the second-order steps of direct integration, over those of the reference."""
     if case.medium is None:
         times = np.append(0.0, solution.force)
-        moved = march_medium(case.indenter, Newtonian(1.0), times, force=np.ones(times.size))
-        return moved.depth[1:] / solution.depth
+        return march_medium(case.indenter, Newtonian(1.0), times, force=np.ones(times.size)).depth[1:] / solution.depth
     return _ratios(_stepped(case, solution, STEPS), _motion_reference(case, solution))
 
 
@@ -205,26 +181,22 @@ def _history(case, solution):
 
 def _motion_reference(case, solution):
     times, force = _history(case, solution)
-    if case.recedes:
+    if (np.diff(force) < 0).any():  # the contact recedes
         return _stepped(case, solution, REFERENCE_STEPS)
-    until = min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
+    until = _last_fraction(case, solution)
     return march_medium_events(case.indenter, case.medium, times, force=force, until_fraction=until).depth
 
 
 def _stepped(case, solution, number):
     """Depths at the samples of the force, with `number` steps between them, shorter ones first."""
-    times, force = _history(case, solution)
-    fine, place = [times[:1]], [0]
-    for start, end in pairwise(times):
-        steps = [end] if start == end else start + (end - start) * np.linspace(0, 1, number + 1)[1:] ** 2
-        fine.append(np.asarray(steps))
-        place.append(place[-1] + len(steps))
-    fine = np.concatenate(fine)
-    step = np.flatnonzero(np.diff(times) == 0)
-    loads = np.interp(fine, times, force)
-    for k in step:  # np.interp returns the force after the step at both
-        loads[place[k]], loads[place[k + 1]] = force[k], force[k + 1]
-    return march_medium(case.indenter, case.medium, fine, force=loads).depth[place]
+    history = np.array(_history(case, solution))  # times and forces
+    parts, place = [history[:, :1]], [0]
+    for start, end in pairwise(history.T):
+        share = np.ones(1) if start[0] == end[0] else np.linspace(0, 1, number + 1)[1:] ** 2
+        parts.append(start[:, None] + (end - start)[:, None] * share)
+        place.append(place[-1] + share.size)
+    times, force = np.concatenate(parts, axis=1)
+    return march_medium(case.indenter, case.medium, times, force=force).depth[place]
 
 
 def _ratios(depth, reference):
@@ -235,16 +207,19 @@ def _ratios(depth, reference):
 # ---- all methods
 
 
-METHODS = (
-    StressedMethod("path, dense", partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance),
-    StressedMethod("path, grid, double", partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance),
-    StressedMethod("path, grid, single", partial(_path, GRID_ONLY), lambda case: 10 * case.tolerance),
-    StressedMethod("path, interpolated", _interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
-    StressedMethod("events", _events, lambda case: LIMIT_EVENTS),
-    StressedMethod("explicit steps", _steps, lambda case: LIMIT_STEPS),
-    StressedMethod("media, correspondence", _by_correspondence, lambda case: max(CURVE_TOLERANCE, FINEST_ACCURACY)),
-    StressedMethod("media, steps", _by_steps, lambda case: LIMIT_STEPS),
-    StressedMethod("MDR", _reduction, lambda case: LIMIT_MODEL, model=True),
-    StressedMethod("power law", partial(_power_law, False), lambda case: LIMIT_MODEL, model=True),
-    StressedMethod("power law with Γ", partial(_power_law, True), lambda case: LIMIT_MODEL, model=True),
-)
+# {name: (function of case and solution, which returns depths or forces over those of the reference solution,
+# largest error for which the method holds, as a function of the case)}
+METHODS = {
+    "path, dense": (partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance),
+    "path, grid, double": (partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance),
+    "path, grid, single": (partial(_path, GRID_ONLY), lambda case: 10 * case.tolerance),
+    "path, interpolated": (_interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
+    "events": (_events, lambda case: LIMIT_EVENTS),
+    "explicit steps": (_steps, lambda case: LIMIT_STEPS),
+    "media, correspondence": (_by_correspondence, lambda case: max(CURVE_TOLERANCE, FINEST_ACCURACY)),
+    "media, steps": (_by_steps, lambda case: LIMIT_STEPS),
+    "MDR": (_reduction, lambda case: LIMIT_MODEL),
+    "power law": (partial(_power_law, False), lambda case: LIMIT_MODEL),
+    "power law with Γ": (partial(_power_law, True), lambda case: LIMIT_MODEL),
+}
+MODELS = ("MDR", "power law", "power law with Γ")  # which are not exact

@@ -11,7 +11,6 @@ cases and of realizations enter.
 """
 
 from collections import Counter
-from dataclasses import asdict
 from inspect import getmembers, isfunction, signature
 
 import numpy as np
@@ -78,8 +77,7 @@ def judge(claims, evidence):
     """
     rows = []
     for name, claim in claims.items():
-        cases = JUDGES[name](evidence, claim["tolerance"])
-        rows += [{"claim": name, **claim, **asdict(case)} for case in cases]
+        rows += [{"claim": name, **claim, **case} for case in JUDGES[name](evidence, claim["tolerance"])]
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

@@ -16,6 +16,9 @@ from viscorough_study.run.paper_data import number
 
 # From best to worst: the verdict on a claim is the worst of its cases.
 VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
+# Columns of a case in the table of verdicts (verdicts.claims), which describes them.
+CASE = ("case", "value", "low", "high", "least", "largest", "expected", "verdict")
+CASE += ("convention", "conventions", "agreeing", "contradicting")
 CONFIDENCE_TAIL = 0.025  # probability beyond either end of an interval
 FEW_WIDENED = 20.0  # widening factor that verdicts from few realizations must survive
 
@@ -163,34 +166,8 @@ def hurst_name(hurst):
     return f"H = {hurst:g}"
 
 
-@dataclass(frozen=True)
-class Case:
-    """Outcome of one case of a claim.
-
-    case : Hurst exponent or part of the claim; expected : value stated by the paper, nan if it states none
-    value, low, high : the quantity and its 95 % interval, nan where it has no statistical scatter
-    least, largest : smallest and largest value over grids, windows, times or realizations, nan where there is one value
-    convention : in which alone the claim holds, where it depends on a convention that the paper leaves open
-    conventions, agreeing, contradicting : number of combinations of conventions, of those in which the case meets the
-        criterion, and of those in which it is outside; nan where no convention enters
-    """
-
-    case: str
-    value: float
-    low: float
-    high: float
-    least: float
-    largest: float
-    expected: float
-    verdict: str
-    convention: str = ""
-    conventions: float = np.nan
-    agreeing: float = np.nan
-    contradicting: float = np.nan
-
-
 def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, counts=(np.nan,) * 3):
-    """Case with its verdict.
+    """Case with its verdict: a dict with the keys `CASE`.
 
     values : value, low, high; extremes : least, largest
     met : whether the criterion is met in any convention, None where the data do not decide (`Evidence.within`); a value
@@ -206,9 +183,10 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, 
         verdict = "reproduced under a stated convention"
     elif met is None:
         verdict = "undecided"
-    return Case(name, *values, *extremes, expected, verdict, convention, *counts)
+    return dict(zip(CASE, (name, *values, *extremes, expected, verdict, convention, *counts), strict=True))
 
 
 def exact(name, value, expected, met, values):
     """Case of a quantity without statistical scatter; values : over grids, times or realizations, for its extremes."""
-    return judged(name, (float(value), *NO_INTERVAL), expected, bool(met), extremes=(min(values), max(values)))
+    extremes = min(values, default=np.nan), max(values, default=np.nan)
+    return judged(name, (float(value), *NO_INTERVAL), expected, bool(met), extremes=extremes)

@@ -68,9 +68,8 @@ def depth_over_rms(evidence, tolerance):
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         touching = contact_at(disc, depth=DEPTH).contact
-        scaled = {factor: Indenter(factor * disc.heights, disc.spacing) for factor in SCALES}
-        contacts = [contact_at(indenter, depth=factor * DEPTH).contact for factor, indenter in scaled.items()]
-        differing = [int((contact != touching).sum()) for contact in contacts]
+        scaled = [contact_at(Indenter(s * disc.heights, disc.spacing), depth=s * DEPTH) for s in SCALES]
+        differing = [int((contact.contact != touching).sum()) for contact in scaled]
         number = int((touching == 1).sum())
         yield _case(f"{hurst_name(hurst)}, elements that differ, of {number}", differing, tolerance)
 

@@ -122,14 +122,14 @@ def alpha_limit(evidence, tolerance):
 def depth(evidence, tolerance):
     """(1 − α)κu/(hX) at the centre, where u/h = ∫dX/κ, with κ constant below the first abscissa."""
 
-    def ratio(hurst, ensemble, fit, centre, bootstrap):
+    def ratio(hurst, ensemble, betas, zetas, centre):
         x, softness = ensemble["x"].values, 1 / ensemble["stiffness"].values
         end = int(np.argmin(np.abs(np.log(x / centre)))) + 1
         depths = x[0] * softness[:, 0] + np.trapezoid(softness[:, :end], x[:end], axis=1)
         ratios = (depths / (x[end - 1] * softness[:, end - 1]))[:, None]
         # The seed of the fit draws the same realizations, so the interval includes the scatter of both factors.
-        random = np.random.default_rng(bootstrap["seed"])
-        return fit.betas * np.exp(log_means(ratios, "arithmetic", bootstrap["resamples"], random))[:, 0]
+        random = np.random.default_rng(evidence.seed)
+        return betas * np.exp(log_means(ratios, "arithmetic", evidence.resamples, random))[:, 0]
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -137,8 +137,8 @@ def depth(evidence, tolerance):
 def master_curve(evidence, tolerance):
     """vt/h over the right side of Eq. 12 as printed."""
 
-    def ratio(hurst, ensemble, fit, centre, bootstrap):
-        return centre**fit.betas / fit.zetas / reference.rate_law(centre, hurst, gamma=True)
+    def ratio(hurst, ensemble, betas, zetas, centre):
+        return centre**betas / zetas / reference.rate_law(centre, hurst, gamma=True)
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -146,13 +146,13 @@ def master_curve(evidence, tolerance):
 def _cases_at_centre(evidence, tolerance, ratio):
     """Cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
 
-    ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns it and its resamples
+    ratio : function of H, ensemble, β and ζ fitted in region (b), and centre; returns it and its resamples
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
 
     def evaluate(hurst, ensemble, window):
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
-        ratios = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
-        return with_interval(ratios, fit.realizations), fit.realizations
+        number = ensemble.sizes["realization"]
+        return with_interval(ratio(hurst, ensemble, *fit, np.sqrt(np.prod(window))), number), number
 
     return _cases_in_regions(evidence, evaluate, 1.0, (1 - tolerance, 1 + tolerance))

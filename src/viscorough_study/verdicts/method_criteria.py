@@ -65,10 +65,8 @@ def contact_problems(evidence, tolerance):
     """
     levels = _rough_discs(evidence).query("method == 'path, automatic levels' and error <= @SMALL_ERROR")
     ratios = levels.groupby("hurst")["steps"].min().to_numpy() / evidence.paper_value("boundary_elements", "elements")
-    if not ratios.size:
-        yield judged("of a disc", UNDEFINED, 1.0, None)
-        return
-    yield exact("of a disc", ratios.max(), 1.0, (np.abs(np.log(ratios)) <= np.log(tolerance)).all(), ratios)
+    met = (np.abs(np.log(ratios)) <= np.log(tolerance)).all()
+    yield exact("of a disc", max(ratios, default=np.nan), 1.0, met, ratios)
 
 
 def computing_time(evidence, tolerance):
@@ -79,9 +77,9 @@ def computing_time(evidence, tolerance):
     the paper's. The ratio varies with the machine and its load, and would jump between runs if rounded to a power of
     ten.
     """
-    numbers = {name: evidence.paper_value("boundary_elements", name) for name in ("combinations", "realizations_min")}
+    indentations = [evidence.paper_value("boundary_elements", name) for name in ("combinations", "realizations_min")]
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
-    problems = np.prod(list(numbers.values())) * np.median(np.concatenate(counts))
+    problems = np.prod(indentations) * np.median(np.concatenate(counts))
     names = "hurst_count", "realizations", "points"
     points = np.prod([float(evidence.paper_value("reduction", name)) for name in names])
     methods = _rough_discs(evidence)

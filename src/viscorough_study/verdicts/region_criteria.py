@@ -84,10 +84,8 @@ def first_region(evidence, tolerance):
     for hurst, ensemble in evidence.pooled.items():
         alone = ensemble["contact_count"].values <= ONE_ELEMENT
         ratio = ensemble["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
-        if not ratio.size:
-            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
-            continue
-        yield exact(hurst_name(hurst), np.median(ratio), 1.0, np.all(np.abs(ratio - 1) <= tolerance), ratio)
+        value = np.median(ratio) if ratio.size else np.nan
+        yield exact(hurst_name(hurst), value, 1.0, np.all(np.abs(ratio - 1) <= tolerance), ratio)
 
 
 def last_region(evidence, tolerance):
@@ -130,28 +128,20 @@ def separation(evidence, tolerance):
 
     Region (a) ends where the geometric mean of κ is `LEFT_REGION` times that of one element.
     """
-    ends = {
-        hurst: _end_of_first_region(evidence, ensemble, [evidence.seed, i])
-        for i, (hurst, ensemble) in enumerate(evidence.pooled.items())
-    }
+    ends, level = {}, np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
+    for i, (hurst, ensemble) in enumerate(evidence.pooled.items()):
+        stiffness = np.log(ensemble["stiffness"].values)
+        stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
+        # Different seeds make the bootstrap samples of ensembles independent.
+        means = resampled_means(stiffness, evidence.resamples, np.random.default_rng([evidence.seed, i]))
+        log_x = np.log(ensemble["x"].values[: means.shape[1]])
+        # ln X of the ensemble, then of the samples; nan where the end is not reached.
+        ends[hurst] = np.array([np.interp(level, mean, log_x, left=np.nan, right=np.nan) for mean in means])
     for lower, higher in pairwise(ends):
         ratios = np.exp(ends[lower] - ends[higher])
         realizations = min(evidence.pooled[hurst].sizes["realization"] for hurst in (lower, higher))
         values, counts = with_interval(ratios, realizations), {"realizations": realizations, "cases": len(ends) - 1}
         yield evidence.case(f"H = {lower:g} over H = {higher:g}", values, np.nan, (1, np.inf), **counts)
-
-
-def _end_of_first_region(evidence, ensemble, seed):
-    """ln X at the end of region (a): of the ensemble, then of the bootstrap samples; nan where it is not reached.
-
-    seed : of the bootstrap; different seeds make the samples of ensembles independent
-    """
-    x, stiffness = ensemble["x"].values, np.log(ensemble["stiffness"].values)
-    stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
-    means = resampled_means(stiffness, evidence.resamples, np.random.default_rng(seed))
-    level = np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
-    log_x = np.log(x[: means.shape[1]])
-    return np.array([np.interp(level, mean, log_x, left=np.nan, right=np.nan) for mean in means])
 
 
 def complete_contact(evidence, tolerance):

@@ -26,7 +26,7 @@ def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
 
 
 def limits_of(tolerance=0.05, **options):
-    return limit_table(ensembles(**options), "discs", tolerance=tolerance, **RANGES)
+    return limit_table({"discs": ensembles(**options)}, tolerance=tolerance, **RANGES)
 
 
 def row(limits, quantity="whole", law="corrected"):

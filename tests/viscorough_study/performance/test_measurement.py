@@ -11,7 +11,7 @@ from viscorough_study.performance import measurement, methods, problems, timing
 
 @pytest.fixture(scope="module")
 def problem():
-    return problems.rough_problem(0.7, 17, 6, 1)
+    return problems.named_problem("rough disc", 17, 6, root=1, hurst=0.7)
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +47,7 @@ def test_every_method_has_a_row_and_is_exact_at_its_finest(table, few_values):
 def test_only_methods_that_apply_are_measured_and_slow_ones_not_at_finer_values(monkeypatch):
     def run(problem, seconds):
         calls.append(seconds)
-        return methods.Answer(problem.velocity)
+        return problem.velocity, 0
 
     calls, sphere = [], problems.named_problem("sphere", 17, 3)
     monkeypatch.setattr(timing, "timed", lambda function: (function(), calls[-1], calls[-1]))

@@ -14,7 +14,7 @@ GOOD = evidence()
 def verdicts(claim, tolerance, **tables):
     """Verdicts on the cases of a claim by tables of `mdr_tables`, or by these."""
     made = dataclasses.replace(GOOD, tables=GOOD.tables | tables)
-    return [case.verdict for case in getattr(mdr_criteria, claim)(made, tolerance)]
+    return [case["verdict"] for case in getattr(mdr_criteria, claim)(made, tolerance)]
 
 
 @pytest.mark.parametrize(

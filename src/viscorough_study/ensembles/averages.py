@@ -64,8 +64,9 @@ def with_averages(curves):
     realizations_defined, the number of curves that reach an abscissa; and fraction_defined, this number over that of
     the curves intended to reach it.
 
-    curves : dataset with κ (stiffness) and elements in contact (contact_count), of dimensions `DIMENSIONS`, of which a
-        single rms convention lacks the first, nan where undefined, and the coordinates x, X, and until_x, the X up to which curves were computed
+    curves : dataset with κ (stiffness) and elements in contact (contact_count), nan where undefined, of the dimensions
+        `DIMENSIONS`, the first of which a single rms convention lacks; its coordinates are x, X, and until_x, the X up
+        to which curves were computed
     """
     velocity = curves["x"] / curves["stiffness"]
     defined, expected = velocity.notnull(), curves["until_x"] * (1 + ROUNDING) >= curves["x"]

@@ -20,8 +20,8 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     Region (a) is omitted. The lower panel is cut to the range of the ratios in region (b).
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in discs)
-    figure = style.new_figure(120, style.NARROW)
-    panels = law, ratio = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1))
+    figure, panels = style.new_subplots(120, 2, width=style.NARROW, sharex=True, height_ratios=(1.7, 1))
+    law, ratio = panels
     for axes in panels:
         axes.set(xscale="log", yscale="log")
     ratios = [0.5, 2]

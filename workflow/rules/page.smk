@@ -60,7 +60,7 @@ rule make_article:
         tables=expand("results/tables/{table}.csv", table=PAGE_TABLES + ARTICLE_TABLES),
         figures=expand("results/figures/{file}.pdf", file=ARTICLE_FIGURES),
     output:
-        article="results/article.pdf",
+        pdf="results/article.pdf",
     localrule: True
     resources:
         mem_mb=1000,

@@ -6,7 +6,7 @@ import pandas as pd
 
 from viscorough_study.performance import timing
 from viscorough_study.run.inputs import read_input
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 from viscorough_study.run.tables import recorded, write_table
 
 
@@ -26,6 +26,4 @@ def main(files, csv, nc, *, functions, tables, timed, arguments):
         write_table(made[name], *paths, **description, attributes=attributes)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(dict(job.input), **job.output, **job.params)
+run_job(globals(), lambda job: main(dict(job.input), **job.output, **job.params))

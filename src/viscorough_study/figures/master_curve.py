@@ -12,7 +12,8 @@ from viscorough_study.fits.conventions import fits
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     """vt/h over the right side of Eq. 12 with its Γ, and below it their ratio.
 
-    discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13)
+    discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13), and
+        are drawn at the Hurst exponents of discs
     scaling : scaling table, which has region (b); conventions : {column of it: value}
     fraction_min : smallest fraction of defined realizations for which a mean is drawn
 
@@ -24,6 +25,7 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     law, ratio = panels
     for axes in panels:
         axes.set(xscale="log", yscale="log")
+    lines = [ds for ds in lines if ds["hurst"].item() in looks]
     ratios = [0.5, 2]
     for ds in discs:
         hurst = ds["hurst"].item()

@@ -193,9 +193,9 @@ def table_functions(tabulation):
     return {"tabulate": tabulation["function"]} | columns
 
 
-def plots_of(target):
-    """The rules that draw the figures of a target."""
-    return [getattr(rules, f"plot_{name}") for name, figure in FIGURES.items() if figure["target"] == target]
+def figure_files(target):
+    """Files of the figures of a target, by their rules."""
+    return [getattr(rules, f"plot_{name}").output for name, figure in FIGURES.items() if figure["target"] == target]
 
 
 def figure_functions(figure):

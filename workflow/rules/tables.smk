@@ -107,10 +107,7 @@ for name, made in TABULATIONS.items():
         params:
             adapter_digests() if name in ("time_other_solvers", "time_light_contact") else [],
             functions=table_functions(made),
-            tables={
-                table: {key: entry[key] for key in ("label", "dimension")} for table, entry in made["tables"].items()
-            },
-            timed=any("timed" in entry for entry in made["tables"].values()),
+            tables=made["tables"],
             arguments=TABLE_PARAMS.get(name, {}),
         message:
             made["message"]

@@ -11,7 +11,7 @@ import xarray as xr
 from viscorough import LoadingCurve, reference
 from viscorough_study.comparisons.direct_integration import compare_direct
 from viscorough_study.comparisons.mdr_equivalence import WINDOWS
-from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_abscissae
+from viscorough_study.ensembles.averages import DIMENSIONS, abscissa, on_abscissae, with_averages
 from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES
 from viscorough_study.fits.fit_table import scaling_table
 from viscorough_study.fits.intervals import three_columns
@@ -174,7 +174,9 @@ def ensemble_of(x, stiffness, count=None, *, conventions=("disc",), **coords):
     stiffness = np.array(stiffness, ndmin=3)
     coords = {"hurst": 0.7, "case": "c", "diameter": 1.0, "elements": 10**6} | coords
     count = coords["elements"] * stiffness if count is None else np.broadcast_to(count, stiffness.shape)
-    return ensemble_dataset(list(conventions), x, stiffness, count, coords)
+    curves = {"stiffness": (DIMENSIONS, stiffness), "contact_count": (DIMENSIONS, count)}
+    coords |= {"x": ("abscissa", x), "rms_convention": list(conventions), "until_x": np.inf}
+    return with_averages(xr.Dataset(curves, coords))
 
 
 def line_curve(gaps, length=1.0, levels=None):

@@ -71,7 +71,7 @@ def complete(settings, files):
             read_settings_file(path)
         update_config(completed, settings)
         check_settings(completed, read_yaml("workflow/schemas/config.schema.yaml"))
-        return completed, cases.measured_cases(scans(completed["measured"]), completed["indentation"])
+        return completed, scans(completed["measured"], completed["indentation"])
     except ValueError as error:
         # A WorkflowError would show three more lines, about this file.
         raise SystemExit(f"Error in the settings: {error}")
@@ -125,41 +125,9 @@ def paper(name):
     return read_paper(PROJECT / "resources" / "paper", name)
 
 
-def plateau_settings():
-    """Settings of the test for a power law; its control is the first variant whose spectrum has a roll-off."""
-    variants = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
-    return {
-        "control": next(variants, None),
-        "rms_convention": config["figures"]["rms_convention"],
-        "x_range": config["verdicts"]["plateau_range"],
-        "half_width": config["scaling"]["slope_half_width"],
-        "tolerance": paper("claims")["power_law"]["tolerance"],
-        "decades_min": config["verdicts"]["decades_min"],
-        "resamples": config["scaling"]["resamples"],
-        "draws": config["verdicts"]["draws"],
-        "seed": config["seed"],
-    }
-
-
-def combinations():
-    """{name: force [N], viscosity [Pa s], diameter [m], rms [m]} of the ensembles of all combinations."""
-    return {name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()}
-
-
-def article_digests():
-    """Digests of the texts of the article, and of what it quotes, that are not results of the run."""
-    texts = [*sorted((WORKFLOW / "article").iterdir()), PROJECT / "CITATION.cff"]
-    texts += [
-        PROJECT / "docs/results" / name for name in ("sum_rules.json", "outside.csv", "law.csv", "published.json")
-    ]
-    return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
-
-
-def page_digests():
-    """Digests of the texts of the page that are not results; their paths depend on the location of the project."""
-    texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
-    texts += [PROJECT / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")]
-    return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
+def text_digests(paths):
+    """Digests of texts that are not results of the run; their paths depend on the location of the project."""
+    return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in paths]
 
 
 # ---- report
@@ -183,21 +151,13 @@ FIGURES = {
     for name, entry in RESULTS["figures"].items()
 }
 TABULATION_DEFAULTS = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone": False}
-TABLES = {
-    table: {"target": made.get("target", "all"), "timed": False} | entry
-    for made in RESULTS["tables"].values()
-    for table, entry in made["tables"].items()
-}
-TABULATIONS = {
-    name: TABULATION_DEFAULTS | entry | {"tables": {table: TABLES[table] for table in entry["tables"]}}
-    for name, entry in RESULTS["tables"].items()
-    if "function" in entry
-}
+TABULATIONS = {name: TABULATION_DEFAULTS | entry for name, entry in RESULTS["tables"].items()}
 
 
 def table_files(target):
     """Files of the tables that a target makes, without those of the costs, which are made last."""
-    names = [name for name, table in TABLES.items() if table["target"] == target and name != "rule_costs"]
+    tabulations = [made for made in TABULATIONS.values() if made["target"] == target]
+    names = [name for made in tabulations for name in made["tables"] if name != "rule_costs"]
     return expand("results/tables/{table}.{kind}", table=names, kind=("csv", "nc"))
 
 
@@ -208,9 +168,9 @@ def table_functions(tabulation):
     return {"tabulate": tabulation["function"]} | columns
 
 
-def plots_of(target):
-    """The rules that draw the figures of a target."""
-    return [getattr(rules, f"plot_{name}") for name, figure in FIGURES.items() if figure["target"] == target]
+def figure_files(target):
+    """Files of the figures of a target, by their rules."""
+    return [getattr(rules, f"plot_{name}").output for name, figure in FIGURES.items() if figure["target"] == target]
 
 
 def figure_functions(figure):

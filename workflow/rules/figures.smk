@@ -2,7 +2,7 @@
 
 # {further argument of functions that draw: its value}
 FIGURE_PARAMS = {
-    "combinations": combinations(),
+    "combinations": {name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()},
     "conventions": config["figures"],
     "fraction_min": config["scaling"]["fraction_min"],
     "hurst_range": paper("laws")["beta"]["hurst_range"],

@@ -6,6 +6,9 @@ PAGE_FIGURES = {
     for figure in FIGURES.values()
     if "alternative" in figure and (MEASURED or figure["target"] != "measured")
 }
+PAGE_TEXTS = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
+QUOTED = ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")
+PAGE_TEXTS += [PROJECT / name for name in QUOTED]
 PAGE_TABLES = ["claims", "scaling", "methods", "failure_map", "level_placement", "rule_costs", "media", "literature"]
 PAGE_TABLES += ["measured_scans", "measured_fits"] if MEASURED else []
 
@@ -27,7 +30,7 @@ rule make_page:
     resources:
         mem_mb=1000,
     params:
-        page_digests(),
+        text_digests(PAGE_TEXTS),
         claims=paper("claims"),
         numbers=paper("numbers"),
         alternative=PAGE_FIGURES,
@@ -39,6 +42,9 @@ rule make_page:
 
 ARTICLE_FIGURES = ["fig2_kinetics", "fig3_master_curve", "fig4_exponent", "interface", "speed", "failure_map"]
 ARTICLE_TABLES = ["validation", "interface", "periodic", "plateaus"]
+ARTICLE_TEXTS = [*sorted((WORKFLOW / "article").iterdir()), PROJECT / "CITATION.cff"]
+QUOTED = ("sum_rules.json", "outside.csv", "law.csv", "published.json")
+ARTICLE_TEXTS += [PROJECT / "docs/results" / name for name in QUOTED]
 
 
 rule article:
@@ -54,12 +60,12 @@ rule make_article:
         tables=expand("results/tables/{table}.csv", table=PAGE_TABLES + ARTICLE_TABLES),
         figures=expand("results/figures/{file}.pdf", file=ARTICLE_FIGURES),
     output:
-        article="results/article.pdf",
+        pdf="results/article.pdf",
     localrule: True
     resources:
         mem_mb=1000,
     params:
-        article_digests(),
+        text_digests(ARTICLE_TEXTS),
         claims=paper("claims"),
         numbers=paper("numbers"),
     message:

@@ -7,6 +7,7 @@ TABLE_INPUTS = {
     "measured_curves": curves_of_pool("measured"),
 }
 SEED = {"seed": config["seed"]}
+CONTROLS = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
 # {rule: further arguments of its function}
 TABLE_PARAMS = {
     "fit_scaling": config["scaling"] | SEED,
@@ -23,7 +24,16 @@ TABLE_PARAMS = {
     | {"hursts": config["discs"]["hurst"]}
     | SEED,
     "compare_direct": config["direct"] | {"hursts": config["discs"]["hurst"]} | SEED,
-    "measure_plateaus": plateau_settings(),
+    "measure_plateaus": {
+        "control": next(CONTROLS, None),
+        "x_range": config["verdicts"]["plateau_range"],
+        "half_width": config["scaling"]["slope_half_width"],
+        "tolerance": paper("claims")["power_law"]["tolerance"],
+        **chosen("verdicts", "decades_min", "draws"),
+        **chosen("figures", "rms_convention"),
+        **chosen("scaling", "resamples"),
+        **SEED,
+    },
     "compare_zeta_laws": {
         "conventions": chosen("figures", "average", "rms_convention"),
         "hurst_mins": [0.0, number(paper("numbers"), "agreement", "beta_hurst_min")],
@@ -68,6 +78,8 @@ TABLE_PARAMS = {
 }
 
 for name, made in TABULATIONS.items():
+    if "function" not in made:
+        continue
 
     rule:
         name:
@@ -83,10 +95,7 @@ for name, made in TABULATIONS.items():
             mem_mb=made["memory"],
         params:
             functions=table_functions(made),
-            tables={
-                table: {key: entry[key] for key in ("label", "dimension")} for table, entry in made["tables"].items()
-            },
-            timed=any(entry["timed"] for entry in made["tables"].values()),
+            tables=made["tables"],
             arguments=TABLE_PARAMS.get(name, {}),
         message:
             made["message"]

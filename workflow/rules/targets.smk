@@ -1,70 +1,34 @@
 # Targets besides `all` and single results.
 
+# {target: its description, and what it makes}
+TARGETS = {
+    "curves": ("The loading curves of all surfaces.", [*curves_of_pool("discs"), *curves_of_pool("lines")]),
+    "figures": ("All figures.", figure_files("all")),
+    "tables": ("All tables.", table_files("all")),
+    "validation": ("The comparison with exact solutions.", rules.check_validation.output),
+    "measured": (
+        "Tables and figures of the measured surfaces that the settings name.",
+        figure_files("measured") + table_files("measured") if MEASURED else [],
+    ),
+    "speed": (
+        "Speed against accuracy of every method, and the placement of levels.",
+        [rules.plot_speed.output, rules.plot_level_placement.output],
+    ),
+    "stability": ("Failure map of all methods.", rules.plot_failure_map.output),
+    "sizes": ("Exponents on grids from coarse to fine.", [rules.plot_sizes.output, rules.plot_collapse.output]),
+    "large": ("Cost of one disc on grids from coarse to fine.", [rules.plot_large.output, *table_files("large")]),
+}
+TARGETS |= {
+    f"figure_{number}": (f"Figure {number} of the paper", getattr(rules, f"plot_{name}").output)
+    for number, name in enumerate(("surfaces", "kinetics", "master_curve", "exponent"), 1)
+}
 
-rule curves:
-    """The loading curves of all surfaces."""
-    input:
-        curves_of_pool("discs"),
-        curves_of_pool("lines"),
-
-
-for number, name in enumerate(("surfaces", "kinetics", "master_curve", "exponent"), 1):
+for target, (description, files) in TARGETS.items():
 
     rule:
         name:
-            f"figure_{number}"
+            target
         input:
-            getattr(rules, f"plot_{name}").output,
+            files,
         message:
-            f"Figure {number} of the paper"
-
-
-rule figures:
-    """All figures."""
-    input:
-        [plot.output for plot in plots_of("all")],
-
-
-rule tables:
-    """All tables."""
-    input:
-        table_files("all"),
-
-
-rule validation:
-    """The comparison with exact solutions."""
-    input:
-        rules.check_validation.output,
-
-
-rule measured:
-    """Tables and figures of the measured surfaces that the settings name."""
-    input:
-        [plot.output for plot in plots_of("measured")] + table_files("measured") if MEASURED else [],
-
-
-rule speed:
-    """Speed against accuracy of every method, and the placement of levels."""
-    input:
-        rules.plot_speed.output,
-        rules.plot_level_placement.output,
-
-
-rule stability:
-    """Failure map of all methods."""
-    input:
-        rules.plot_failure_map.output,
-
-
-rule sizes:
-    """Exponents on grids from coarse to fine."""
-    input:
-        rules.plot_sizes.output,
-        rules.plot_collapse.output,
-
-
-rule large:
-    """Cost of one disc on grids from coarse to fine."""
-    input:
-        rules.plot_large.output,
-        table_files("large"),
+            description

@@ -24,7 +24,7 @@ EVIDENCE += ("methods", "sizes", "grid_dependence")
 
 rule judge_claims:
     input:
-        **{table: f"results/tables/{table}.csv" for table in EVIDENCE},
+        tables=expand("results/tables/{table}.csv", table=EVIDENCE),
         discs="results/ensembles/discs.nc",
     output:
         csv="results/tables/claims.csv",

@@ -4,7 +4,7 @@ from viscorough.io import netcdf
 from viscorough.io.datasets import write_dataset
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.pool import pool_batches
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 
 
 def main(curves, pool, *, groups, conventions, ensemble):
@@ -18,6 +18,4 @@ def main(curves, pool, *, groups, conventions, ensemble):
     write_dataset(pool_batches(batches, conventions, x), pool)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(**job.input, **job.output, **job.params)
+run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))

@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from viscorough_study.comparisons.validation import failures
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 
 
 def main(table, passed, *, order_margin):
@@ -17,6 +17,4 @@ def main(table, passed, *, order_margin):
     Path(passed).write_text("\n".join(names) + "\n", encoding="utf-8")
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(job.input.table, job.output.passed, **job.params)
+run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))

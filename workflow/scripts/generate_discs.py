@@ -3,7 +3,7 @@
 from viscorough_study.ensembles.batches import Realization, without_numbers
 from viscorough_study.ensembles.discs import ensemble_disc
 from viscorough_study.ensembles.surface_files import write_surfaces
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 from viscorough_study.run.seeds import realization_seed
 
 
@@ -23,6 +23,4 @@ def main(surfaces, *, ensembles, seed):
     write_surfaces(zip(settings, sizes, (discs(**ensemble) for ensemble in ensembles), strict=True), surfaces)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(**job.output, **job.params)
+run_job(globals(), lambda job: main(**job.output, **job.params))

@@ -1,21 +1,26 @@
 """Verdicts on the paper's claims."""
 
+from pathlib import Path
+
 import pandas as pd
 
 from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import select
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 from viscorough_study.run.tables import recorded, write_table
 from viscorough_study.verdicts.claims import COLUMNS, judge, markdown, scale_attributes
 from viscorough_study.verdicts.evidence import Evidence
 
 
 def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
-    """Judge the claims by the pool of discs and by tables {name: path}; settings : further fields of Evidence."""
+    """Judge the claims by the pool of discs and by tables, which their files name.
+
+    settings : further fields of Evidence
+    """
     evidence = Evidence(
         discs=select(read_dataset(discs), group="base"),
-        tables={name: pd.read_csv(path) for name, path in tables.items()},
+        tables={Path(path).stem: pd.read_csv(path) for path in tables},
         **settings,
     )
     table = judge(claims, evidence)
@@ -27,7 +32,4 @@ def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    files = dict(job.input)
-    main(files.pop("discs"), files, **job.output, **job.params)
+run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))

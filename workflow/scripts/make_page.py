@@ -6,10 +6,10 @@ from viscorough.io.atomic import atomic_write
 from viscorough_study.page.assembly import contents_of
 from viscorough_study.page.calculator import calculator
 from viscorough_study.page.render import embedded_png, render
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 
 
-def main(project, figures, page_file, *, alternative, **run):
+def main(project, figures, page, *, alternative, **run):
     """Write the page.
 
     project : folder of the project, which has template, style, captions, published numbers and verdicts, and the
@@ -26,10 +26,8 @@ def main(project, figures, page_file, *, alternative, **run):
         "rules": embedded_png((project / "docs/rules.png").read_bytes()),
     }
     html = render(*texts, figures, captions, alternative=alternative, **parts, **contents_of(project, **run))
-    with atomic_write(page_file) as temporary:
+    with atomic_write(page) as temporary:
         temporary.write_text(html, encoding="utf-8")
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(Path(job.scriptdir).resolve().parents[1], **job.input, page_file=job.output.page, **job.params)
+run_job(globals(), lambda job: main(Path(job.scriptdir).resolve().parents[1], **job.input, **job.output, **job.params))

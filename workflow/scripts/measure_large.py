@@ -4,7 +4,7 @@ import pandas as pd
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.performance.large_discs import measure_disc
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 from viscorough_study.run.seeds import large_disc_key, realization_seed
 
 
@@ -15,6 +15,6 @@ def main(csv, *, elements, seed, **options):
         pd.DataFrame([cost]).to_csv(temporary, index=False)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(**job.output, elements=int(job.wildcards.elements), threads=job.threads, **job.params)
+run_job(
+    globals(), lambda job: main(**job.output, elements=int(job.wildcards.elements), threads=job.threads, **job.params)
+)

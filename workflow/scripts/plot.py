@@ -5,7 +5,7 @@ from pkgutil import resolve_name
 import pandas as pd
 
 from viscorough_study.figures.style import save_figure
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 
 
 def main(files, png, pdf, *, functions, **params):
@@ -22,6 +22,4 @@ def main(files, png, pdf, *, functions, **params):
     save_figure(resolve_name(functions["draw"])(**inputs, **params), png, pdf)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(dict(job.input), **job.output, **job.params)
+run_job(globals(), lambda job: main(dict(job.input), **job.output, **job.params))

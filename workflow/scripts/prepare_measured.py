@@ -5,7 +5,7 @@ import logging
 from viscorough_study.ensembles.batches import Realization
 from viscorough_study.ensembles.measured import lengths, measured_indenter
 from viscorough_study.ensembles.surface_files import write_surfaces
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 
 
 def main(heights, surfaces, *, name, group, **reading):
@@ -22,6 +22,4 @@ def main(heights, surfaces, *, name, group, **reading):
     write_surfaces([(settings, 1, [(realization, indenter)])], surfaces)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(**job.input, **job.output, **job.params)
+run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))

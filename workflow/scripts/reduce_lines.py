@@ -4,7 +4,7 @@ from viscorough.io import netcdf
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
 from viscorough_study.ensembles.batches import Realization, batch_of_curves, without_numbers
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 from viscorough_study.run.seeds import realization_seed
 
 
@@ -13,7 +13,7 @@ def main(curves, *, ensembles, seed, until_x):
 
     ensembles : of `viscorough_study.run.cases.batch_ensembles`; surface : arguments of SelfAffineLines
     """
-    reduced, realizations = [], []
+    members = []
     for ensemble in ensembles:
         surface = ensemble["surface"]
         lines = SelfAffineLines(points=ensemble["points"], **surface)  # what all its realizations share
@@ -21,12 +21,10 @@ def main(curves, *, ensembles, seed, until_x):
         lengths = surface["length"], lines.spacing, {"line": surface["rms"]}  # every line has the nominal rms height
         for number in range(*ensemble["numbers"]):
             heights = lines.heights_in_any_order(realization_seed(seed, *ensemble["spawn_key"], number))
-            reduced.append(reduce_heights(heights, lines.spacing, until_force=until_force, length_unit="m"))
-            realizations.append(Realization(ensemble["name"], number, surface["hurst"], *lengths))
+            curve = reduce_heights(heights, lines.spacing, until_force=until_force, length_unit="m")
+            members.append((curve, Realization(ensemble["name"], number, surface["hurst"], *lengths), until_x))
     settings = {"seed": seed, "until_x": until_x, "ensembles": without_numbers(ensembles)}
-    netcdf.write(batch_of_curves(reduced, realizations, until_x=until_x, settings=settings), curves)
+    netcdf.write(batch_of_curves(members, settings), curves)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(**job.output, **job.params)
+run_job(globals(), lambda job: main(**job.output, **job.params))

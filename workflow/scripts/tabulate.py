@@ -6,19 +6,20 @@ import pandas as pd
 
 from viscorough_study.performance import timing
 from viscorough_study.run.inputs import read_input
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 from viscorough_study.run.tables import recorded, write_table
 
 
-def main(files, csv, nc, *, functions, tables, timed, arguments):
+def main(files, csv, nc, *, functions, tables, arguments):
     """Make tables from files, {argument of the function: path, or paths}, and its further arguments.
 
     functions : dotted names of the function that makes the tables ("tabulate"), and of the columns of each of them
-    tables : {table: label and dimension}; timed : whether they hold measured times, so that the machine is recorded
+    tables : {table: its entry, with label, dimension, and whether it is timed, so that the machine is recorded}
     """
     inputs = {name: read_input(path) for name, path in files.items()}
     made = resolve_name(functions["tabulate"])(**inputs, **arguments)
     made = dict.fromkeys(tables, made) if isinstance(made, pd.DataFrame) else made
+    timed = any("timed" in entry for entry in tables.values())
     attributes = recorded(settings=arguments, **({"machine": timing.machine()} if timed else {}))
     for (name, entry), *paths in zip(tables.items(), csv, nc, strict=True):
         title = entry["label"][0].upper() + entry["label"][1:]
@@ -26,6 +27,4 @@ def main(files, csv, nc, *, functions, tables, timed, arguments):
         write_table(made[name], *paths, **description, attributes=attributes)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(dict(job.input), **job.output, **job.params)
+run_job(globals(), lambda job: main(dict(job.input), **job.output, **job.params))

@@ -3,7 +3,7 @@
 from datetime import date
 
 from viscorough_study.performance import timing
-from viscorough_study.run.job_log import log_to
+from viscorough_study.run.job_log import run_job
 from viscorough_study.run.rule_costs import COLUMNS, rule_costs, versions
 from viscorough_study.run.tables import recorded, write_table
 
@@ -16,6 +16,4 @@ def main(csv, nc, *, benchmarks):
     write_table(table, csv, nc, columns=COLUMNS, dimension="rule", title=title, attributes=attributes)
 
 
-if job := globals().get("snakemake"):
-    log_to(job.log[0])
-    main(**job.output, **job.params)
+run_job(globals(), lambda job: main(**job.output, **job.params))

@@ -11,6 +11,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
+DIMENSIONS = ("rms_convention", "realization", "abscissa")
 ROUNDING = 1e-9  # relative difference below which abscissae and ends of ranges count as equal
 
 
@@ -56,50 +57,29 @@ def on_abscissae(curves, rms, diameter, x):
     return stiffness, count
 
 
-def ensemble_dataset(conventions, x, stiffness, count, coords):
-    """Ensemble dataset: vt/h = X/κ (velocity), κ (stiffness), elements in contact, and averages over the realizations.
+def with_averages(curves):
+    """Ensemble dataset: curves with vt/h = X/κ (velocity), and averages over the realizations.
 
     Averages are means and medians, by their names; velocity_spread, the standard deviation of ln(vt/h);
     realizations_defined, the number of curves that reach an abscissa; and fraction_defined, this number over that of
     the curves intended to reach it.
 
-    conventions : names of the rms conventions; x : X, shape (abscissae,)
-    stiffness, count : κ and elements in contact, shape (conventions, realizations, abscissae), nan where undefined
-    coords : hurst, case, diameter, elements, and until_x, the X up to which curves were computed, if it is limited
+    curves : dataset with κ (stiffness) and elements in contact (contact_count), nan where undefined, of the dimensions
+        `DIMENSIONS`, the first of which a single rms convention lacks; its coordinates are x, X, and until_x, the X up
+        to which curves were computed
     """
-    coords = {"until_x": np.inf} | coords
-    velocity, until_x = x / stiffness, coords["until_x"]
-    until_x = until_x[1] if isinstance(until_x, tuple) else until_x  # of every realization
-    dimensions = ("rms_convention", "realization", "abscissa")
-    variables = {"velocity": velocity, "stiffness": stiffness, "contact_count": count}
-    variables = {name: (dimensions, values) for name, values in variables.items()}
-    variables |= {
-        name: (("rms_convention", "abscissa"), values)
-        for name, values in _averages(x, velocity, count, until_x).items()
-    }
-    return xr.Dataset(variables, {"x": ("abscissa", x), "rms_convention": conventions, **coords})
-
-
-def _averages(x, velocity, count, until_x):
-    """Averages over the defined realizations, each of shape (rms conventions, abscissae)."""
-    defined = np.isfinite(velocity)
-    number = defined.sum(axis=1)
-    expected = np.broadcast_to(np.reshape(until_x, (-1, 1)) * (1 + ROUNDING) >= x, velocity.shape[1:]).sum(axis=0)
-
-    def mean(values):
-        return np.where(defined, values, 0).sum(axis=1) / number
-
-    log_velocity = np.log(velocity)
-    with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
-        warnings.simplefilter("ignore", RuntimeWarning)  # of nanmedian where no realization is defined
-        geometric = mean(log_velocity)
-        squares = mean((log_velocity - geometric[:, None]) ** 2) * number
-        return {
-            "velocity_arithmetic": mean(velocity),
-            "velocity_geometric": np.exp(geometric),
-            "velocity_spread": np.sqrt(squares / (number - 1)),
-            "stiffness_geometric": x / np.exp(geometric),
-            "contact_count_median": np.nanmedian(count, axis=1),
-            "realizations_defined": number,
-            "fraction_defined": np.where(expected > 0, number / np.maximum(expected, 1), 0.0),
-        }
+    velocity = curves["x"] / curves["stiffness"]
+    defined, expected = velocity.notnull(), curves["until_x"] * (1 + ROUNDING) >= curves["x"]
+    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):  # where few realizations are defined
+        geometric = np.exp(np.log(velocity).mean("realization"))
+        averaged = curves.assign(
+            velocity=velocity,
+            velocity_arithmetic=velocity.mean("realization"),
+            velocity_geometric=geometric,
+            velocity_spread=np.log(velocity).std("realization", ddof=1),
+            stiffness_geometric=curves["x"] / geometric,
+            contact_count_median=curves["contact_count"].median("realization"),
+            realizations_defined=defined.sum("realization"),
+            fraction_defined=xr.where(expected, defined, np.nan).mean("realization").fillna(0.0),
+        )
+    return averaged.transpose(*DIMENSIONS, missing_dims="ignore")

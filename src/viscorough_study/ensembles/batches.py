@@ -33,12 +33,14 @@ class Realization(NamedTuple):
     rms: dict
 
 
-def batch_of_curves(curves, realizations, *, until_x, settings):
+def batch_of_curves(members, settings):
     """Content of a NetCDF file; lengths in m.
 
-    curves, realizations : LoadingCurve and Realization of every surface; values common to all surfaces are stored once
-    until_x : X up to which each curve was computed; settings : of the curves, for the attribute settings
+    members : (LoadingCurve, Realization, X up to which the curve was computed) of every surface; values common to all
+        surfaces are stored once
+    settings : of the curves, for the attribute settings
     """
+    curves, realizations, until_x = zip(*members, strict=True)
     content = stack_curves(curves)
     ensemble, number, hurst, diameter, spacing, rms = zip(*realizations, strict=True)
     stored = {f"rms_{name}": (np.array([heights[name] for heights in rms]), RMS[name], "m") for name in rms[0]}

@@ -3,19 +3,16 @@
 from viscorough.contact.loading_path import indent
 
 
-def end_of_curve(number, indentation):
-    """X at which the curve of a realization ends: `until_x` for the first `whole_curves`, `short_until_x` for others.
+def indent_realization(realization, indenter, *, tolerance, until_fraction, until_x, whole_curves, short_until_x=None):
+    """LoadingCurve of a surface up to a contact fraction or X = F/(4GhL), and this X.
 
-    number : of the realization; it is independent of the surface, so longer curves are a random sample of the ensemble
+    until_x : of the first `whole_curves` realizations; the curves of others end at `short_until_x`. The number of a
+        realization is independent of its surface, so the longer curves are a random sample of the ensemble.
+
+    In X, h is the rms height over the disc or, if the disc is cut from a square, the larger of those over disc and
+    square.
     """
-    return indentation["until_x" if number < indentation["whole_curves"] else "short_until_x"]
-
-
-def indent_surface(indenter, rms, diameter, *, tolerance, until_fraction, until_x):
-    """LoadingCurve of a surface up to a contact fraction or X = F/(4GhL).
-
-    rms : {convention: rms height}; diameter : L. In X, h is the rms height over the disc or, if the disc is cut from a
-    square, the larger of those over disc and square.
-    """
-    until_force = 4 * max(rms[name] for name in ("disc", "square") if name in rms) * diameter * until_x
-    return indent(indenter, tolerance=tolerance, until_fraction=until_fraction, until_force=until_force)
+    until_x = until_x if realization.number < whole_curves else short_until_x
+    rms = max(realization.rms[name] for name in ("disc", "square") if name in realization.rms)
+    until_force = 4 * rms * realization.diameter * until_x
+    return indent(indenter, tolerance=tolerance, until_fraction=until_fraction, until_force=until_force), until_x

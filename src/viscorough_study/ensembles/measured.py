@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from viscorough.indenter import Indenter
 from viscorough.io.heights import read_heights
-from viscorough.units import metres
 
 
 def measured_indenter(file, *, spacing, unit, preparation):
@@ -18,9 +16,7 @@ def measured_indenter(file, *, spacing, unit, preparation):
     indenter = read_heights(file, spacing, unit=unit, **preparation)
     if indenter.length_unit == "1":
         raise ValueError(f"{file}: states no unit of length; measured.unit in the settings is needed")
-    factor = metres(indenter.length_unit)
-    spacings = indenter.spacing * factor, indenter.row_spacing * factor
-    return Indenter(indenter.heights * factor, *spacings, length_unit="m")
+    return indenter.to("m")
 
 
 def lengths(indenter):

@@ -7,12 +7,12 @@ number of elements are coordinates of the realizations. It holds no averages, wh
 import json
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from viscorough.io.curves import unstack_curves
-from viscorough_study.ensembles.averages import ROUNDING, ensemble_dataset, on_abscissae
+from viscorough_study.ensembles.averages import DIMENSIONS, ROUNDING, on_abscissae, with_averages
 
-DIMENSIONS = ("rms_convention", "realization", "abscissa")
 VARIABLES = {
     "stiffness": "dimensionless stiffness κ = k/(4GL)",
     "contact_count": "elements in contact",
@@ -33,20 +33,16 @@ def pool_batches(batches, conventions, x):
     batches : iterable of (group, Content of ensembles.batches.batch_of_curves); only one at a time is in memory
     conventions : of the rms heights; x : X, shape (abscissae,) [1]
     """
-    stiffness, count, settings, numbers = [], [], {}, []
-    coordinates = {name: [] for name in REALIZATION_COORDINATES}
+    stiffness, count, realizations, settings = [], [], [], {}
     for group, batch in batches:
         curves, values = unstack_curves(batch), {name: variable.values for name, variable in batch.variables.items()}
         rms = {name: values[f"rms_{name}"] for name in conventions}
+        stored = {name: values[name] for name in ("hurst", "case", "diameter", "until_x", "number")}
+        realizations.append(pd.DataFrame(stored | {"group": group, "elements": [curve.elements for curve in curves]}))
         # Whether a shorter curve happens to reach further depends on its surface: a mean over those would be biased.
-        beyond = np.broadcast_to(values["until_x"], len(curves))[:, None] * (1 + ROUNDING) < x
+        beyond = realizations[-1]["until_x"].to_numpy()[:, None] * (1 + ROUNDING) < x
         for parts, part in zip((stiffness, count), on_abscissae(curves, rms, values["diameter"], x), strict=True):
             parts.append(np.where(beyond, np.nan, part))
-        batch_values = {name: values[name] for name in ("hurst", "case", "diameter", "until_x")}
-        batch_values |= {"group": group, "elements": [curve.elements for curve in curves]}
-        for name, value in batch_values.items():
-            coordinates[name] += np.broadcast_to(value, len(curves)).tolist()
-        numbers += values["number"].tolist()
         made_from = json.loads(batch.attributes["settings"])
         known = settings.setdefault(values["case"][0], made_from).get("ensembles", [])
         known += [ensemble for ensemble in made_from.get("ensembles", []) if ensemble not in known]
@@ -54,16 +50,15 @@ def pool_batches(batches, conventions, x):
     for (name, text), parts in zip(VARIABLES.items(), (stiffness, count), strict=True):
         pool[name] = (DIMENSIONS, np.concatenate(parts, axis=1), {"long_name": text, "units": "1"})
         parts.clear()
+    table = pd.concat(realizations)
     for name, (text, units) in REALIZATION_COORDINATES.items():
         attributes = {"long_name": text} | ({"units": units} if units else {})
-        pool = pool.assign_coords({name: ("realization", coordinates[name], attributes)})
+        pool = pool.assign_coords({name: ("realization", table[name].to_numpy(), attributes)})
     pool["x"].attrs = {"long_name": "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "units": "1"}
     pool["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
     pool = pool.assign_attrs(title="Loading curves on common abscissae", settings=json.dumps(settings))
-    cases = list(zip(coordinates["group"], coordinates["case"], strict=True))
-    order = {case: rank for rank, case in enumerate(dict.fromkeys(cases))}
-    ranks = [order[case] for case in cases]
-    return pool.isel(realization=np.lexsort((numbers, ranks)))
+    cases = table.groupby(["group", "case"], sort=False).ngroup()
+    return pool.isel(realization=np.lexsort((table["number"], cases)))
 
 
 def select(pool, **wanted):
@@ -80,22 +75,14 @@ def ensembles(pool, *names, rms_convention=None):
     The ensembles have averages over their realizations (ensembles.averages). Their case and diameter are scalars if all
     realizations agree, otherwise coordinates of the realizations.
     """
-    result, pool = {}, pool if rms_convention is None else pool.sel(rms_convention=[rms_convention])
+    result, pool = {}, pool if rms_convention is None else pool.sel(rms_convention=rms_convention)
     for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
-        key = values if len(names) > 1 else values[0]
-        ensemble = _ensemble(select(pool, **dict(zip(names, values, strict=True))))
-        result[key] = ensemble if rms_convention is None else ensemble.isel(rms_convention=0)
+        ensemble = with_averages(select(pool, **dict(zip(names, values, strict=True))))
+        for name in ("hurst", "elements", "case", "diameter", "until_x"):
+            same = np.unique(ensemble[name].values)  # nan, of measured surfaces, is equal to nan
+            ensemble = ensemble.assign_coords({name: same[0]}) if same.size == 1 else ensemble
+        result[values if len(names) > 1 else values[0]] = ensemble
     return result
-
-
-def _ensemble(part):
-    coords = {}
-    for name in ("hurst", "elements", "case", "diameter", "until_x"):
-        values = part[name].values
-        same = np.unique(values).size == 1  # nan, of measured surfaces, is equal to nan
-        coords[name] = values[0] if same else ("realization", values)
-    arrays = (part[name].values for name in ("x", *VARIABLES))
-    return ensemble_dataset(part["rms_convention"].values.tolist(), *arrays, coords)
 
 
 def elements_across(elements):

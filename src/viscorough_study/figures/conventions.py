@@ -34,8 +34,7 @@ def plot_conventions(scaling, conventions):
     """
     discs = scaling[scaling["source"] == "discs"]
     looks, changes = style.hurst_looks(discs["hurst"]), _changes(discs, conventions)
-    figure = style.new_figure(7 * len(changes) + 28)
-    betas, zetas = figure.subplots(1, 2, sharey=True)
+    figure, (betas, zetas) = style.new_subplots(7 * len(changes) + 28, 1, 2, sharey=True)
     heights = np.linspace(-0.27, 0.27, len(looks))  # of the Hurst exponents in a row
     for (hurst, look), height in zip(looks.items(), heights, strict=True):
         beta, zeta = reference.exponent_beta(hurst), reference.zeta_viscous(hurst)

@@ -13,8 +13,8 @@ def plot_direct_integration(table):
     table : of comparisons.direct_integration; each indenter has a panel, with the largest deviation of the ratio from 1
     """
     cases = list(table["case"].unique())
-    columns = min(3, len(cases))
-    figure, panels = style.new_panels(len(cases), columns, height=42, rest=16, sharex=True, sharey=True)
+    layout = {"columns": min(3, len(cases)), "height": 42, "rest": 16, "xlabel": "elements in contact"}
+    figure, panels = style.new_panels(len(cases), **layout, sharex=True, sharey=True)
     for axes, case in zip(panels, cases, strict=True):
         rows = table[table["case"] == case]
         factor, deviation = rows["with_gamma"].iloc[0], np.abs(rows["depth_ratio"] - 1).max()
@@ -26,9 +26,6 @@ def plot_direct_integration(table):
         text = {"transform": axes.get_yaxis_transform(), "color": style.GREY, "ha": "right"}
         axes.text(0.97, factor - 0.004, f"{factor:.3f}", va="top", **text)
         axes.text(0.97, 1.004, f"largest deviation {readable(deviation)}", va="bottom", **text)
-    for axes in panels[-columns:]:  # the bottom row
-        axes.tick_params(labelbottom=True)
-        axes.set_xlabel("elements in contact")
     figure.supylabel("viscous depth over elastic depth")
     handles = [
         style.handle("direct integration in time", color=style.BLACK, marker="o", linestyle=""),

@@ -15,8 +15,7 @@ def plot_exponent(scaling, conventions, hurst_range):
     hurst_range : in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
     """
     looks = style.hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])
-    figure = style.new_figure(82, style.NARROW)
-    axes = figure.subplots()
+    figure, axes = style.new_subplots(82, width=style.NARROW)
     axes.axvspan(*hurst_range, color="0.94", linewidth=0)
     text = {"color": style.GREY, "ha": "right", "transform": axes.transAxes}
     axes.text(0.98, 0.04, "where the paper finds\nEq. 10 accurate", **text)

@@ -38,8 +38,7 @@ def plot_failure_map(table):
     unnoticed.
     """
     methods, rows = list(table["method"].unique()), list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
-    figure = style.new_figure(3.7 * len(rows) + 58)
-    axes = figure.subplots()
+    figure, axes = style.new_subplots(3.7 * len(rows) + 58)
     errors = np.full((len(rows), len(methods)), np.nan)
     for cell in table.itertuples():
         i, j = rows.index((cell.group, cell.case)), methods.index(cell.method)

@@ -24,9 +24,8 @@ def discs(files):
 
 
 def lines(files):
-    """Lines of a pool at the Hurst exponents of the discs, one ensemble per Hurst exponent."""
-    by_hurst = ensembles_by(read_dataset(files["lines"]), "hurst")
-    return [by_hurst[ensemble["hurst"].item()] for ensemble in discs(files)]
+    """Lines of a pool, one ensemble per Hurst exponent."""
+    return list(ensembles_by(read_dataset(files["lines"]), "hurst").values())
 
 
 def groups(files):

@@ -26,8 +26,7 @@ def plot_interface(table, curves, literature, periodic):
     shown = curves.merge(base[[*LABELS, "plateau_low", "plateau_high"]], on=LABELS)
     shown = shown[shown["x"].between(X_SHOWN[0], 1.01 * X_SHOWN[1])]
     looks = style.hurst_looks([*table["hurst"], *periodic["hurst"]])
-    figure = style.new_figure(130)
-    (discs, lines), (ratio, plateaus) = figure.subplots(2, 2)
+    figure, ((discs, lines), (ratio, plateaus)) = style.new_subplots(130, 2, 2)
     for (source, hurst, across), curve in shown.groupby(["source", "hurst", "across"]):
         axes, look = discs if source == "discs" else lines, looks[hurst] | {"marker": ""}
         style.draw_band(axes, curve, "interface", look["color"], alpha=0.25)

@@ -10,8 +10,7 @@ def plot_large(table):
 
     table : costs of the discs of at least two sizes, by ascending number of elements
     """
-    figure = style.new_figure(80)
-    time, memory = figure.subplots(1, 2)
+    figure, (time, memory) = style.new_subplots(80, 1, 2)
     elements, threads = table["elements"], f"wall time on {table['threads'].max():.0f} threads"
     larger = slice(min(len(table) // 2, len(table) - 2), None)
     time.plot(elements, table["wall_threads"], "s", markerfacecolor="none", color=style.GREY, label=threads)

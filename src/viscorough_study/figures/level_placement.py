@@ -19,8 +19,7 @@ def plot_level_placement(table):
     A choice that does not reach the accuracy is hatched.
     """
     scenes, accuracy = list(table["scene"].unique()), table.groupby("scene")["accuracy"].first()
-    figure = style.new_figure(12 * len(scenes) + 28)
-    axes = figure.subplots()
+    figure, axes = style.new_subplots(12 * len(scenes) + 28)
     for row in table.itertuples():
         y = scenes.index(row.scene) + HEIGHT * (list(CHOICES).index(row.choice) - (len(CHOICES) - 1) / 2)
         look = {"color": CHOICES[row.choice]} if row.reached else {"facecolor": "white", "hatch": MISSED}

@@ -12,7 +12,8 @@ from viscorough_study.fits.conventions import fits
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     """vt/h over the right side of Eq. 12 with its Γ, and below it their ratio.
 
-    discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13)
+    discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13), and
+        are drawn at the Hurst exponents of discs
     scaling : scaling table, which has region (b); conventions : {column of it: value}
     fraction_min : smallest fraction of defined realizations for which a mean is drawn
 
@@ -20,10 +21,11 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     Region (a) is omitted. The lower panel is cut to the range of the ratios in region (b).
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in discs)
-    figure = style.new_figure(120, style.NARROW)
-    panels = law, ratio = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1))
+    figure, panels = style.new_subplots(120, 2, width=style.NARROW, sharex=True, height_ratios=(1.7, 1))
+    law, ratio = panels
     for axes in panels:
         axes.set(xscale="log", yscale="log")
+    lines = [ds for ds in lines if ds["hurst"].item() in looks]
     ratios = [0.5, 2]
     for ds in discs:
         hurst = ds["hurst"].item()

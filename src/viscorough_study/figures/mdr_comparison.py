@@ -13,8 +13,8 @@ def plot_mdr_comparison(table):
     table : of viscorough_study.comparisons.mdr_comparison
     Bands are 95 % intervals of the means; in (e), 95 % of the correlations of unrelated pairs.
     """
-    figure = style.new_figure(185)
-    stiffness, scatter, area, gap, correlation, force = figure.subplots(3, 2, sharex=True).flat
+    figure, panels = style.new_subplots(185, 3, 2, sharex=True)
+    stiffness, scatter, area, gap, correlation, force = panels.flat
     looks = style.hurst_looks(table["hurst"])
     for hurst, rows in table.groupby("hurst"):
         look = {"color": looks[hurst]["color"], "linestyle": looks[hurst]["linestyle"]}

@@ -17,8 +17,7 @@ def plot_mdr_lambda(lambdas, exponents):
 
     lambdas, exponents : tables of viscorough_study.comparisons.mdr_equivalence
     """
-    figure = style.new_figure(75)
-    values, ratios, differences = figure.subplots(1, 3)
+    figure, (values, ratios, differences) = style.new_subplots(75, 1, 3)
     looks = style.hurst_looks(exponents["hurst"])
     for hurst, rows in lambdas.groupby("hurst"):
         color, inside = looks[hurst]["color"], rows["in_region"] == 1

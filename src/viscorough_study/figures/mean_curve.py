@@ -1,41 +1,30 @@
 """Mean velocity of an ensemble under the conventions of the figures, for the kinetics and the master curve."""
 
-from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 
 from viscorough_study.figures.style import count_text
 
 
-@dataclass(frozen=True)
-class MeanCurve:
-    """Mean over the defined realizations, arrays of shape (abscissae,).
+def mean_curve(ensemble, conventions, fraction_min):
+    """Mean over the defined realizations of an ensemble dataset, arrays of shape (abscissae,).
+
+    conventions : {column of the scaling table: value}
+    fraction_min : smallest fraction of defined realizations for which a mean is drawn
 
     x : X; velocity : vt/h, nan where too few realizations are defined for an unbiased mean
     error : two standard errors of ln(vt/h)
     several : whether the mean is drawn and more than one element is in contact, so that it lies beyond region (a)
     """
-
-    x: np.ndarray
-    velocity: np.ndarray
-    error: np.ndarray
-    several: np.ndarray
-
-
-def mean_curve(ensemble, conventions, fraction_min):
-    """MeanCurve of an ensemble dataset.
-
-    conventions : {column of the scaling table: value}
-    fraction_min : smallest fraction of defined realizations for which a mean is drawn
-    """
     available = ensemble["rms_convention"].values.tolist()  # lines have a single convention
     mean = ensemble.sel(rms_convention=conventions["rms_convention"] if len(available) > 1 else available[0])
     defined = mean["fraction_defined"].values >= fraction_min
-    return MeanCurve(
-        mean["x"].values,
-        np.where(defined, mean[f"velocity_{conventions['average']}"].values, np.nan),
-        2 * mean["velocity_spread"].values / np.sqrt(np.maximum(mean["realizations_defined"].values, 1)),
-        defined & (mean["contact_count_median"].values > 1),
+    return SimpleNamespace(
+        x=mean["x"].values,
+        velocity=np.where(defined, mean[f"velocity_{conventions['average']}"].values, np.nan),
+        error=2 * mean["velocity_spread"].values / np.sqrt(np.maximum(mean["realizations_defined"].values, 1)),
+        several=defined & (mean["contact_count_median"].values > 1),
     )
 
 

@@ -18,8 +18,7 @@ def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min
     conventions : {column of a scaling table: value}
     fraction_min : smallest fraction of defined discs for which a mean is drawn
     """
-    figure = style.new_figure(85)
-    law, motion = figure.subplots(1, 2)
+    figure, (law, motion) = style.new_subplots(85, 1, 2)
     looks, hursts = style.series_looks(groups), style.hurst_looks(ds["hurst"].item() for ds in discs)
     for ds in discs:
         curve, look = mean_curve(ds, conventions, fraction_min), hursts[ds["hurst"].item()]

@@ -17,8 +17,7 @@ def plot_sizes(table, conventions):
     """
     fixed = table[~table["window_rule"].isin(FITTED["window_rule"])].sort_values("x_low", kind="stable")
     rules = [conventions["window_rule"], *fixed["window_rule"].tail(1)]
-    figure = style.new_figure(25 + 60 * len(rules))
-    panels = figure.subplots(len(rules), 2, sharex="col", sharey=True, squeeze=False)
+    figure, panels = style.new_subplots(25 + 60 * len(rules), len(rules), 2, sharex="col", sharey=True, squeeze=False)
     looks = style.hurst_looks(table.loc[table["case_group"] == "sizes", "hurst"])
     letters = iter("abcd")
     for row, rule in zip(panels, rules, strict=True):

@@ -33,14 +33,13 @@ def plot_speed(table):
     """
     rough = sorted(name for name in table["problem"].unique() if name.startswith("rough"))
     problems = [*rough[:1], *({"sphere"} & set(table["problem"]))] or [table["problem"].iloc[0]]
-    figure = style.new_figure(100)
-    panels = figure.subplots(1, len(problems), squeeze=False)[0]
-    for axes, problem, letter in zip(panels, problems, "ab", strict=False):
+    figure, panels = style.new_subplots(100, 1, len(problems), squeeze=False)
+    for axes, problem, letter in zip(panels[0], problems, "ab", strict=False):
         title, rows = _finest_grid(table, problem)
         _draw_costs(axes, rows.assign(error=np.maximum(rows["error"], FLOOR)))
         axes.set(title=f"({letter}) {title}", xlabel="wall time (s)", xscale="log", yscale="log")
         axes.set_ylabel("relative error of $v$, root mean square")
-    labelled = {line.get_label(): line for axes in panels for line in axes.lines if line.get_label()[0] != "_"}
+    labelled = {line.get_label(): line for axes in panels[0] for line in axes.lines if line.get_label()[0] != "_"}
     figure.legend(handles=[*labelled.values()], loc="outside lower center", ncols=3)
     return figure
 

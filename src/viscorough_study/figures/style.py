@@ -93,20 +93,29 @@ def new_figure(height, width=WIDE):
     return Figure(figsize=(width, height * MM))
 
 
-def new_panels(count, columns, height, rest, ylabel="", **sharing):
+def new_subplots(height, rows=1, columns=1, width=WIDE, **options):
+    """Figure, as of `new_figure`, and its axes, as of Figure.subplots."""
+    figure = new_figure(height, width)
+    return figure, figure.subplots(rows, columns, **options)
+
+
+def new_panels(count, columns, height, rest, *, xlabel="", ylabel="", **sharing):
     """Figure and the list of its `count` panels, in rows of `columns`.
 
-    height : of a row of panels; rest : of titles, labels and legends in all [mm]; ylabel : of the first panel of a row
-    sharing : as in Figure.subplots
+    height : of a row of panels; rest : of titles, labels and legends in all [mm]
+    xlabel : of the lowest panel of a column; ylabel : of the first panel of a row; sharing : as in Figure.subplots
     """
     rows = -(-count // columns)
-    figure = new_figure(height * rows + rest)
-    grid = figure.subplots(rows, columns, squeeze=False, **sharing)
+    figure, grid = new_subplots(height * rows + rest, rows, columns, squeeze=False, **sharing)
     for axes in grid[:, 0]:
         axes.set_ylabel(ylabel)
     for axes in grid.flat[count:]:
         axes.remove()
-    return figure, list(grid.flat[:count])
+    panels = list(grid.flat[:count])
+    for axes in panels[-columns:]:
+        axes.tick_params(labelbottom=True)
+        axes.set_xlabel(xlabel)
+    return figure, panels
 
 
 @in_style

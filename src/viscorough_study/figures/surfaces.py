@@ -17,10 +17,8 @@ def plot_surfaces(examples):
     columns = min(4, len(examples))
     figure, panels = style.new_panels(len(examples), columns, height=47, rest=15, ylabel="$y/L$", sharey=True)
     figure.set(figwidth=style.WIDE * max(columns, 2) / 4, layout_engine="compressed")
-    limits = {
-        "vmin": min(np.nanmin(heights) for _, heights, _ in examples),
-        "vmax": max(np.nanmax(heights) for _, heights, _ in examples),
-    }
+    all_heights = np.concatenate([heights.ravel() for _, heights, _ in examples])
+    limits = {"vmin": np.nanmin(all_heights), "vmax": np.nanmax(all_heights)}
     for axes, (hurst, heights, spacing) in zip(panels, examples, strict=True):
         half = np.array(heights.shape) * spacing / 2
         extent = (-half[1], half[1], -half[0], half[0])

@@ -17,8 +17,9 @@ def plot_validation(table):
     """
     quantities, cases = table["quantity"].unique(), table["case"].unique()
     looks, grids = _case_looks(cases), np.sort(table["elements"].unique())
-    columns = min(4, len(quantities))
-    figure, panels = style.new_panels(len(quantities), columns, height=54, rest=22, ylabel="relative error")
+    layout = {"columns": min(4, len(quantities)), "height": 54, "rest": 22}
+    labels = {"xlabel": "elements across, $n$", "ylabel": "relative error"}
+    figure, panels = style.new_panels(len(quantities), **layout, **labels)
     for axes, quantity in zip(panels, quantities, strict=True):
         errors = table[table["quantity"] == quantity]
         for case, rows in errors.groupby("case", sort=False):
@@ -29,8 +30,6 @@ def plot_validation(table):
         expected = rf"expected $\propto n^{{-{order:g}}}$" if order else "exact"
         axes.set(xscale="log", yscale="log", title=f"{quantity.replace('_', ' ')}\n{expected}")
         axes.xaxis.set(major_locator=FixedLocator(grids), minor_locator=NullLocator(), major_formatter="{x:g}")
-    for axes in panels[-columns:]:  # the bottom row
-        axes.set_xlabel("elements across, $n$")
     handles = [style.handle(case.replace("_", " "), **looks[case]) for case in cases]
     handles.append(style.handle("limit on the finest grid", **LIMIT))
     figure.legend(handles=handles, loc="outside lower center", ncols=4)

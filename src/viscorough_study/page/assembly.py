@@ -52,9 +52,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
         "choices": ("automatic", "best by hand", "naive"),
         "settings": content.settings_list(results, scale),
         "costs": results.records("rule_costs"),
-        "machine": read_recorded(costs_nc, "machine"),
-        "versions": read_recorded(costs_nc, "versions"),
-        "made": read_recorded(costs_nc, "made"),
+        **{name: read_recorded(costs_nc, name) for name in ("machine", "versions", "made")},
         "time": duration_text(results.tables["rule_costs"]["share_s"].sum()),
         "paper_time": numbers["boundary_elements"]["computing_time"]["value"],
     }

@@ -56,19 +56,18 @@ def verdicts(results, statements, published):
 
 
 def other_solvers(path):
-    """Time of other solvers over that of the elastic path: solvers, versions, rows, date and machine of measurement.
+    """Time of other solvers over that of the elastic path: their versions, rows, date and machine of measurement.
 
     path : table of published ratios
     """
     table = pd.read_csv(path)
-    solvers = list(dict.fromkeys(table["solver"]))
     names = ["task", "hurst", "elements", "levels"]
     rows = [
         {**dict(zip(names, values, strict=True)), "ratios": dict(zip(group["solver"], group["ratio"], strict=True))}
         for values, group in table.groupby(names, sort=False)
     ]
     versions = dict(zip(table["solver"], table["version"], strict=True))
-    return {"solvers": solvers, "versions": versions, "rows": rows, **table[["measured", "machine"]].iloc[0]}
+    return {"versions": versions, "rows": rows, **table[["measured", "machine"]].iloc[0]}
 
 
 def scenes(results):

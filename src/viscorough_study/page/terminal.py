@@ -51,11 +51,6 @@ class Progress:
         elif match := re.match(r"\d+ of \d+(?= steps )", line):
             self.done = match[0]
 
-    def close(self):
-        """Erase the line."""
-        if self.bar is not None:
-            self.bar.close()
-
     def _seconds_of(self, rule):
         return self.seconds.get(rule, self.seconds.mean())
 
@@ -78,7 +73,8 @@ def run(command, output=OUTPUT):
             progress.read(line.rstrip("\n"))
             if line.startswith(PASSED_ON):
                 _show(line)
-    progress.close()
+    if progress.bar is not None:
+        progress.bar.close()  # erases the line
     code = 128 - process.returncode if process.returncode < 0 else process.returncode
     if code:
         _show("".join(f"{line}\n" for line in _errors(output)))

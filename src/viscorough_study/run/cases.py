@@ -46,10 +46,13 @@ def _paper_discs(settings):
     cases, discs, variants = {}, settings["discs"], settings["variants"]
     indentation = {name: discs[name] for name in ("tolerance", "whole_curves", "short_until_x")}
     shared = {"pool": "discs", "indentation": settings["indentation"] | indentation}
+    base = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
     for hurst in discs["hurst"]:
         surface = settings["surface"] | {"hurst": hurst}
-        combinations = [
-            {
+        for combination in sorted(discs["combinations"], key=lambda combination: combination["number"] // 10):
+            tens = combination["number"] // 10
+            case = cases.setdefault(hurst_id(hurst) + (f"_{tens}0" if tens else ""), shared | base | {"ensembles": []})
+            ensemble = {
                 "elements": discs["elements"],
                 "realizations": discs["realizations"],
                 "name": f"{hurst_id(hurst)}_c{combination['number']}",
@@ -57,12 +60,7 @@ def _paper_discs(settings):
                 "combination": combination,
                 "surface": surface | {name: combination[name] for name in ("rms", "diameter")},
             }
-            for combination in discs["combinations"]
-        ]
-        base = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
-        for tens in sorted({ensemble["combination"]["number"] // 10 for ensemble in combinations}):
-            members = [ensemble for ensemble in combinations if ensemble["combination"]["number"] // 10 == tens]
-            cases[hurst_id(hurst) + (f"_{tens}0" if tens else "")] = shared | base | {"ensembles": members}
+            case["ensembles"].append(ensemble)
         for name, changed in _changes_of_variants(settings).items():
             ensemble = {
                 "name": f"{hurst_id(hurst)}_{name}",
@@ -153,16 +151,6 @@ def method_problems(settings):
     return bodies + [
         {"name": "rough disc", "hurst": hurst, "elements": n} for hurst in methods["hurst"] for n in methods["elements"]
     ]
-
-
-def measured_cases(scans, indentation):
-    """{scan: its description} of measured surfaces, each an ensemble of one realization.
-
-    scans : run.scans.scans; indentation : setting of that name
-    """
-    shared = {"pool": "measured", "realizations": 1, "batch": 1}
-    shared["indentation"] = indentation | {"whole_curves": 1}
-    return {name: shared | scan for name, scan in scans.items()}
 
 
 def first_combination(settings):

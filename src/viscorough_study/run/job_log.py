@@ -7,6 +7,16 @@ import traceback
 from viscorough.errors import ConvergenceError
 
 
+def run_job(names, call):
+    """Run a script, whose global names these are, as a job of Snakemake, with its log; otherwise do nothing.
+
+    call : function of the job
+    """
+    if job := names.get("snakemake"):
+        log_to(job.log[0])
+        call(job)
+
+
 def log_to(path):
     """Log messages, warnings and uncaught exceptions to a file, which is replaced, and to stderr.
 

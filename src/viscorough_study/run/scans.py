@@ -1,4 +1,4 @@
-"""Files of measured surfaces that the settings name."""
+"""Cases of the measured surfaces that the settings name."""
 
 import hashlib
 import re
@@ -6,12 +6,18 @@ from glob import glob
 from pathlib import Path
 
 
-def scans(entries):
-    """{scan: group, file, bytes, digest of its content, spacing, unit, preparation, forces} of all files.
+def scans(entries, indentation):
+    """{scan: description of its case (run.cases), an ensemble of one realization} of all files.
 
     entries : the setting `measured`; its patterns are relative to the working directory
-    A scan is named after its group and file. Raises ValueError if a pattern matches no file, or two names agree.
+    indentation : setting of that name
+
+    A description has pool, realizations, batch, indentation and group; file, its bytes and a digest of its content; and
+    spacing, unit, preparation and forces of the entry. A scan is named after its group and file. Raises
+    ValueError if a pattern matches no file, or two names agree.
     """
+    shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": indentation | {"whole_curves": 1}}
+    shared |= {"spacing": [], "unit": None, "preparation": {}, "forces": []}
     result = {}
     for entry in entries:
         for pattern in entry["files"]:
@@ -24,9 +30,7 @@ def scans(entries):
                 if name in result and result[name]["file"] != file:
                     both = f"{result[name]['file']} and {file}"
                     raise ValueError(f"measured: {both} have the same name {name}; allowed: different names")
-                shared = {"spacing": entry.get("spacing", []), "unit": entry.get("unit")}
-                shared |= {"preparation": entry.get("preparation", {}), "forces": entry.get("forces", [])}
-                result[name] = shared | _content(file) | {"group": entry["name"], "file": file}
+                result[name] = shared | entry | _content(file) | {"group": entry["name"], "file": file}
     return result
 
 

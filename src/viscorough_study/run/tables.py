@@ -54,8 +54,4 @@ def read_recorded(nc_path, name, missing=None):
     missing : returned if the file has no such attribute; if it is None, that raises a ValueError
     """
     with opened(nc_path) as file:
-        if name in file.ncattrs():
-            return json.loads(file.getncattr(name))
-    if missing is None:
-        raise ValueError(f"{nc_path}: has no attribute {name}; it must be made by this version of the workflow")
-    return missing
+        return json.loads(file.getncattr(name)) if missing is None or name in file.ncattrs() else missing

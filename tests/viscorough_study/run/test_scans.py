@@ -15,17 +15,17 @@ def here(tmp_path, monkeypatch):
 
 
 def test_patterns_and_names(here):
-    by_name = scans(
-        [{"name": "ground", "files": ["scans/*.txt"], "unit": "um"}, {"name": "other", "files": ["scans/b.npy"]}]
-    )
+    entries = [{"name": "ground", "files": ["scans/*.txt"], "unit": "um"}, {"name": "other", "files": ["scans/b.npy"]}]
+    by_name = scans(entries, {"until_x": 2.0})
     assert list(by_name) == ["ground_a_1", "ground_b", "other_b"]
     assert by_name["ground_a_1"]["file"] == "scans/a 1.txt"
     assert (by_name["ground_b"]["unit"], by_name["other_b"]["unit"], by_name["other_b"]["spacing"]) == ("um", None, [])
     assert by_name["ground_b"]["bytes"] == 5
-    (absolute,) = scans([{"name": "ground", "files": [str(here / "scans/b.txt")]}]).values()
+    assert by_name["ground_b"]["indentation"] == {"until_x": 2.0, "whole_curves": 1}
+    (absolute,) = scans([{"name": "ground", "files": [str(here / "scans/b.txt")]}], {}).values()
     assert absolute["digest"] == by_name["ground_b"]["digest"]
     (here / "scans/b.txt").write_text("b.txu")
-    (changed,) = scans([{"name": "ground", "files": ["scans/b.txt"]}]).values()
+    (changed,) = scans([{"name": "ground", "files": ["scans/b.txt"]}], {}).values()
     assert changed["digest"] != absolute["digest"]
 
 
@@ -36,4 +36,4 @@ def test_patterns_and_names(here):
 @pytest.mark.usefixtures("here")
 def test_missing_and_ambiguous_files(files, message):
     with pytest.raises(ValueError, match=message):
-        scans([{"name": "ground", "files": [files]}])
+        scans([{"name": "ground", "files": [files]}], {})

@@ -5,8 +5,6 @@ pint knows them. It takes a second to import, and is imported when a unit is rea
 "1" stands for a unit of length that is not known.
 """
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import math

@@ -1,7 +1,5 @@
 """`viscorough contact`: a map of heights to the fields of contact at a given force or depth."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +11,7 @@ from viscorough.summaries import si_unit, unit_power, with_unit
 from viscorough.units import Quantity
 
 
-@click.command()
+@click.command(short_help="Pressure, gap and contact at a given force or depth.")
 @surface_options.heights_input()
 @options.output("FIELDS.nc", table=False)
 @click.option("--force", type=options.Increasing("N"), help="Force, or several: F/G, or F with a modulus.")

@@ -1,7 +1,5 @@
 """`viscorough indent`: a map of heights to a loading curve."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,7 +13,7 @@ from viscorough.summaries import with_unit
 from viscorough.units import Quantity
 
 
-@click.command()
+@click.command(short_help="Loading curve of an indenter on an elastic half-space.")
 @surface_options.heights_input()
 @options.output("CURVE.nc")
 @click.option(

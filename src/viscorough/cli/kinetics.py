@@ -1,7 +1,5 @@
 """`viscorough kinetics`: a loading curve to penetration over time."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 from typing import Any
@@ -19,7 +17,7 @@ _CORRESPONDENCE = (
 )
 
 
-@click.command()
+@click.command(short_help="Penetration over time in any linear viscoelastic half-space.")
 @click.argument("curve", type=options.FILE, metavar="CURVE.nc")
 @options.force
 @options.force_history

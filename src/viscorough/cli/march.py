@@ -1,7 +1,5 @@
 """`viscorough march`: direct integration of the viscous or viscoelastic problem in time."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +14,7 @@ METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "second_order")  # methods that integrate viscoelastic media
 
 
-@click.command()
+@click.command(short_help="Penetration over time by direct integration.")
 @surface_options.heights_input()
 @options.output("KIN.nc")
 @click.option(

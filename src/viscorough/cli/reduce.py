@@ -1,7 +1,5 @@
 """`viscorough reduce`: the loading curve of a line of independent springs."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 
@@ -17,7 +15,7 @@ _OF_A_MAP = (
 )
 
 
-@click.command()
+@click.command(short_help="Loading curve by the method of dimensionality reduction (MDR).")
 @surface_options.heights_input("line_or_map")
 @options.until(1)
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+import viscorough
 from viscorough import units
 from viscorough.cli.messages import complain
 from viscorough.interrupts import on_interrupt
@@ -102,10 +103,8 @@ def read_load(
     force: Quantity | None, force_history: Path | None, length_unit: str
 ) -> tuple[float | ForceHistory, dict[str, Any]]:
     """(the load, what an output says about it) of the options --force and --force-history, one of which is given."""
-    from viscorough.io.motion import read_force_history
-
     if force_history is not None:
-        return read_force_history(force_history, length_unit), {"force": printable_name(force_history)}
+        return viscorough.read_force_history(force_history, length_unit), {"force": printable_name(force_history)}
     number = units.number(force, "N", length_unit, "--force")
     return number, {"force": number}
 
@@ -114,10 +113,8 @@ def read_half_space(
     viscosity: Quantity | None, medium: Path | None, length_unit: str
 ) -> tuple[float | Medium, dict[str, Any]]:
     """(viscosity or medium, what an output says about it) of --viscosity and --medium, one of which is given."""
-    from viscorough.io.media import read_medium
-
     if medium is not None:
-        return read_medium(medium, length_unit), {"medium": printable_name(medium)}
+        return viscorough.read_medium(medium, length_unit), {"medium": printable_name(medium)}
     number = units.number(viscosity, "Pa s", length_unit, "--viscosity")
     return number, {"viscosity": number}
 

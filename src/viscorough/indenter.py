@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, read_only
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, with_unit
+from viscorough.summaries import with_unit
 from viscorough.types import Array
 
 LARGEST_ASPECT = 5  # of the sides of an element, either way
@@ -18,7 +18,7 @@ _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double pre
 
 
 @dataclass(frozen=True)
-class Indenter(ReadOnlyArrays, Saved, Summarised):
+class Indenter(ReadOnlyArrays, Saved):
     """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
     Parameters
@@ -88,14 +88,17 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
         if not isinstance(self.length_unit, str) or not self.length_unit.strip():
             raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {self.length_unit!r}")
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """What it is; distances of its points; the difference of its heights."""
-        points = " x ".join(map(str, self.heights.shape))
+        points, unit = " x ".join(map(str, self.heights.shape)), self.length_unit
         difference = np.nanmax(self.heights) - np.nanmin(self.heights)
-        title = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements"
-        spacings = {"spacing": self.spacing} | ({"row spacing": self.row_spacing} if self.aspect != 1 else {})
-        numbers = spacings | {"highest over lowest point": difference}
-        return title, *([(name, with_unit(value, self.length_unit))] for name, value in numbers.items())
+        text = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements\n"
+        text += f"spacing {with_unit(self.spacing, unit)}\n"
+        if self.aspect != 1:
+            text += f"row spacing {with_unit(self.row_spacing, unit)}\n"
+        return f"{text}highest over lowest point {with_unit(difference, unit)}"
+
+    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
 
     def to(self, unit: str) -> "Indenter":
         """The same indenter with lengths in another unit, such as "m". Raises ValueError if its own is not known."""

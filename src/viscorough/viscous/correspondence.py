@@ -29,7 +29,7 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, si_unit, span, velocity_unit
+from viscorough.summaries import si_unit, span, velocity_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import medium_of
@@ -42,7 +42,7 @@ _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a mi
 
 
 @dataclass(frozen=True)
-class Kinetics(ReadOnlyArrays, Saved, Summarised):
+class Kinetics(ReadOnlyArrays, Saved):
     """Penetration over time; read-only arrays of shape (times,).
 
     Attributes
@@ -62,15 +62,17 @@ class Kinetics(ReadOnlyArrays, Saved, Summarised):
     velocity: np.ndarray
     length_unit: str = units.UNKNOWN
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """What it is; the first and last time, depth and velocity."""
         unit = self.length_unit
         return (
-            f"Penetration at {self.time.size} times",
-            [("time t", span(self.time, si_unit("s", unit)))],
-            [("depth u", span(self.depth, unit))],
-            [("velocity v", span(self.velocity, si_unit(velocity_unit(unit), unit)))],
+            f"Penetration at {self.time.size} times\n"
+            f"time t {span(self.time, si_unit('s', unit))}\n"
+            f"depth u {span(self.depth, unit)}\n"
+            f"velocity v {span(self.velocity, si_unit(velocity_unit(unit), unit))}"
         )
+
+    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
 
 
 class ForceHistory(NamedTuple):

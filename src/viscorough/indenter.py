@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, read_only
@@ -64,7 +63,8 @@ class Indenter(ReadOnlyArrays, Saved):
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
         if heights.ndim not in (1, 2):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
-        if not _exact(np.asanyarray(self.heights)):
+        whole = np.ma.asanyarray(self.heights)  # masked entries do not matter
+        if whole.dtype.kind in "iu" and whole.count() and max(-int(whole.min()), int(whole.max())) > _LARGEST_WHOLE:
             raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
         # Single or double precision, in rows and in the byte order of this machine.
         precision = np.float32 if heights.dtype == np.float32 else np.float64
@@ -142,13 +142,10 @@ class Indenter(ReadOnlyArrays, Saved):
 
 def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
     """Both spacings (dx, dy) as floats."""
-    if isinstance(spacing, str) or np.ndim(spacing) == 0:
-        spacing = positive("indenter spacing", spacing)
-        row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
-    elif np.shape(spacing) != (2,) or row_spacing is not None:
-        raise ValueError(f"indenter spacing: must be one number or a pair, without row_spacing, not {spacing!r}")
-    else:
-        spacing, row_spacing = (positive("indenter spacing", entry) for entry in spacing)
+    if row_spacing is None and np.shape(spacing) == (2,):
+        spacing, row_spacing = spacing
+    spacing = positive("indenter spacing", spacing)
+    row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
     largest = LARGEST_ASPECT * (1 + 1e-9)  # spacings that were computed may miss it by rounding
     if not 1 / largest <= row_spacing / spacing <= largest:
         raise ValueError(
@@ -156,13 +153,6 @@ def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
             f"a factor of {LARGEST_ASPECT}, which is the largest allowed; resample the map"
         )
     return spacing, row_spacing
-
-
-def _exact(values: NDArray[Any]) -> bool:
-    """Whether double precision holds these values exactly, if they are whole numbers; masked ones do not matter."""
-    if values.dtype.kind not in "iu" or np.ma.count(values) == 0:
-        return True
-    return int(values.min()) >= -_LARGEST_WHOLE and int(values.max()) <= _LARGEST_WHOLE
 
 
 def check_indenter(caller: str, indenter: object) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.arrays import ReadOnlyArrays
+from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.saved import Saved
 from viscorough.summaries import span, unit_power
 from viscorough.types import Array, Pair
@@ -78,12 +78,8 @@ class LoadingCurve(ReadOnlyArrays, Saved):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.depth.size == 0:
-            raise ValueError("loading curve: there is no level; at least one is needed")
         for name in ("depth", "force"):
-            values = getattr(self, name)
-            if not (np.isfinite(values).all() and (np.diff(values, prepend=0) > 0).all()):
-                raise ValueError(f"loading curve: {name} must be finite, positive and increase from level to level")
+            increasing(f"loading curve: {name}", getattr(self, name), above_zero=True)
         if not (np.isfinite(self.stiffness).all() and (self.stiffness > 0).all()):
             raise ValueError("loading curve: stiffness must be finite and positive")
 

@@ -380,8 +380,7 @@ def audit(
 
 def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
     """The curve of `indent`, without its warnings: complete contact lies beyond what the theory describes."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AccuracyWarning)
+    with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         return indent(indenter, **how)
 
 

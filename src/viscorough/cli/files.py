@@ -20,10 +20,6 @@ from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
-    from viscorough.loading_curve import LoadingCurve
-    from viscorough.types import FilePath
-    from viscorough.viscous.correspondence import ForceHistory
-    from viscorough.viscous.medium import Medium
 
 
 def check_output(output: Path, **inputs: Path | None) -> None:
@@ -51,7 +47,7 @@ def printable_name(file: Path) -> str:
 LONGEST = 60  # seconds that opening a file may take
 
 
-def check_opens(path: FilePath) -> None:
+def check_opens(path: Path) -> None:
     """Raise a one-line ValueError unless the NetCDF file can be opened.
 
     Damage can make the HDF5 library run without end, where Python cannot interrupt it. If opening, which takes
@@ -75,7 +71,7 @@ def check_opens(path: FilePath) -> None:
         timer.cancel()
 
 
-def read_content(path: FilePath) -> Content:
+def read_content(path: Path) -> Content:
     """The io.netcdf.Content of a NetCDF file."""
     from viscorough.io import netcdf
 
@@ -83,7 +79,7 @@ def read_content(path: FilePath) -> Content:
     return netcdf.read(path)
 
 
-def read_curve(path: FilePath) -> LoadingCurve:
+def read_curve(path: Path) -> viscorough.LoadingCurve:
     """The loading curve in a file; raises ValueError for that of a compressible half-space, and for what is none.
 
     The kinetics of a viscous half-space follow from the elastic curve of an incompressible one only.
@@ -101,7 +97,7 @@ def read_curve(path: FilePath) -> LoadingCurve:
 
 def read_load(
     force: Quantity | None, force_history: Path | None, length_unit: str
-) -> tuple[float | ForceHistory, dict[str, Any]]:
+) -> tuple[float | viscorough.ForceHistory, dict[str, Any]]:
     """(the load, what an output says about it) of the options --force and --force-history, one of which is given."""
     if force_history is not None:
         return viscorough.read_force_history(force_history, length_unit), {"force": printable_name(force_history)}
@@ -111,7 +107,7 @@ def read_load(
 
 def read_half_space(
     viscosity: Quantity | None, medium: Path | None, length_unit: str
-) -> tuple[float | Medium, dict[str, Any]]:
+) -> tuple[float | viscorough.Medium, dict[str, Any]]:
     """(viscosity or medium, what an output says about it) of --viscosity and --medium, one of which is given."""
     if medium is not None:
         return viscorough.read_medium(medium, length_unit), {"medium": printable_name(medium)}

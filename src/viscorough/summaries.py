@@ -1,15 +1,10 @@
 """Numbers and units in short texts about a result, for print and for notebooks."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from viscorough.types import Array
+from typing import Any
 
 
-def span(values: Array, unit: str = "1") -> str:
-    """First and last of some values, with their unit: "1e-09 to 2e-07 m"."""
+def span(values: Any, unit: str = "1") -> str:
+    """First and last of an array of values, with their unit: "1e-09 to 2e-07 m"."""
     first, last = (f"{float(values[i]):.4g}" for i in (0, -1))
     return f"{first} to {last}{'' if unit == '1' else f' {unit}'}" if len(values) > 1 else with_unit(values[0], unit)
 

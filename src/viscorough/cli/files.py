@@ -95,19 +95,15 @@ def read_curve(path: Path) -> viscorough.LoadingCurve:
         return curve_from_content(content)
 
 
-def read_load(
-    force: Quantity | None, force_history: Path | None, length_unit: str
-) -> tuple[float | viscorough.ForceHistory, dict[str, Any]]:
-    """(the load, what an output says about it) of the options --force and --force-history, one of which is given."""
+def read_load(force: Quantity | None, force_history: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
+    """(force or ForceHistory, what an output says about it) of --force and --force-history, one of which is given."""
     if force_history is not None:
         return viscorough.read_force_history(force_history, length_unit), {"force": printable_name(force_history)}
     number = units.number(force, "N", length_unit, "--force")
     return number, {"force": number}
 
 
-def read_half_space(
-    viscosity: Quantity | None, medium: Path | None, length_unit: str
-) -> tuple[float | viscorough.Medium, dict[str, Any]]:
+def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
     """(viscosity or medium, what an output says about it) of --viscosity and --medium, one of which is given."""
     if medium is not None:
         return viscorough.read_medium(medium, length_unit), {"medium": printable_name(medium)}

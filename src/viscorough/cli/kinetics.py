@@ -2,7 +2,6 @@
 
 import warnings
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -71,7 +70,6 @@ def kinetics(
     files.check_output(output, curve=curve, force_history=force_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
-    load: Any
     load, of_load = files.read_load(force, force_history, loading.length_unit)
     motion = correspondence.kinetics(loading, load, half_space, times)
     over_time = load

@@ -83,8 +83,6 @@ def march(
     files.check_output(output, force_history=force_history, medium=medium)
     indenter = surface_options.read_indenter(surface, output)
     unit = indenter.length_unit
-    load: Any
-    half_space: Any
     load, of_load = files.read_load(force or Quantity(1.0), force_history, unit)
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     if force_history and not load.impulse[-1] > 0:

@@ -28,13 +28,12 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
     except ModuleNotFoundError as error:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
 
-    from viscorough.io.netcdf import Content
     from viscorough.io.surfaces import surface_to_content
 
     file = surface.path
     files.check_output(output, results=file)
-    content: Content | None = None
-    fault: ValueError | None = None
+    content = None
+    fault = None
     if not surface.options and file.suffix.lower() == ".nc":
         try:
             content = files.read_content(file)

@@ -155,11 +155,19 @@ def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
     return spacing, row_spacing
 
 
-def check_indenter(caller: str, indenter: object) -> None:
-    """Raise TypeError, which starts with the caller, for anything but an Indenter, such as an array of heights."""
+def check_indenter(caller: str, indenter: object, dimensions: int) -> None:
+    """Raise TypeError, which starts with the caller, for anything but an Indenter, such as an array of heights.
+
+    dimensions : of the heights, 2 for a map, 1 for a line; ValueError is raised for others
+    """
     if not isinstance(indenter, Indenter):
         text = "an Indenter is needed, as viscorough.Indenter(heights, spacing) or viscorough.read_heights makes it"
         raise TypeError(f"{caller}: {type(indenter).__name__}; {text}")
+    if indenter.heights.ndim != dimensions:
+        needed = (
+            "two-dimensional (lines are for reduce)" if dimensions == 2 else "one-dimensional (maps are for indent)"
+        )
+        raise ValueError(f"{caller}: the indenter's heights must be {needed}")
 
 
 def positive(name: str, value: float) -> float:

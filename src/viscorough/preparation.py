@@ -65,13 +65,11 @@ def prepare(
     >>> bool(np.ptp(prepared.heights) < np.ptp(heights))
     True
     """
-    check_indenter("prepare", indenter)
     if detrend not in DETREND or fill not in FILL:
         raise ValueError(f"detrend {detrend!r}, fill {fill!r}; allowed: {', '.join(DETREND)}; {', '.join(FILL)}")
     if not (np.size(nodata) or crop or flip) and (detrend, fill) == ("none", "none"):
         return indenter
-    if indenter.heights.ndim != 2:
-        raise ValueError("prepare: a line of heights; a two-dimensional map is needed")
+    check_indenter("prepare", indenter, 2)
     heights = indenter.heights.copy()
     with np.errstate(over="ignore"):
         for value in np.atleast_1d(nodata).astype(heights.dtype):
@@ -211,11 +209,8 @@ def _enclosed(heights: Array) -> tuple[Mask, int]:
     from scipy import ndimage
 
     missing = np.isnan(heights)
-    if not missing.any():
-        return missing, 0
-    labels, count = ndimage.label(missing)
-    at_edge = np.unique(np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]]))
-    return missing & ~np.isin(labels, at_edge), count - np.count_nonzero(at_edge)
+    holes = ndimage.binary_fill_holes(~missing) & missing
+    return holes, ndimage.label(holes)[1]
 
 
 def _holes(heights: Array) -> Iterator[str]:

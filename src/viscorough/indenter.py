@@ -164,9 +164,7 @@ def check_indenter(caller: str, indenter: object, dimensions: int) -> None:
         text = "an Indenter is needed, as viscorough.Indenter(heights, spacing) or viscorough.read_heights makes it"
         raise TypeError(f"{caller}: {type(indenter).__name__}; {text}")
     if indenter.heights.ndim != dimensions:
-        needed = (
-            "two-dimensional (lines are for reduce)" if dimensions == 2 else "one-dimensional (maps are for indent)"
-        )
+        needed = {1: "one-dimensional (maps are for indent)", 2: "two-dimensional (lines are for reduce)"}[dimensions]
         raise ValueError(f"{caller}: the indenter's heights must be {needed}")
 
 

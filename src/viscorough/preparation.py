@@ -65,11 +65,11 @@ def prepare(
     >>> bool(np.ptp(prepared.heights) < np.ptp(heights))
     True
     """
+    check_indenter("prepare", indenter, 2)
     if detrend not in DETREND or fill not in FILL:
         raise ValueError(f"detrend {detrend!r}, fill {fill!r}; allowed: {', '.join(DETREND)}; {', '.join(FILL)}")
     if not (np.size(nodata) or crop or flip) and (detrend, fill) == ("none", "none"):
         return indenter
-    check_indenter("prepare", indenter, 2)
     heights = indenter.heights.copy()
     with np.errstate(over="ignore"):
         for value in np.atleast_1d(nodata).astype(heights.dtype):

@@ -156,7 +156,7 @@ def kinetics(
         if not constant:
             raise ValueError("times: missing; a force given as samples needs the time of each sample")
         times = _spread_times(curve, load, medium)
-    times, creep, rate = _creep(load, medium, times)
+    times, creep, rate = creep_and_rate(load, medium, times)
     depth, stiffness = _at_elastic_force(curve, creep, times)
     # Where nothing moves the velocity is 0 even before the first level, where the stiffness is nan.
     velocity = np.where(rate <= 0, 0.0, rate / stiffness)
@@ -201,7 +201,7 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     return np.append(0.0, times) if springs else times
 
 
-def _creep(force: ForceHistory | Any, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:
+def creep_and_rate(force: ForceHistory | Any, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:
     """Times, Φ and dΦ/dt there."""
     if np.ndim(force) > 0:
         history, place = resampled(force, times)

@@ -80,8 +80,7 @@ def march(
     from viscorough.io.motion import medium_motion_to_content, viscous_motion_to_content
     from viscorough.viscous.integration.motion import under_constant_force, under_force_history
 
-    files.check_output(output, force_history=force_history, medium=medium)
-    indenter = surface_options.read_indenter(surface, output)
+    indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
     load, of_load = files.read_load(force or Quantity(1.0), force_history, unit)
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)

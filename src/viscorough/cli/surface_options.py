@@ -107,15 +107,16 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
     return decorate
 
 
-def read_indenter(surface: Surface, output: Path) -> viscorough.Indenter:
+def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> viscorough.Indenter:
     """The indenter that a Surface describes, read after a check that the output can be written.
 
+    inputs : further files that are read, as of files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights; steep ones give an AccuracyWarning.
     """
     from viscorough.io.atomic import path_named
 
     path, values = surface.path, dict(surface.options)
-    check_output(output, heights=path)
+    check_output(output, heights=path, **inputs)
     if path.suffix == ".nc":
         check_opens(path)
     for name in values.keys() & _VALUES.keys():

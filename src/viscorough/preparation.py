@@ -160,7 +160,7 @@ def _tilt(indenter: Indenter) -> Iterator[str]:
 
 def _suspicious_values(heights: Array) -> Iterator[str]:
     """Texts about extreme values that are repeated and far from all others."""
-    for extreme, sign in ((np.fmin, 1), (np.fmax, -1)):
+    for extreme in (np.fmin, np.fmax):
         value = float(extreme.reduce(heights, axis=None))
         is_value = heights == value
         count = int(np.count_nonzero(is_value))
@@ -168,9 +168,7 @@ def _suspicious_values(heights: Array) -> Iterator[str]:
         if not others.size:
             return
         lowest, highest = float(others.min()), float(others.max())
-        with np.errstate(over="ignore"):
-            gap = lowest - value if sign > 0 else value - highest
-        span = highest - lowest
+        gap, span = max(lowest - value, value - highest), highest - lowest
         is_mark = any(abs(value - mark) <= 1e-6 * abs(mark) for mark in _MARKS) or abs(value) >= 1e30
         if gap > (1 if is_mark else _FAR) * span and (is_mark or (count > 1 and span > 0)):
             share = 100 * count / (count + others.size)

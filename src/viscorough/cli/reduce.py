@@ -66,8 +66,7 @@ def reduce(
         options.require((realizations or 1) == 1 or output.suffix.lower() != ".csv", no_table)
         indenter = surface_options.read_indenter(surface, output)
         about = surface.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
-        seeds = [[seed or 0, index] for index in range(realizations or 1)]
-        lines = (mdr.line_of_map(indenter, entropy) for entropy in seeds)
+        lines = (mdr.line_of_map(indenter, [seed or 0, index]) for index in range(realizations or 1))
         warnings.warn(_OF_A_MAP, AccuracyWarning, stacklevel=2)
     curves = []
     with messages.progress_bar("viscorough reduce", progress) as report:

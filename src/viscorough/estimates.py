@@ -111,8 +111,9 @@ def estimate(
             "elsewhere indent a surface made by viscorough generate"
         )
     per_time, covered = rms * rate[inside] / creep[inside], x[inside]
-    values = np.full((6, times.size), np.nan)  # of depth and velocity, each followed by the ends of its interval
+    values = np.full((6, times.size), np.nan)
     ends = np.array([[0.0], [-1.0], [1.0]])  # of the intervals, in units of the relative error
     values[:3, inside] = rms * law.depth(covered) * (1 + ends * law.depth_error)
     values[3:, inside] = per_time * law.velocity(covered) * (1 + ends * law.velocity_error)
-    return Estimate(times, x, *values, law)
+    depth, depth_low, depth_high, velocity, velocity_low, velocity_high = values
+    return Estimate(times, x, depth, depth_low, depth_high, velocity, velocity_low, velocity_high, law)

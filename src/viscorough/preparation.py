@@ -207,6 +207,8 @@ def _enclosed(heights: Array) -> tuple[Mask, int]:
     from scipy import ndimage
 
     missing = np.isnan(heights)
+    if not missing.any():
+        return missing, 0
     holes = ndimage.binary_fill_holes(~missing) & missing
     return holes, ndimage.label(holes)[1]
 

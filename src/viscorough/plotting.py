@@ -227,7 +227,6 @@ def _panels(count: int, width: float = 3.1, height: float = 2.7) -> tuple[Figure
 
 def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
     """A curve on logarithmic axes, where both values are positive."""
-    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     shown = (x > 0) & (y > 0)
     axes.set(xscale="log", yscale="log")
     look = {"linewidth": 0.5, "alpha": 0.5} if thin else {"marker": "o" if shown.sum() < _FEW else ""}

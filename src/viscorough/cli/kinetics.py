@@ -74,8 +74,7 @@ def kinetics(
     motion = correspondence.kinetics(loading, load, half_space, times)
     over_time = load
     if force_history:
-        at_samples = np.array_equal(motion.time, load.times)
-        over_time = load.force if at_samples else np.interp(motion.time, load.times, load.force)
+        over_time = load.force if times is None else np.interp(motion.time, load.times, load.force)
     unknown = np.count_nonzero(~np.isfinite(motion.depth) | ~np.isfinite(motion.velocity))
     if unknown == motion.time.size:
         raise ValueError("times: all are before the curve's first level; later ones are needed, or an earlier level")

@@ -32,8 +32,7 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
 
     file = surface.path
     files.check_output(output, results=file)
-    content = None
-    fault = None
+    content = fault = None
     if not surface.options and file.suffix.lower() == ".nc":
         try:
             content = files.read_content(file)

@@ -14,7 +14,7 @@ import text_files
 import tifffile
 
 import viscorough
-from viscorough.cli import subcommand
+from viscorough.cli import cli
 
 STARTED = "code-was-run"  # the file that code in a file would make
 
@@ -203,7 +203,7 @@ def changed(random, arguments):
     place, word = int(random.integers(1, len(arguments))), one_of(random, one_of(random, WORDS))
     before, after = arguments[:place], arguments[place:]
     # The second of these options may print.
-    options = [parameter.opts[0] for parameter in subcommand(arguments[0]).params if parameter.opts[0][0] == "-"]
+    options = [parameter.opts[0] for parameter in cli.commands[arguments[0]].params if parameter.opts[0][0] == "-"]
     option = one_of(random, [name for name in options if name != "--progress"])
     value = one_of(random, [word, number(random), series(random)])
     changes = [[*before, word, *after[1:]], [*before, word, *after], before + after[1:]]

@@ -10,7 +10,7 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.utils.math import latex2mathml
 
-from viscorough.cli import subcommand
+from viscorough.cli import cli
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))  # pages have the columns of their tables
 
@@ -47,7 +47,7 @@ class CommandHelp(Directive):
     required_arguments = 1
 
     def run(self):
-        command = subcommand(self.arguments[0])
+        command = cli.commands[self.arguments[0]]
         context = click.Context(command, info_name=f"viscorough {command.name}", terminal_width=100)
         text = command.get_help(context)
         return [nodes.literal_block(text, text, language="none")]

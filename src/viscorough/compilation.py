@@ -46,15 +46,6 @@ class _Cache(caching.FunctionCache):
             _warn_cache_disabled()
 
 
-def _cache(function: Callable[..., Any]) -> Any:
-    """The cache of a function's compiled code; an inactive one if numba finds no writable folder for it."""
-    try:
-        return _Cache(function)
-    except RuntimeError:
-        _warn_cache_disabled()
-        return caching.NullCache()
-
-
 @functools.cache  # once per process
 def _warn_cache_disabled() -> None:
     logging.warning(
@@ -70,6 +61,9 @@ def njit(function: Callable[..., Any] | None = None, **options: Any) -> Callable
     compiled: Any = numba.njit(function, **options)
     if compiled is function:  # NUMBA_DISABLE_JIT is set
         return function
-    compiled._cache = _cache(function)
+    try:
+        compiled._cache = _Cache(function)
+    except RuntimeError:  # numba finds no writable folder for it
+        _warn_cache_disabled()
     compiled.compile = uninterrupted()(compiled.compile)
     return compiled

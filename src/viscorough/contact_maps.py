@@ -1,13 +1,13 @@
 """One contact of an indenter: maps of pressure, gap and contact, and what follows from them."""
 
 from dataclasses import dataclass
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, si_unit, unit_power, with_unit
+from viscorough.summaries import si_unit, unit_power, with_unit
 from viscorough.units import square_metres
 
 # Mean area by which a whole element exceeds the contact, per change of contact between two elements, over dx dy.
@@ -30,7 +30,7 @@ class Patches(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Contact(ReadOnlyArrays, Saved, Summarised):
+class Contact(ReadOnlyArrays, Saved):
     """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
 
     Arrays are copied and read-only.
@@ -84,25 +84,26 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
     length_unit: str = "1"
     shear_modulus: float | None = None
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """What it is; depth, force and stiffness; contact and pressure."""
         unit, area = self.length_unit, unit_power(self.length_unit, 2)
-        motion = [
-            ("depth u", with_unit(self.depth, unit)),
-            ("force F/G", with_unit(self.force, area)),
-            ("stiffness k/G", with_unit(self.stiffness, unit)),
-        ]
-        contact = [
-            ("contact area", f"{with_unit(self.contact_area, area)} ({100 * self.contact_fraction:.3g} %)"),
-            ("mean p/G", with_unit(self.mean_pressure)),
-            ("largest p/G", with_unit(self.largest_pressure)),
-        ]
-        lines = [motion, contact]
-        if self.shear_modulus is not None:
-            mean, largest = (self.shear_modulus * each for each in (self.mean_pressure, self.largest_pressure))
-            names = ("force F", self.normal_force, "N"), ("mean p", mean, "Pa"), ("largest p", largest, "Pa")
-            lines.append([(name, with_unit(cast(float, value), si_unit(si, unit))) for name, value, si in names])
-        return f"Contact of {self.contact_count} of {self.elements} elements", *lines
+        text = (
+            f"Contact of {self.contact_count} of {self.elements} elements\n"
+            f"depth u {with_unit(self.depth, unit)}, force F/G {with_unit(self.force, area)}, "
+            f"stiffness k/G {with_unit(self.stiffness, unit)}\n"
+            f"contact area {with_unit(self.contact_area, area)} ({100 * self.contact_fraction:.3g} %), "
+            f"mean p/G {with_unit(self.mean_pressure)}, largest p/G {with_unit(self.largest_pressure)}"
+        )
+        if self.shear_modulus is not None and self.normal_force is not None:
+            mean, largest = (
+                with_unit(self.shear_modulus * pressure, si_unit("Pa", unit))
+                for pressure in (self.mean_pressure, self.largest_pressure)
+            )
+            force = with_unit(self.normal_force, si_unit("N", unit))
+            text += f"\nforce F {force}, mean p {mean}, largest p {largest}"
+        return text
+
+    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
 
     @property
     def normal_force(self) -> float | None:

@@ -16,6 +16,7 @@ from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
 from viscorough.summaries import span
+from viscorough.viscous.correspondence import creep_and_rate
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium
 
@@ -100,20 +101,16 @@ def estimate(
     law, medium = penetration_law(hurst), medium_of(medium)
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
     times = increasing("times", np.atleast_1d(times), above_zero=True)
-    compliance, rate = medium.creep_compliance(times), medium.creep_rate(times)
-    if times[-1] > medium.last_time:
-        raise ValueError(
-            f"times: up to {times[-1]:g}, beyond the last time of the creep table; earlier ones are allowed"
-        )
+    times, creep, rate = creep_and_rate(force, medium, times)
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        x = force * compliance / (4 * rms * diameter)
+        x = creep / (4 * rms * diameter)
     inside = (x >= law.x_low) & (x <= law.x_high)
     if not inside.any():
         raise ValueError(
             f"times: X = F·J(t)/(4hL) is {span(x)}; allowed: {law.x_low:.3g} to {law.x_high:.3g}, where the law holds; "
             "elsewhere indent a surface made by viscorough generate"
         )
-    per_time, covered = rms * rate[inside] / compliance[inside], x[inside]
+    per_time, covered = rms * rate[inside] / creep[inside], x[inside]
     values = np.full((6, times.size), np.nan)
     ends = np.array([[0.0], [-1.0], [1.0]])  # of the intervals, in units of the relative error
     values[:3, inside] = rms * law.depth(covered) * (1 + ends * law.depth_error)

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, read_only
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, with_unit
+from viscorough.summaries import with_unit
 from viscorough.types import Array
 
 LARGEST_ASPECT = 5  # of the sides of an element, either way
@@ -18,7 +17,7 @@ _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double pre
 
 
 @dataclass(frozen=True)
-class Indenter(ReadOnlyArrays, Saved, Summarised):
+class Indenter(ReadOnlyArrays, Saved):
     """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
     Parameters
@@ -64,7 +63,8 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
         if heights.ndim not in (1, 2):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
-        if not _exact(np.asanyarray(self.heights)):
+        whole = np.ma.asanyarray(self.heights)  # masked entries do not matter
+        if whole.dtype.kind in "iu" and whole.count() and max(-int(whole.min()), int(whole.max())) > _LARGEST_WHOLE:
             raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
         # Single or double precision, in rows and in the byte order of this machine.
         precision = np.float32 if heights.dtype == np.float32 else np.float64
@@ -88,14 +88,17 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
         if not isinstance(self.length_unit, str) or not self.length_unit.strip():
             raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {self.length_unit!r}")
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """What it is; distances of its points; the difference of its heights."""
-        points = " x ".join(map(str, self.heights.shape))
+        points, unit = " x ".join(map(str, self.heights.shape)), self.length_unit
         difference = np.nanmax(self.heights) - np.nanmin(self.heights)
-        title = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements"
-        spacings = {"spacing": self.spacing} | ({"row spacing": self.row_spacing} if self.aspect != 1 else {})
-        numbers = spacings | {"highest over lowest point": difference}
-        return title, *([(name, with_unit(value, self.length_unit))] for name, value in numbers.items())
+        text = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements\n"
+        text += f"spacing {with_unit(self.spacing, unit)}\n"
+        if self.aspect != 1:
+            text += f"row spacing {with_unit(self.row_spacing, unit)}\n"
+        return f"{text}highest over lowest point {with_unit(difference, unit)}"
+
+    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
 
     def to(self, unit: str) -> "Indenter":
         """The same indenter with lengths in another unit, such as "m". Raises ValueError if its own is not known."""
@@ -139,13 +142,10 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
 
 def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
     """Both spacings (dx, dy) as floats."""
-    if isinstance(spacing, str) or np.ndim(spacing) == 0:
-        spacing = positive("indenter spacing", spacing)
-        row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
-    elif np.shape(spacing) != (2,) or row_spacing is not None:
-        raise ValueError(f"indenter spacing: must be one number or a pair, without row_spacing, not {spacing!r}")
-    else:
-        spacing, row_spacing = (positive("indenter spacing", entry) for entry in spacing)
+    if row_spacing is None and np.shape(spacing) == (2,):
+        spacing, row_spacing = spacing
+    spacing = positive("indenter spacing", spacing)
+    row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
     largest = LARGEST_ASPECT * (1 + 1e-9)  # spacings that were computed may miss it by rounding
     if not 1 / largest <= row_spacing / spacing <= largest:
         raise ValueError(
@@ -155,18 +155,17 @@ def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
     return spacing, row_spacing
 
 
-def _exact(values: NDArray[Any]) -> bool:
-    """Whether double precision holds these values exactly, if they are whole numbers; masked ones do not matter."""
-    if values.dtype.kind not in "iu" or np.ma.count(values) == 0:
-        return True
-    return int(values.min()) >= -_LARGEST_WHOLE and int(values.max()) <= _LARGEST_WHOLE
+def check_indenter(caller: str, indenter: object, dimensions: int) -> None:
+    """Raise TypeError, which starts with the caller, for anything but an Indenter, such as an array of heights.
 
-
-def check_indenter(caller: str, indenter: object) -> None:
-    """Raise TypeError, which starts with the caller, for anything but an Indenter, such as an array of heights."""
+    dimensions : of the heights, 2 for a map, 1 for a line; ValueError is raised for others
+    """
     if not isinstance(indenter, Indenter):
         text = "an Indenter is needed, as viscorough.Indenter(heights, spacing) or viscorough.read_heights makes it"
         raise TypeError(f"{caller}: {type(indenter).__name__}; {text}")
+    if indenter.heights.ndim != dimensions:
+        needed = {1: "one-dimensional (maps are for indent)", 2: "two-dimensional (lines are for reduce)"}[dimensions]
+        raise ValueError(f"{caller}: the indenter's heights must be {needed}")
 
 
 def positive(name: str, value: float) -> float:

@@ -47,9 +47,7 @@ class SelfAffineLines:
         self._points = points = spectrum.whole("points", points, at_least=2)
         self._exponent = spectrum.hurst_exponent(hurst) + 0.5
         self._rms, length = positive("rms", rms), positive("length", length)
-        if roll_off_wavelength is not None:
-            roll_off_wavelength = positive("roll_off_wavelength", roll_off_wavelength) * points
-        self._roll_off = spectrum.roll_off(roll_off_wavelength, roll_off_level, points)
+        self._roll_off = spectrum.roll_off(roll_off_wavelength, roll_off_level, period=1)
         self._fixed = spectrum.fixed_amplitudes(amplitudes)
         self._dtype = np.dtype(dtype)
         if self._dtype not in (np.float32, np.float64):

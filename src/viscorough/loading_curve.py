@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.arrays import ReadOnlyArrays
+from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, span, unit_power
+from viscorough.summaries import span, unit_power
 from viscorough.types import Array, Pair
 
 # Relative rounding error of forces and depths that is allowed for.
@@ -20,7 +20,7 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
-class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
+class LoadingCurve(ReadOnlyArrays, Saved):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
     Arrays are copied and read-only. Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem
@@ -78,25 +78,22 @@ class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.depth.size == 0:
-            raise ValueError("loading curve: there is no level; at least one is needed")
         for name in ("depth", "force"):
-            values = getattr(self, name)
-            if not (np.isfinite(values).all() and (np.diff(values, prepend=0) > 0).all()):
-                raise ValueError(f"loading curve: {name} must be finite, positive and increase from level to level")
+            increasing(f"loading curve: {name}", getattr(self, name), above_zero=True)
         if not (np.isfinite(self.stiffness).all() and (self.stiffness > 0).all()):
             raise ValueError("loading curve: stiffness must be finite and positive")
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """What it is; the range of depths, forces and stiffnesses; that of the contact fraction."""
         unit, levels = self.length_unit, self.depth.size
-        title = f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements"
-        ranges = [
-            ("depth u", span(self.depth, unit)),
-            ("force F/G", span(self.force, unit_power(unit, 2))),
-            ("stiffness k/G", span(self.stiffness, unit)),
-        ]
-        return title, ranges, [("contact fraction", span(self.contact_fraction))]
+        return (
+            f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements\n"
+            f"depth u {span(self.depth, unit)}, force F/G {span(self.force, unit_power(unit, 2))}, "
+            f"stiffness k/G {span(self.stiffness, unit)}\n"
+            f"contact fraction {span(self.contact_fraction)}"
+        )
+
+    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
 
     @property
     def contact_fraction(self) -> Array:

@@ -66,9 +66,7 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
     >>> bool((curve.stiffness[1:] >= curve.stiffness[:-1]).all())
     True
     """
-    check_indenter("reduce", line)
-    if line.heights.ndim != 1:
-        raise ValueError("reduce: the indenter's heights must be one-dimensional (maps are for indent)")
+    check_indenter("reduce", line, 1)
     return reduce_heights(
         line.heights,
         line.spacing,
@@ -211,8 +209,7 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     >>> viscorough.line_of_map(viscorough.Indenter(heights, 1.0), seed=2).heights.shape
     (16,)
     """
-    if surface.heights.ndim != 2:
-        raise ValueError("line_of_map: the indenter's heights must be two-dimensional")
+    check_indenter("line_of_map", surface, 2)
     heights = surface.heights.astype(float)
     (rows, columns), spacing = heights.shape, max(surface.spacing, surface.row_spacing)
     dx, dy = surface.spacing / spacing, surface.row_spacing / spacing  # as the length, in units of the larger one

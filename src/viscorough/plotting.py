@@ -22,6 +22,7 @@ from viscorough.io.curves import STORED, curve_from_content, unstack_curves
 from viscorough.io.netcdf import Content, Variable
 from viscorough.io.saving import to_content
 from viscorough.loading_curve import LoadingCurve
+from viscorough.summaries import with_unit
 from viscorough.types import Array, FilePath
 from viscorough.viscous.correspondence import Kinetics
 
@@ -157,8 +158,7 @@ def _state(variables: Variables, index: int) -> str:
     texts = []
     for name, symbol in _STATE.items():
         if name in variables and variables[name].values.size > index:
-            unit = _unit(variables[name])
-            texts.append(f"{symbol} {variables[name].values.flat[index]:.4g}{f' {unit}' if unit else ''}")
+            texts.append(f"{symbol} {with_unit(variables[name].values.flat[index], _unit(variables[name]))}")
     return ", ".join(texts)
 
 
@@ -227,7 +227,6 @@ def _panels(count: int, width: float = 3.1, height: float = 2.7) -> tuple[Figure
 
 def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
     """A curve on logarithmic axes, where both values are positive."""
-    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     shown = (x > 0) & (y > 0)
     axes.set(xscale="log", yscale="log")
     look = {"linewidth": 0.5, "alpha": 0.5} if thin else {"marker": "o" if shown.sum() < _FEW else ""}
@@ -246,14 +245,12 @@ def _label(axes: Axes, variables: Variables, x: str, y: str, title: str) -> None
 
 def _label_of(variables: Variables, name: str) -> str:
     unit = _unit(variables[name])
-    return f"{_LABELS.get(name, name)}{f' ({unit})' if unit else ''}"
+    return f"{_LABELS.get(name, name)}{'' if unit == '1' else f' ({unit})'}"
 
 
 def _unit(variable: Variable) -> str:
-    """The unit of a variable as people write it: µm², µm/s; "" without one."""
-    unit = str(variable.attributes.get("units", "1")).replace("um", "µm")
-    if unit == "1":
-        return ""
+    """The unit of a variable as people write it: µm², µm/s; "1" without one."""
+    unit = str(variable.attributes.get("units") or "1").replace("um", "µm")
     return re.sub(r"(?<=[^\W\d])-?\d", lambda power: power[0].translate(_SUPERSCRIPTS), unit).replace(" s⁻¹", "/s")
 
 

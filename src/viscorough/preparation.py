@@ -65,13 +65,11 @@ def prepare(
     >>> bool(np.ptp(prepared.heights) < np.ptp(heights))
     True
     """
-    check_indenter("prepare", indenter)
+    check_indenter("prepare", indenter, 2)
     if detrend not in DETREND or fill not in FILL:
         raise ValueError(f"detrend {detrend!r}, fill {fill!r}; allowed: {', '.join(DETREND)}; {', '.join(FILL)}")
     if not (np.size(nodata) or crop or flip) and (detrend, fill) == ("none", "none"):
         return indenter
-    if indenter.heights.ndim != 2:
-        raise ValueError("prepare: a line of heights; a two-dimensional map is needed")
     heights = indenter.heights.copy()
     with np.errstate(over="ignore"):
         for value in np.atleast_1d(nodata).astype(heights.dtype):
@@ -162,7 +160,7 @@ def _tilt(indenter: Indenter) -> Iterator[str]:
 
 def _suspicious_values(heights: Array) -> Iterator[str]:
     """Texts about extreme values that are repeated and far from all others."""
-    for extreme, sign in ((np.fmin, 1), (np.fmax, -1)):
+    for extreme in (np.fmin, np.fmax):
         value = float(extreme.reduce(heights, axis=None))
         is_value = heights == value
         count = int(np.count_nonzero(is_value))
@@ -170,9 +168,7 @@ def _suspicious_values(heights: Array) -> Iterator[str]:
         if not others.size:
             return
         lowest, highest = float(others.min()), float(others.max())
-        with np.errstate(over="ignore"):
-            gap = lowest - value if sign > 0 else value - highest
-        span = highest - lowest
+        gap, span = max(lowest - value, value - highest), highest - lowest
         is_mark = any(abs(value - mark) <= 1e-6 * abs(mark) for mark in _MARKS) or abs(value) >= 1e30
         if gap > (1 if is_mark else _FAR) * span and (is_mark or (count > 1 and span > 0)):
             share = 100 * count / (count + others.size)
@@ -213,9 +209,8 @@ def _enclosed(heights: Array) -> tuple[Mask, int]:
     missing = np.isnan(heights)
     if not missing.any():
         return missing, 0
-    labels, count = ndimage.label(missing)
-    at_edge = np.unique(np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]]))
-    return missing & ~np.isin(labels, at_edge), count - np.count_nonzero(at_edge)
+    holes = ndimage.binary_fill_holes(~missing) & missing
+    return holes, ndimage.label(holes)[1]
 
 
 def _holes(heights: Array) -> Iterator[str]:

@@ -24,14 +24,14 @@ def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) 
     return modulus
 
 
-def roll_off(wavelength: float | None, level: float, points: int) -> tuple[float, float]:
-    """Wavenumber per period (0 if there is no roll-off) and level of the roll-off at a wavelength in points."""
+def roll_off(wavelength: float | None, level: float, period: float) -> tuple[float, float]:
+    """Wavenumber per period (0 if there is no roll-off) and level of the roll-off at a wavelength, in one unit."""
     if not 0 <= level < np.inf:
         raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
     if wavelength is None:
         return 0.0, level
     rounding = 1 - 1e-12  # so that waves of exactly this length belong to the power law
-    return rounding * points / positive("roll_off_wavelength", wavelength), level
+    return rounding * period / positive("roll_off_wavelength", wavelength), level
 
 
 def scale_factor(rms: float, mean_square: Any) -> float:

@@ -29,7 +29,7 @@ from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
-from viscorough.summaries import Summarised, Summary, unit_power, with_unit
+from viscorough.summaries import unit_power, with_unit
 from viscorough.types import Array, Progress
 
 # Of the linear problems: norm of the residual over that of the right-hand side, and iterations after which
@@ -137,7 +137,7 @@ class SumRules(ReadOnlyArrays):
 
 
 @dataclass(frozen=True)
-class Audit(Summarised):
+class Audit:
     """A loading curve with levels added until its integrals are known to a tolerance, and what they are.
 
     Attributes
@@ -175,22 +175,19 @@ class Audit(Summarised):
         """Whether the integrals agree, and the interpolated depth is as accurate as promised."""
         return self.integrals_agree and self.is_interpolated
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """Verdict; exact value, deviations and estimated error of both integrals."""
-        curve = self.curve
         verdict = "agree" if self.integrals_agree else "do not agree"
-        title = f"Audit over {curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
+        text = f"Audit over {self.curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
         if not self.is_interpolated:
-            title += f", and depths between levels are off by {self.interpolation_error:.1e}"
-        integrals = ("mean gap", self.rules.first, 1), ("energy U/G", self.rules.second, 3)
-        return title, *(
-            [
-                (name, with_unit(integral.exact, unit_power(curve.length_unit, power), 8)),
-                *((of, f"{deviation:+.1e}") for of, deviation in integral.deviations.items()),
-                ("estimated error", f"{integral.error:.1e}"),
-            ]
-            for name, integral, power in integrals
-        )
+            text += f", and depths between levels are off by {self.interpolation_error:.1e}"
+        for name, integral, power in (("mean gap", self.rules.first, 1), ("energy U/G", self.rules.second, 3)):
+            exact = with_unit(integral.exact, unit_power(self.curve.length_unit, power), 8)
+            deviations = ", ".join(f"{of} {deviation:+.1e}" for of, deviation in integral.deviations.items())
+            text += f"\n{name} {exact}, {deviations}, estimated error {integral.error:.1e}"
+        return text
+
+    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
 
 
 def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
@@ -383,8 +380,7 @@ def audit(
 
 def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
     """The curve of `indent`, without its warnings: complete contact lies beyond what the theory describes."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AccuracyWarning)
+    with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         return indent(indenter, **how)
 
 

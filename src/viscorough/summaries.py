@@ -1,36 +1,10 @@
-"""Short texts about a result: lines for print and for notebooks."""
+"""Numbers and units in short texts about a result, for print and for notebooks."""
 
-from __future__ import annotations
-
-from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from viscorough.types import Array
-
-# A title, and the quantities and texts of each line.
-Summary = tuple[str, *tuple[Sequence[tuple[str, str]], ...]]
+from typing import Any
 
 
-class Summarised(ABC):
-    """A result with the method `_summary`, which gives a title, and rows of (quantity, text), one for each line."""
-
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        # Else that of a dataclass, with all numbers of its arrays.
-        cls.__repr__ = Summarised.__str__  # type: ignore[assignment, method-assign]  # defined for objects of all kinds
-
-    @abstractmethod
-    def _summary(self) -> Summary: ...
-
-    def __str__(self) -> str:
-        title, *lines = self._summary()
-        return "\n".join([title, *(", ".join(f"{name} {text}" for name, text in line) for line in lines)])
-
-
-def span(values: Array, unit: str = "1") -> str:
-    """First and last of some values, with their unit: "1e-09 to 2e-07 m"."""
+def span(values: Any, unit: str = "1") -> str:
+    """First and last of an array of values, with their unit: "1e-09 to 2e-07 m"."""
     first, last = (f"{float(values[i]):.4g}" for i in (0, -1))
     return f"{first} to {last}{'' if unit == '1' else f' {unit}'}" if len(values) > 1 else with_unit(values[0], unit)
 

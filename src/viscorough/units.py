@@ -5,8 +5,6 @@ pint knows them. It takes a second to import, and is imported when a unit is rea
 "1" stands for a unit of length that is not known.
 """
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import math
@@ -189,9 +187,7 @@ def _parsed(text: str) -> Any:
     if re.search(_LONG_POWER, spelled) or spelled.count("**") > 6:
         raise ValueError(f"unit {text!r}: {wanted}")
     try:
-        parsed = _registry().parse_expression(spelled)
-        if not hasattr(parsed, "dimensionality"):
-            parsed = _registry().Quantity(float(parsed))
+        parsed = _registry().Quantity(spelled)
         size = float(parsed.to_base_units().magnitude)
     except Exception as error:  # pint raises errors of many kinds for what it cannot parse
         raise ValueError(f"unit {text!r}: {wanted}") from error

@@ -29,7 +29,7 @@ def test_rms_slope_that_overflows_is_infinite(spacing):
 
 def test_spacings_and_units_out_of_range_are_refused():
     for arguments, what in (
-        (((1.0, 2.0, 3.0),), "must be one number or a pair"),
+        (((1.0, 2.0, 3.0),), "spacing: must be a positive number"),
         (("1,2",), "must be a positive number"),
         ((np.nan,), "spacing: must be positive"),
         (((1.0, -2.0),), "must be positive and finite, not -2"),

@@ -3,8 +3,8 @@
 A user's mistake is answered with one line on stderr, "viscorough COMMAND: what, where, what is allowed", exit code 2
 and no output file; exit code 1 means that a solver did not converge, exit code 0 that the output file is complete, also
 if the closing line could not be written to stdout. Where warnings are errors (PYTHONWARNINGS=error), a warning is
-answered like a mistake. A subcommand's module is imported when it is run, and modules that take long to import where a
-command needs them, so that help and messages come quickly.
+answered like a mistake. Modules that take long to import are imported where a command needs them, so that help and
+messages come quickly.
 """
 
 import sys
@@ -19,37 +19,8 @@ from viscorough.cli.messages import complain, discard_what_cannot_be_written, es
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
 
-# Every subcommand, and what it makes.
-COMMANDS = {
-    "indent": "Loading curve of an indenter on an elastic half-space.",
-    "contact": "Pressure, gap and contact at a given force or depth.",
-    "kinetics": "Penetration over time in any linear viscoelastic half-space.",
-    "creep": "The medium from a measured depth over time.",
-    "march": "Penetration over time by direct integration.",
-    "reduce": "Loading curve by the method of dimensionality reduction (MDR).",
-    "generate": "A random self-affine disc or line.",
-    "estimate": "Depth and velocity of a self-affine surface by the calibrated law, without a simulation.",
-    "plot": "A figure of a surface, a curve, a motion or a contact.",
-}
 
-
-def subcommand(name: str) -> click.Command:
-    """The subcommand of this name, one of COMMANDS, with its options."""
-    command: click.Command = getattr(import_module(f"{__name__}.{name}"), name)
-    return command
-
-
-class _Subcommands(click.Group):
-    """A group that holds names and short texts of its subcommands, and imports the one that is run."""
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        name, command, rest = super().resolve_command(ctx, args)
-        return name, subcommand(name) if name in COMMANDS else command, rest
-
-
-@click.group(cls=_Subcommands, no_args_is_help=False, context_settings={"show_default": True})
+@click.group(no_args_is_help=False, context_settings={"show_default": True})
 @click.version_option(package_name="viscorough", message="%(prog)s %(version)s")
 def cli() -> None:
     """Penetration of rough rigid indenters into a linearly viscous half-space.
@@ -61,8 +32,8 @@ def cli() -> None:
     """
 
 
-for _name, _text in COMMANDS.items():
-    cli.add_command(click.Command(_name, short_help=_text))
+for _name in ("indent", "contact", "kinetics", "creep", "march", "reduce", "generate", "estimate", "plot"):
+    cli.add_command(getattr(import_module(f"{__name__}.{_name}"), _name))
 
 
 def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int:

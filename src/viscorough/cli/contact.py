@@ -1,7 +1,5 @@
 """`viscorough contact`: a map of heights to the fields of contact at a given force or depth."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +11,7 @@ from viscorough.summaries import si_unit, unit_power, with_unit
 from viscorough.units import Quantity
 
 
-@click.command()
+@click.command(short_help="Pressure, gap and contact at a given force or depth.")
 @surface_options.heights_input()
 @options.output("FIELDS.nc", table=False)
 @click.option("--force", type=options.Increasing("N"), help="Force, or several: F/G, or F with a modulus.")
@@ -67,8 +65,7 @@ def contact(
     files.write_output(content, output, **surface.attributes(indenter), **elastic_constants)
     last, patches = contacts[-1], int(content.variables["patches"].values.flat[-1])
     text = f"depth {with_unit(last.depth, unit, 6)}, F/G {with_unit(last.force, unit_power(unit, 2), 6)}, "
-    text += f"contact fraction {last.contact_fraction:.4g}, "
-    text += f"{patches} patch{'' if patches == 1 else 'es'}"
+    text += f"contact fraction {last.contact_fraction:.4g}, {patches} patch{'' if patches == 1 else 'es'}"
     if last.shear_modulus is not None:
         largest = with_unit(last.shear_modulus * last.largest_pressure, si_unit("Pa", unit))
         text += f", F {with_unit(last.normal_force, si_unit('N', unit), 6)}, largest p {largest}"

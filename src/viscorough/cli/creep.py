@@ -1,7 +1,5 @@
 """`viscorough creep`: the medium of a half-space from the measured depth of an indenter."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click
@@ -11,7 +9,7 @@ from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
 
 
-@click.command()
+@click.command(short_help="The medium from a measured depth over time.")
 @click.argument("curve", type=options.FILE, metavar="CURVE.nc")
 @click.argument("record", type=options.FILE, metavar="RECORD.csv")
 @options.force

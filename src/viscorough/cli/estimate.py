@@ -1,7 +1,5 @@
 """`viscorough estimate`: depth and velocity from the calibrated law alone."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 
@@ -13,7 +11,7 @@ from viscorough.errors import AccuracyWarning
 from viscorough.units import Quantity
 
 
-@click.command()
+@click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
 @click.option("--hurst", type=options.PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 1.")
 @click.option("--rms", type=options.QuantityOption("m"), required=True, help="Rms height h of the surface.")
 @click.option("--diameter", type=options.QuantityOption("m"), required=True, help="Diameter L of the indenter.")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+import viscorough
 from viscorough import units
 from viscorough.cli.messages import complain
 from viscorough.interrupts import on_interrupt
@@ -19,10 +20,6 @@ from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
-    from viscorough.loading_curve import LoadingCurve
-    from viscorough.types import FilePath
-    from viscorough.viscous.correspondence import ForceHistory
-    from viscorough.viscous.medium import Medium
 
 
 def check_output(output: Path, **inputs: Path | None) -> None:
@@ -50,7 +47,7 @@ def printable_name(file: Path) -> str:
 LONGEST = 60  # seconds that opening a file may take
 
 
-def check_opens(path: FilePath) -> None:
+def check_opens(path: Path) -> None:
     """Raise a one-line ValueError unless the NetCDF file can be opened.
 
     Damage can make the HDF5 library run without end, where Python cannot interrupt it. If opening, which takes
@@ -74,7 +71,7 @@ def check_opens(path: FilePath) -> None:
         timer.cancel()
 
 
-def read_content(path: FilePath) -> Content:
+def read_content(path: Path) -> Content:
     """The io.netcdf.Content of a NetCDF file."""
     from viscorough.io import netcdf
 
@@ -82,7 +79,7 @@ def read_content(path: FilePath) -> Content:
     return netcdf.read(path)
 
 
-def read_curve(path: FilePath) -> LoadingCurve:
+def read_curve(path: Path) -> viscorough.LoadingCurve:
     """The loading curve in a file; raises ValueError for that of a compressible half-space, and for what is none.
 
     The kinetics of a viscous half-space follow from the elastic curve of an incompressible one only.
@@ -98,26 +95,18 @@ def read_curve(path: FilePath) -> LoadingCurve:
         return curve_from_content(content)
 
 
-def read_load(
-    force: Quantity | None, force_history: Path | None, length_unit: str
-) -> tuple[float | ForceHistory, dict[str, Any]]:
-    """(the load, what an output says about it) of the options --force and --force-history, one of which is given."""
-    from viscorough.io.motion import read_force_history
-
+def read_load(force: Quantity | None, force_history: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
+    """(force or ForceHistory, what an output says about it) of --force and --force-history, one of which is given."""
     if force_history is not None:
-        return read_force_history(force_history, length_unit), {"force": printable_name(force_history)}
+        return viscorough.read_force_history(force_history, length_unit), {"force": printable_name(force_history)}
     number = units.number(force, "N", length_unit, "--force")
     return number, {"force": number}
 
 
-def read_half_space(
-    viscosity: Quantity | None, medium: Path | None, length_unit: str
-) -> tuple[float | Medium, dict[str, Any]]:
+def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
     """(viscosity or medium, what an output says about it) of --viscosity and --medium, one of which is given."""
-    from viscorough.io.media import read_medium
-
     if medium is not None:
-        return read_medium(medium, length_unit), {"medium": printable_name(medium)}
+        return viscorough.read_medium(medium, length_unit), {"medium": printable_name(medium)}
     number = units.number(viscosity, "Pa s", length_unit, "--viscosity")
     return number, {"viscosity": number}
 

@@ -1,7 +1,5 @@
 """`viscorough generate`: a random self-affine surface."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +9,7 @@ from viscorough.cli import files, messages, options
 from viscorough.units import Quantity
 
 
-@click.command()
+@click.command(short_help="A random self-affine disc or line.")
 @click.option("--hurst", type=click.FloatRange(0, 1), required=True, help="Hurst exponent H, from 0 to 1.")
 @click.option("--elements", type=click.IntRange(min=3), help="Disc of so many elements across its diameter.")
 @click.option("--points", type=click.IntRange(min=2), help="Line of so many points, instead of a disc.")

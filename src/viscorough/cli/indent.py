@@ -1,7 +1,5 @@
 """`viscorough indent`: a map of heights to a loading curve."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,13 +7,14 @@ from typing import Any
 
 import click
 
+import viscorough
 from viscorough.cli import files, messages, options, surface_options
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
 from viscorough.units import Quantity
 
 
-@click.command()
+@click.command(short_help="Loading curve of an indenter on an elastic half-space.")
 @surface_options.heights_input()
 @options.output("CURVE.nc")
 @click.option(
@@ -88,20 +87,18 @@ def indent(
     if until_fraction is not None:
         given["until_fraction"] = until_fraction
 
-    from viscorough import sum_rules
-    from viscorough.contact.loading_path import indent
     from viscorough.io.curves import curve_to_content, with_normal_force
 
     attributes, lines = surface.attributes(indenter) | elastic_constants, []
     with messages.progress_bar("viscorough indent", progress) as report:
         how: dict[str, Any] = {"tolerance": tolerance, "progress": report, "threads": threads}
         if audit:
-            result = sum_rules.audit(indenter, **how)
+            result = viscorough.audit(indenter, **how)
             curve, lines, attributes["audit"] = result.curve, str(result).splitlines(), str(result)
             if not result.agrees:
                 warnings.warn(lines[0], AccuracyWarning, stacklevel=2)
         else:
-            curve = indent(indenter, **given, **how)
+            curve = viscorough.indent(indenter, **given, **how)
     content, depth = curve_to_content(curve), with_unit(curve.depth[-1], unit, 6)
     if modulus is not None:
         content = with_normal_force(content, modulus, unit)

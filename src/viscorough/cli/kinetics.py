@@ -1,10 +1,7 @@
 """`viscorough kinetics`: a loading curve to penetration over time."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -19,7 +16,7 @@ _CORRESPONDENCE = (
 )
 
 
-@click.command()
+@click.command(short_help="Penetration over time in any linear viscoelastic half-space.")
 @click.argument("curve", type=options.FILE, metavar="CURVE.nc")
 @options.force
 @options.force_history
@@ -73,13 +70,11 @@ def kinetics(
     files.check_output(output, curve=curve, force_history=force_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
-    load: Any
     load, of_load = files.read_load(force, force_history, loading.length_unit)
     motion = correspondence.kinetics(loading, load, half_space, times)
     over_time = load
     if force_history:
-        at_samples = np.array_equal(motion.time, load.times)
-        over_time = load.force if at_samples else np.interp(motion.time, load.times, load.force)
+        over_time = load.force if times is None else np.interp(motion.time, load.times, load.force)
     unknown = np.count_nonzero(~np.isfinite(motion.depth) | ~np.isfinite(motion.velocity))
     if unknown == motion.time.size:
         raise ValueError("times: all are before the curve's first level; later ones are needed, or an earlier level")

@@ -1,12 +1,11 @@
 """`viscorough march`: direct integration of the viscous or viscoelastic problem in time."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
 import click
 
+import viscorough
 from viscorough import units
 from viscorough.cli import files, messages, options, surface_options
 from viscorough.summaries import si_unit, with_unit
@@ -16,7 +15,7 @@ METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "second_order")  # methods that integrate viscoelastic media
 
 
-@click.command()
+@click.command(short_help="Penetration over time by direct integration.")
 @surface_options.heights_input()
 @options.output("KIN.nc")
 @click.option(
@@ -79,17 +78,10 @@ def march(
     import numpy as np
 
     from viscorough.io.motion import medium_motion_to_content, viscous_motion_to_content
-    from viscorough.viscous.integration.events import march_events
-    from viscorough.viscous.integration.internal_variable_events import march_medium_events
-    from viscorough.viscous.integration.internal_variables import march_medium
     from viscorough.viscous.integration.motion import under_constant_force, under_force_history
-    from viscorough.viscous.integration.stepping import march_steps
 
-    files.check_output(output, force_history=force_history, medium=medium)
-    indenter = surface_options.read_indenter(surface, output)
+    indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
-    load: Any
-    half_space: Any
     load, of_load = files.read_load(force or Quantity(1.0), force_history, unit)
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     if force_history and not load.impulse[-1] > 0:
@@ -100,16 +92,16 @@ def march(
         how |= {} if method == "events" else {"progress": report}
         if medium:
             steps, forces = load[:2] if force_history else ([0.0, *times], [load] * (1 + len(times)))
-            integrate = march_medium_events if method == "events" else march_medium
+            integrate = viscorough.march_medium_events if method == "events" else viscorough.march_medium
             content = medium_motion_to_content(integrate(indenter, half_space, steps, force=forces, **how))
         else:
             per_area = half_space * units.square_metres(unit)  # viscosity in the unit of the lengths
             if method == "events":
-                integrated: Any = march_events(indenter, **how)
+                integrated: Any = viscorough.march_events(indenter, **how)
             else:
                 reached = np.unique(load.impulse[load.impulse > 0]) / per_area if force_history else None
                 ends = load / per_area * np.array(times) if reached is None else reached
-                integrated = march_steps(indenter, ends, scheme=method, **how)
+                integrated = viscorough.march_steps(indenter, ends, scheme=method, **how)
             if force_history:
                 motion = under_force_history(integrated, load, per_area)
             else:

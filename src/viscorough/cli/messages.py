@@ -1,19 +1,13 @@
 """Messages and progress of the command line; standard output and error may be closed, full, or limited in encoding."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
-
-if TYPE_CHECKING:
-    from viscorough.types import Progress
 
 _DELAY = 1.0  # seconds: what is done sooner shows no progress
 
@@ -64,7 +58,7 @@ def discard_what_cannot_be_written() -> None:
 
 
 @contextlib.contextmanager
-def progress_bar(label: str, wanted: bool | None) -> Iterator[Progress]:
+def progress_bar(label: str, wanted: bool | None) -> Iterator[Callable[[float], object]]:
     """Context that yields a function of the share that is done, 0 to 1; from the first second on it is shown.
 
     wanted : True or False; None: only if standard error is a terminal. The bar is erased at the end, so that standard

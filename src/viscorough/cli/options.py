@@ -1,7 +1,5 @@
 """Types of options, and options, that the commands of the command line share."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`viscorough plot`: a figure of a surface, or of what another command wrote."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click
@@ -9,7 +7,7 @@ import click
 from viscorough.cli import files, messages, options, surface_options
 
 
-@click.command()
+@click.command(short_help="A figure of a surface, a curve, a motion or a contact.")
 @surface_options.heights_input("file")
 @click.option("-o", "--output", type=options.FILE, required=True, metavar="FIGURE", help="A .png, .pdf or .svg file.")
 def plot(surface: surface_options.Surface, output: Path) -> None:
@@ -30,13 +28,11 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
     except ModuleNotFoundError as error:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
 
-    from viscorough.io.netcdf import Content
     from viscorough.io.surfaces import surface_to_content
 
     file = surface.path
     files.check_output(output, results=file)
-    content: Content | None = None
-    fault: ValueError | None = None
+    content = fault = None
     if not surface.options and file.suffix.lower() == ".nc":
         try:
             content = files.read_content(file)

@@ -1,7 +1,5 @@
 """`viscorough reduce`: the loading curve of a line of independent springs."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 
@@ -17,7 +15,7 @@ _OF_A_MAP = (
 )
 
 
-@click.command()
+@click.command(short_help="Loading curve by the method of dimensionality reduction (MDR).")
 @surface_options.heights_input("line_or_map")
 @options.until(1)
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")
@@ -68,8 +66,7 @@ def reduce(
         options.require((realizations or 1) == 1 or output.suffix.lower() != ".csv", no_table)
         indenter = surface_options.read_indenter(surface, output)
         about = surface.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
-        seeds = [[seed or 0, index] for index in range(realizations or 1)]
-        lines = (mdr.line_of_map(indenter, entropy) for entropy in seeds)
+        lines = (mdr.line_of_map(indenter, [seed or 0, index]) for index in range(realizations or 1))
         warnings.warn(_OF_A_MAP, AccuracyWarning, stacklevel=2)
     curves = []
     with messages.progress_bar("viscorough reduce", progress) as report:

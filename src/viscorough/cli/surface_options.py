@@ -8,18 +8,16 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+import viscorough
 from viscorough import units
 from viscorough.cli.files import check_opens, check_output, printable_name
 from viscorough.cli.options import FILE
 from viscorough.errors import AccuracyWarning
 from viscorough.units import Quantity
-
-if TYPE_CHECKING:
-    from viscorough.indenter import Indenter
 
 _OF_READING = ("spacing", "unit", "channel")
 _OF_PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
@@ -33,7 +31,7 @@ class Surface:
     path: Path
     options: dict[str, Any]
 
-    def attributes(self, indenter: Indenter) -> dict[str, object]:
+    def attributes(self, indenter: viscorough.Indenter) -> dict[str, object]:
         """What an output file says about the surface and how it was read and prepared."""
         attributes = {"heights": printable_name(self.path), "spacing": indenter.spacing}
         attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
@@ -109,22 +107,22 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
     return decorate
 
 
-def read_indenter(surface: Surface, output: Path) -> Indenter:
+def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> viscorough.Indenter:
     """The indenter that a Surface describes, read after a check that the output can be written.
 
+    inputs : further files that are read, as of files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights; steep ones give an AccuracyWarning.
     """
     from viscorough.io.atomic import path_named
-    from viscorough.io.heights import read_heights
 
     path, values = surface.path, dict(surface.options)
-    check_output(output, heights=path)
+    check_output(output, heights=path, **inputs)
     if path.suffix == ".nc":
         check_opens(path)
     for name in values.keys() & _VALUES.keys():
         with path_named(f"--{name} {values[name]}"):
             values[name] = _VALUES[name](values[name])
-    indenter = read_heights(path, **values)
+    indenter = viscorough.read_heights(path, **values)
     if (slope := indenter.rms_slope) > _STEEP_SLOPE:
         text = f"{path}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"
         warnings.warn(text, AccuracyWarning, stacklevel=2)

@@ -47,9 +47,7 @@ _LARGEST_RATIO_OF_START = 2.0
 
 def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int = 1) -> None:
     """Raise ValueError, which starts with the name, unless an indenter is a map, and tolerance and threads in range."""
-    check_indenter(name, indenter)
-    if indenter.heights.ndim != 2:
-        raise ValueError(f"{name}: the indenter's heights must be two-dimensional (lines are for reduce)")
+    check_indenter(name, indenter, 2)
     if indenter.spacing * indenter.row_spacing < sys.float_info.min:
         text = f"a spacing of {indenter.spacing:g} is too small to represent areas"
         raise ValueError(f"{name}: {text}; a smaller unit of length is needed")

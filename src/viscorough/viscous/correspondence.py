@@ -29,7 +29,7 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, si_unit, span, velocity_unit
+from viscorough.summaries import si_unit, span, velocity_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import medium_of
@@ -42,7 +42,7 @@ _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a mi
 
 
 @dataclass(frozen=True)
-class Kinetics(ReadOnlyArrays, Saved, Summarised):
+class Kinetics(ReadOnlyArrays, Saved):
     """Penetration over time; read-only arrays of shape (times,).
 
     Attributes
@@ -62,15 +62,17 @@ class Kinetics(ReadOnlyArrays, Saved, Summarised):
     velocity: np.ndarray
     length_unit: str = units.UNKNOWN
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """What it is; the first and last time, depth and velocity."""
         unit = self.length_unit
         return (
-            f"Penetration at {self.time.size} times",
-            [("time t", span(self.time, si_unit("s", unit)))],
-            [("depth u", span(self.depth, unit))],
-            [("velocity v", span(self.velocity, si_unit(velocity_unit(unit), unit)))],
+            f"Penetration at {self.time.size} times\n"
+            f"time t {span(self.time, si_unit('s', unit))}\n"
+            f"depth u {span(self.depth, unit)}\n"
+            f"velocity v {span(self.velocity, si_unit(velocity_unit(unit), unit))}"
         )
+
+    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
 
 
 class ForceHistory(NamedTuple):
@@ -145,20 +147,14 @@ def kinetics(
     """
     medium = medium_of(medium, curve.length_unit)
     load: Any = consistent_force(force, curve.length_unit)
-    if np.ndim(load) == 0:
-        if not (np.isfinite(load) and load > 0):
-            raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
-        times = impulses(load, _spread_times(curve, load, medium) if times is None else times).times
-        if times[-1] > medium.last_time:
-            text = f"allowed: up to the last time of the table, {medium.last_time:g}"
-            raise ValueError(f"times: up to {times[-1]:g}; {text}")
-        with np.errstate(over="ignore"):
-            creep, rate = load * medium.creep_compliance(times), load * medium.creep_rate(times)
-    elif times is None and not isinstance(load, ForceHistory):
-        raise ValueError("times: missing; a force given as samples needs the time of each sample")
-    else:
-        history, place = resampled(load, times)
-        times, creep, rate = (values[place] for values in (history.times, *creep_response(medium, history)))
+    constant = np.ndim(load) == 0
+    if constant and not (np.isfinite(load) and load > 0):
+        raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
+    if times is None and not isinstance(load, ForceHistory):
+        if not constant:
+            raise ValueError("times: missing; a force given as samples needs the time of each sample")
+        times = _spread_times(curve, load, medium)
+    times, creep, rate = creep_and_rate(load, medium, times)
     depth, stiffness = _at_elastic_force(curve, creep, times)
     # Where nothing moves the velocity is 0 even before the first level, where the stiffness is nan.
     velocity = np.where(rate <= 0, 0.0, rate / stiffness)
@@ -200,6 +196,20 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     times = np.geomspace(ends[0], ends[1], _SPREAD)
     springs = at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
     return np.append(0.0, times) if springs else times
+
+
+def creep_and_rate(force: ForceHistory | Any, medium: Medium, times: Any) -> tuple[Array, Array, Array]:
+    """Times, Φ and dΦ/dt there."""
+    if np.ndim(force) > 0:
+        history, place = resampled(force, times)
+        creep, rate = creep_response(medium, history)
+        return history.times[place], creep[place], rate[place]
+    load: Any = force
+    times = impulses(load, times).times
+    if times[-1] > medium.last_time:
+        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
+    with np.errstate(over="ignore"):
+        return times, load * medium.creep_compliance(times), load * medium.creep_rate(times)
 
 
 def resampled(force: ForceHistory | Any, times: Any) -> tuple[ForceHistory, Integers]:

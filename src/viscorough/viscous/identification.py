@@ -19,7 +19,7 @@ from scipy.special import gamma, stdtrit
 from viscorough.arrays import ReadOnlyArrays, increasing, integral
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, si_unit, span, with_unit
+from viscorough.summaries import si_unit, span, with_unit
 from viscorough.types import Array, Integers
 from viscorough.units import UNKNOWN
 from viscorough.viscous.correspondence import ForceHistory, consistent_force, impulses, resampled
@@ -41,7 +41,7 @@ _TRIALS, _CLOSE = 8, 0.02  # for an end of an interval: of its distance from the
 
 
 @dataclass(frozen=True)
-class IdentifiedMedium(ReadOnlyArrays, Saved, Summarised):
+class IdentifiedMedium(ReadOnlyArrays, Saved):
     """A medium identified from a record of depth over time, as `identify_medium` returns it.
 
     Attributes
@@ -79,14 +79,16 @@ class IdentifiedMedium(ReadOnlyArrays, Saved, Summarised):
     scatter: float
     length_unit: str = UNKNOWN
 
-    def _summary(self) -> Summary:
+    def __str__(self) -> str:
         """What it is; J over time."""
         return (
-            f"{type(self.medium).__name__} identified from a record of depth",
-            [("time t", span(self.time, si_unit("s", self.length_unit)))],
-            [("compliance J", span(self.compliance, si_unit("1/Pa", self.length_unit)))],
-            [("scatter of depth", with_unit(self.scatter, self.length_unit, 3))],
+            f"{type(self.medium).__name__} identified from a record of depth\n"
+            f"time t {span(self.time, si_unit('s', self.length_unit))}\n"
+            f"compliance J {span(self.compliance, si_unit('1/Pa', self.length_unit))}\n"
+            f"scatter of depth {with_unit(self.scatter, self.length_unit, 3)}"
         )
+
+    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
 
 
 def identify_medium(

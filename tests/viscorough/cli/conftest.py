@@ -5,7 +5,7 @@ import shlex
 import pytest
 
 from support.faults import contents
-from viscorough.cli import COMMANDS, main
+from viscorough.cli import cli, main
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def complaint(here, capsys):
         code = main(arguments)
         captured = capsys.readouterr()
         assert (code, captured.out) == (2, ""), captured
-        command = [argument for argument in arguments[:1] if argument in COMMANDS]
+        command = [argument for argument in arguments[:1] if argument in cli.commands]
         assert captured.err.startswith(f"{' '.join(['viscorough', *command])}: ")
         assert len(captured.err.splitlines()) == 1
         assert captured.err.endswith("\n")

@@ -71,7 +71,7 @@ MISTAKES = [
     (f"{ESTIMATE} --rms '1 um' --force 1 --viscosity 1", "one has a unit; both or none is allowed"),
     (f"{ESTIMATE} --rms 1 --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
     (f"{ESTIMATE} --rms 1 --force 1", "one of --viscosity and --medium is needed"),
-    (f"{ESTIMATE} --rms 1 --force 1 --medium table.yaml", "beyond the last time of the creep table"),
+    (f"{ESTIMATE} --rms 1 --force 1 --medium table.yaml", "allowed: up to the last time of the table"),
     (f"{ESTIMATE} --rms 1 --force 1 --medium medium.yaml -o medium.yaml", "would replace the medium"),
     (GENERATE, "either --elements (a disc) or --points (a line) is needed"),
     (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),

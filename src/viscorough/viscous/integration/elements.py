@@ -40,9 +40,7 @@ class MapElements(Elements):
 
 def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
     """The MapElements of an indenter. Raises ValueError, which starts with the caller, unless it is a map."""
-    check_indenter(caller, indenter)
-    if indenter.heights.ndim != 2:
-        raise ValueError(f"{caller}: the indenter's heights must be two-dimensional")
+    check_indenter(caller, indenter, 2)
     row, column = np.nonzero(np.isfinite(indenter.heights))
     gap = indenter.initial_gap[row, column]
     units = Units(1.0, indenter.element_side)

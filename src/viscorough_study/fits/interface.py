@@ -10,7 +10,6 @@ mean of g over ln X on it. Lines of the MDR have κ_c = 1.
 
 import numpy as np
 import pandas as pd
-from scipy.ndimage import label
 
 from viscorough_study.ensembles.flat_punch import grid_and_punch
 from viscorough_study.ensembles.pool import ensembles, select
@@ -83,6 +82,8 @@ def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
 
 
 def run_around(allowed, place):
-    """Indices of the run of allowed abscissae that contains `place`, which is allowed."""
-    runs, _ = label(allowed)
-    return np.flatnonzero(runs == runs[place])
+    """Indices of the run of allowed abscissae around `place`, with this one."""
+    outside = np.flatnonzero(~allowed)
+    first = outside[outside < place].max(initial=-1) + 1
+    last = outside[outside > place].min(initial=len(allowed))
+    return np.arange(first, last)

@@ -45,7 +45,7 @@ def few_ranked(monkeypatch):
         monkeypatch.setattr(ranking, name, 50)
     for name in ("_LARGE", "_FEWEST_BLOCKS"):
         monkeypatch.setattr(prescribed_force, name, 1)
-    for name, number in {"_LEAST": 0, "_LARGEST_SHARE": 1, "SIDE": 8}.items():
+    for name, number in {"_LEAST": 0, "_LARGEST_SHARE": 1, "SIDE": 40}.items():
         monkeypatch.setattr(tiles, name, number)
 
 

@@ -84,7 +84,7 @@ ALONE = [
     (lambda content: Content(content.variables, {}), "no attribute elements"),
     (values("force", lambda force: force.astype(str)), r"no numbers force\(level\)"),
     (entry("depth", 3, 0), "loading curve: depth: allowed is one row of finite numbers above 0"),
-    (entry("force", -1, np.nan), "force must"),
+    (entry("force", -1, np.nan), "force: allowed"),
     (entry("residual", 2, np.nan), "residual"),
     (values("contact_count", lambda count: count + 0.5), "a whole number from 1 to 200"),
     (values("contact_count", lambda count: count[::-1].astype(np.uint8)), "contact_count must not decrease"),

@@ -64,6 +64,13 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
     return of_pressure, of_tangent
 
 
+def of_highest_element(elements: Elements, units: Units, depth: float) -> ContactState:
+    """The contact of the highest element alone, as long as no other one touches."""
+    factor = 1 / np.sqrt(elements.influence[0, 0])
+    pressure, tangent = (right * factor * factor for right in (np.array([depth]), np.ones(1)))  # as by Cholesky factors
+    return _exact_contact(units, depth, np.zeros(1, int), pressure, tangent)
+
+
 def solve(
     elements: Elements, contact: ContactState, depth: float, candidates: int, max_count: int
 ) -> ContactState | None:

@@ -126,7 +126,10 @@ class ContactSolver:
         if self.elements.initial_gap.size == 0:
             self.elements = self._ranking.up_to(self.elements, self._ranking.small_depth())
         gap = self.elements.initial_gap
-        depth = 1.0 if self.is_flat else gap[np.searchsorted(gap, 0, side="right")]
+        highest = np.searchsorted(gap, 0, side="right")
+        depth = 1.0 if self.is_flat else gap[highest]
+        if highest == 1:  # takes a tenth of the time of a solution
+            return dense.of_highest_element(self.elements, self.units, depth)
         return self.advance_reduced(self.unloaded_state(), depth)
 
     def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:

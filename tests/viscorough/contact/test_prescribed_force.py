@@ -63,7 +63,7 @@ def test_the_last_correction_is_as_small_as_the_tolerance_asks():
 
 
 def test_while_few_elements_touch_the_force_is_met_at_once(monkeypatch):
-    """The contact events end at the force: no contact but the first one is solved."""
+    """The contact events of the highest element end at the force: no contact is solved."""
     depths, advance = [], ContactSolver.advance_reduced
     monkeypatch.setattr(ContactSolver, "advance_reduced", lambda *args: depths.append(args[2]) or advance(*args))
     disc = self_affine_disc(0.8, 129, seed=3)
@@ -71,7 +71,7 @@ def test_while_few_elements_touch_the_force_is_met_at_once(monkeypatch):
     contacts = [search.contact_at(force) for force in (0.01, 0.1, 0.2)]
     assert [contact.count for contact in contacts] == sorted({contact.count for contact in contacts})
     assert 100 < contacts[-1].count < 200
-    assert len(depths) == 1
+    assert not depths
     exact = indent(disc, depths=[contact.depth for contact in contacts], tolerance=1e-9)
     np.testing.assert_allclose(exact.force, [0.01, 0.1, 0.2], rtol=1e-12)
 
@@ -93,7 +93,7 @@ def test_few_depths_are_solved(monkeypatch):
     monkeypatch.setattr(ContactSolver, "advance_reduced", lambda *args: depths.append(args[2]) or advance(*args))
     search = ForceSearch(ContactSolver(self_affine_disc(0.8, 129, seed=3), 1e-3))
     search.contact_at(5.0)
-    assert 1 < len(depths) <= 14
+    assert 1 <= len(depths) <= 13
     depths.clear()
     search.contact_at(5.5)
     assert len(depths) <= 3

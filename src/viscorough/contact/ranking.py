@@ -13,11 +13,12 @@ from viscorough.types import Array, Integers
 
 # Sample size for choosing sort ranges, and the largest number of ranges.
 _SAMPLE, _MOST_RANGES = 1000, 8
-# The least number of elements to be ranked, that for curves, which come to need all of them, and the share of them from
-# which on all are.
+# Where no depth is known, fewer elements than the first number are all ranked, for curves, which come to need all of
+# them, up to the second; and all are from a share on.
 _LEAST, _LEAST_OF_CURVES, _MOST_SHARE = 1 << 12, BLOCK, 0.5
-# About how many elements are ranked at first where no depth is known, and the size of the sample that tells which.
-_FIRST, _DEPTH_SAMPLE = 1 << 12, 1 << 14
+# About how many elements, and at most which share, are ranked at first where no depth is known; how many of these are
+# in the sample that tells the depth, and its largest size.
+_FIRST, _FIRST_SHARE, _OF_SAMPLE, _LARGEST_SAMPLE = 1 << 12, 0.25, 64, 1 << 14
 # Depth up to which elements are ranked next where only those of the largest height are, over the largest initial gap.
 _SMALLEST_DEPTH = 1e-3
 
@@ -46,25 +47,27 @@ class Ranking:
             self._shape = rows, columns
 
     def first(self, depth: float, whole: bool = False) -> Elements:
-        """The Elements up to a reduced depth; all of a small map, none of a large one where the depth is infinite.
+        """The Elements up to a reduced depth; where it is infinite, all of a small map and none of a large one.
 
         whole : whether all will be needed
         """
         nothing = np.empty(0, np.int32)
         fixed = self._origin, self._shape, self._aspect
         elements = Elements(nothing, nothing, np.empty(0), *fixed, unranked=self._count, ranked_depth=-1.0)
-        if self._count <= (_LEAST_OF_CURVES if whole else _LEAST):
+        if self._count <= _LEAST_OF_CURVES if whole else self._count < _LEAST and np.isinf(depth):
             return self.up_to(elements, np.inf)
         return self.up_to(elements, depth) if np.isfinite(depth) else elements
 
     def small_depth(self) -> float:
         """A reduced depth up to which there are about as many elements as are ranked in no time."""
-        rows, columns = self._heights.shape
-        places = np.arange(_DEPTH_SAMPLE)  # spread evenly over the map by a quasi-random sequence (R2, Roberts 2018)
+        (rows, columns), share = self._heights.shape, min(_FIRST / self._count, _FIRST_SHARE)
+        # Spread evenly over the map by a quasi-random sequence (R2, Roberts 2018).
+        places = np.arange(min(_OF_SAMPLE / share, _LARGEST_SAMPLE))
         row, column = (places * 0.7548776662466927 % 1 * rows, places * 0.5698402909980532 % 1 * columns)
         sample = self._heights[row.astype(int), column.astype(int)]
         gap = np.subtract(self.highest, sample[np.isfinite(sample)], dtype=float) / self.units.length
-        return float(np.quantile(gap, min(_FIRST / self._count, 1.0))) if gap.size else np.inf
+        rank = int(share * gap.size)
+        return float(np.partition(gap, rank)[rank]) if gap.size else np.inf
 
     def up_to(self, elements: Elements, depth: float) -> Elements:
         """The Elements with all those ranked whose initial gaps are up to a reduced depth, or a larger one."""

@@ -82,7 +82,7 @@ def test_few_elements_are_ranked_at_first_whatever_the_size(across):
 def test_contacts_are_those_with_all_elements_ranked(indenter, given, few_ranked, monkeypatch):
     tolerance = 1e-6
     contacts = contact_at(indenter, tolerance=tolerance, **given)
-    monkeypatch.setattr(ranking, "_LEAST", 10**6)
+    monkeypatch.setattr(ranking, "_MOST_SHARE", 0)
     monkeypatch.setattr(tiles, "_LEAST", 10**6)
     for contact, expected in zip(contacts, contact_at(indenter, tolerance=tolerance, **given), strict=True):
         assert contact.force == pytest.approx(expected.force, rel=tolerance)

@@ -7,7 +7,7 @@ BIN := .venv/bin
 SETTINGS ?=
 SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))
 # One line of progress; all that is printed is in results/run.log.
-WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
+WITH_PROGRESS = $(BIN)/python workflow/run_with_progress.py --
 
 .PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed light stability \
 	sizes law large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean

@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 BY_FOLDER = {
     "src": ["tests/viscorough_study/run/test_source_digest.py"],
-    "workflow": ["tests/workflow/test_form.py"],
+    "workflow": ["tests/workflow/test_form.py", "tests/workflow/test_run_with_progress.py"],
     "peers": ["tests/benchmarks/test_other_solvers.py"],
     "config": ["tests/viscorough_study/run/test_settings.py"],
     "resources": ["tests/viscorough_study/verdicts/test_claims.py"],

@@ -9,11 +9,11 @@ import sys
 
 import pandas as pd
 import pytest
+import run_with_progress
 import xarray as xr
+from run_with_progress import Progress, summary
 
 from support.study import ROOT
-from viscorough_study.page import terminal
-from viscorough_study.page.terminal import Progress, summary
 from viscorough_study.run.stale_locks import REMOVED
 
 STARTED = """Building DAG of jobs...
@@ -53,10 +53,10 @@ class Terminal(io.StringIO):
 def run(tmp_path, monkeypatch):
     """Runs a Python script, in place of Snakemake, with its progress; the exit code."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / terminal.PUBLISHED_COSTS).parent.mkdir(parents=True)
-    (tmp_path / terminal.PUBLISHED_COSTS).write_text("rule,jobs,share_s\nindent,3,30\nplot,1,1\n")
+    (tmp_path / run_with_progress.PUBLISHED_COSTS).parent.mkdir(parents=True)
+    (tmp_path / run_with_progress.PUBLISHED_COSTS).write_text("rule,jobs,share_s\nindent,3,30\nplot,1,1\n")
     monkeypatch.setattr(signal, "signal", lambda *_: None)
-    return lambda script: terminal.run([sys.executable, "-c", script])
+    return lambda script: run_with_progress.run([sys.executable, "-c", script])
 
 
 def test_what_runs_how_many_of_how_many_and_their_share_of_the_time(monkeypatch):

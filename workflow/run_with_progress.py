@@ -1,6 +1,6 @@
 """Run Snakemake with one line of progress on the terminal; its output and that of its jobs goes to a file.
 
-python -m viscorough_study.page.terminal -- snakemake --cores 2 -- all
+python workflow/run_with_progress.py -- snakemake --cores 2 -- all
 """
 
 import contextlib

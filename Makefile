@@ -38,7 +38,7 @@ help:
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"
 	@echo "make clean       remove results and caches, keep the environment"
-	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, stability, sizes, large."
+	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, stability, sizes."
 
 environment: .venv/package-installed
 
@@ -71,10 +71,9 @@ reproduce: settings
 paper: override SETTINGS := config/paper.yaml
 paper: reproduce
 
-# Includes the targets beside `all` that were made.
+# Includes the target beside `all` if it was made.
 report: settings
-	$(SNAKEMAKE) --report results/report.html -- all \
-		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,sizes large)))
+	$(SNAKEMAKE) --report results/report.html -- all $(patsubst results/figures/%.png,%,$(wildcard results/figures/sizes.png))
 
 # Written in full each time (-E): pages that are kept would hide the warnings of an earlier run.
 docs: environment
@@ -106,7 +105,6 @@ bench: environment
 
 speed stability: SETTINGS = config/methods.yaml
 sizes: SETTINGS = config/sizes.yaml
-large: SETTINGS = config/large.yaml
 
 speed: settings
 	$(SNAKEMAKE) -- speed
@@ -128,8 +126,9 @@ sizes: settings
 law: environment
 	$(BIN)/python benchmarks/law.py --cores $(CORES) --output results/tables/law.csv
 
-large: settings
-	$(SNAKEMAKE) -- large
+large: environment
+	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv \
+		--figure results/figures/large.png
 
 dist: environment
 	$(BIN)/python benchmarks/distribution.py --output build/dist

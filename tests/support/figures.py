@@ -41,6 +41,13 @@ def plot(module, *arguments, **options):
 # ---- what a figure shows
 
 
+def drawn_points(axes):
+    """Every point of the lines, intervals, bands and bars of an axes."""
+    paths = [path for collection in axes.collections for path in collection.get_paths()]
+    bars = [patch.get_bbox().p1[None] for patch in axes.patches]
+    return np.concatenate([*(line.get_xydata() for line in axes.lines), *(path.vertices for path in paths), *bars])
+
+
 def whole_on_page(figure):
     """Whether nothing that is drawn reaches beyond the page, once laid out."""
     figure.draw_without_rendering()
@@ -117,7 +124,6 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "failure_map": (published("failure_map"),),
     "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0)),
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),
-    "large": (published("large"),),
     "level_placement": (published("level_placement").assign(reached=lambda table: table["choice"] != "naive"),),
     "mdr_lambda": (published("mdr_lambda"), published("mdr_exponents")),
     "media": (media_table(),),

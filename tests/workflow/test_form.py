@@ -13,7 +13,7 @@ from support.workflow import RESULTS, ROOT, TEST, copy_project, jobs, plan, snak
 def test_slurm_profile(tmp_path, finished_once):
     """Timed jobs have their node to themselves; jobs are those of a local run, without the executor."""
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
-    timed = {"measure_large", *(name for name, rule in RESULTS["tables"].items() if "alone" in rule)}
+    timed = {name for name, rule in RESULTS["tables"].items() if "alone" in rule}
     assert timed == set(profile["set-threads"])
     assert {profile["set-resources"][name]["slurm_extra"] for name in timed} == {"'--exclusive'"}
     assert profile.pop("executor") == "slurm"

@@ -2,7 +2,6 @@
 
 # {name of an input: files}
 TABLE_INPUTS = {
-    "costs_of_large": expand("results/large/{elements}.csv", elements=config["large"]["elements"]),
     "curves_of_combinations": curves_of_combinations(),
     "measured_curves": curves_of_pool("measured"),
 }

@@ -16,7 +16,6 @@ TARGETS = {
     ),
     "stability": ("Failure map of all methods.", rules.plot_failure_map.output),
     "sizes": ("Exponents on grids from coarse to fine.", [rules.plot_sizes.output, rules.plot_collapse.output]),
-    "large": ("Cost of one disc on grids from coarse to fine.", [rules.plot_large.output, *table_files("large")]),
 }
 TARGETS |= {
     f"figure_{number}": (f"Figure {number} of the paper", getattr(rules, f"plot_{name}").output)

@@ -228,11 +228,6 @@ def disc_memory(case):
     return round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
 
 
-def large_memory(elements):
-    """Memory for one disc and the fields of the solver on its grid."""
-    return round(BASE_MEMORY + 240 * elements**2 / 1e6)
-
-
 def measured_memory(case):
     """Memory for a scan with at least four bytes per height in its file, and the fields of the solver on its grid."""
     return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)

@@ -1,13 +1,11 @@
 """Figures show the numbers of their tables, lie whole on their page, and refuse tables without rows."""
 
-import re
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
 from support import figures as tables
-from support.figures import X, dashed, plot, published, whole_on_page, without_region
+from support.figures import X, dashed, drawn_points, plot, published, whole_on_page, without_region
 from support.study import SHOWN
 from viscorough import reference
 from viscorough.surfaces import self_affine_disc
@@ -40,13 +38,6 @@ def test_figure_of_no_rows_is_refused(name):
 # ---- numbers of tables
 
 
-def drawn_points(axes):
-    """Every point of the lines, intervals, bands and bars of an axes."""
-    paths = [path for collection in axes.collections for path in collection.get_paths()]
-    bars = [patch.get_bbox().p1[None] for patch in axes.patches]
-    return np.concatenate([*(line.get_xydata() for line in axes.lines), *(path.vertices for path in paths), *bars])
-
-
 def points(rows, x, *columns):
     """Points (x, column) of the rows; nan for an x or column that is None, because its values are shifted."""
     rows = rows.assign(none=np.nan)
@@ -55,7 +46,7 @@ def points(rows, x, *columns):
 
 def expected_points(scaling):
     """(figure, panel, points that its axes have)"""
-    reduction, lambdas, large = published("reduction"), published("mdr_lambda"), published("large")
+    reduction, lambdas = published("reduction"), published("mdr_lambda")
     media, curves, interface = tables.media_table(), tables.interface_curves(), published("interface")
     lines = fits(scaling, SHOWN, source="lines", rms_convention="line")
     discs = {"source": "discs", "case_group": "base"}
@@ -88,8 +79,6 @@ def expected_points(scaling):
     yield "interface", 0, points(base, "x", "interface", "interface_low", "interface_high")
     yield "interface", 0, points(published("periodic"), "x", "g")
     yield "interface", 3, points(interface.query("source == 'discs'"), None, "u0", "u0_low")
-    yield "large", 0, points(large, "elements", "processor", "wall_threads")
-    yield "large", 1, points(large.assign(memory=large["memory"] / 1e9), "elements", "memory")
     for panel, rule in ((0, "default"), (2, "X = 0.01 to 0.1")):
         table, of_lines = published("sizes").query("window_rule == @rule"), {"rms_convention": "line"}
         yield "sizes", panel, points(fits(table, SHOWN | {"window_rule": rule}, source="discs"), None, "beta")
@@ -106,13 +95,6 @@ def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
         assert len(expected) > 1
         near = (np.isclose(shown, expected, rtol=1e-9, atol=1e-12) | np.isnan(expected)).all(axis=2).any(axis=1)
         assert near.all(), (figure, panel, expected[~near])
-
-
-@pytest.mark.parametrize("panel", [0, 1])
-def test_exponents_in_the_legend_are_those_of_the_lines(drawn, panel):
-    for line in drawn["large"].axes[panel].lines:
-        if stated := re.search(r"exponent ([\d.]+)", line.get_label()):
-            assert np.polyfit(*np.log(line.get_data()), 1)[0] == pytest.approx(float(stated[1]), abs=0.006)
 
 
 def test_speed_has_the_front_of_all_methods_and_rings_around_the_fastest():

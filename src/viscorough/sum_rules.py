@@ -256,7 +256,7 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     is straight, and both are exact. The estimated error of an interval is what its trapezoid differs from its rise in
     depth, at least the standard deviation for such jumps, 0.29 ΔF Δ(1/k)/√m; that of the second integral is 0.13 ΔF
     times as large, the ratio for such jumps, or what the two quadratures differ by. Errors of intervals add as
-    independent ones, but at least as their known parts do. That of the second integral is two standard deviations and
+    independent ones, but at least as their known parts do. That of the second integral is three standard deviations and
     what both quadratures differ by in all, so that it holds for either of them.
 
     curve : LoadingCurve; complete : CompleteContact of its indenter
@@ -297,7 +297,7 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     }
     second = {"by levels": areas.sum(), "between levels": areas[0] + inner_areas.sum()}
     total = max(abs(off.sum()), np.sqrt((error**2).sum()))
-    total_of_second = abs(areas[1:].sum() - inner_areas.sum()) + 2 * np.sqrt((error_of_second**2).sum())
+    total_of_second = abs(areas[1:].sum() - inner_areas.sum()) + 3 * np.sqrt((error_of_second**2).sum())
     return SumRules(
         Integral.of(complete.mean_gap, first, total, scale),
         Integral.of(complete.energy, second, total_of_second, scale_of_second),

@@ -45,8 +45,7 @@ def creep(
     from viscorough.io.media import check_medium_file, save_identified
     from viscorough.viscous.identification import identify_medium
 
-    table = check_medium_file(output)
-    for path in (output, table):
+    for path in (output, check_medium_file(output)):
         files.check_output(path, curve=curve, record=record, force_history=force_history)
     loading = files.read_curve(curve)
     unit = loading.length_unit

@@ -66,13 +66,12 @@ def progress_bar(label: str, wanted: bool | None) -> Iterator[Callable[[float], 
     """
     from tqdm import tqdm
 
-    bar = tqdm(
+    with tqdm(
         total=1.0,
         desc=label,
         delay=_DELAY,
         disable=sys.stderr is None or (None if wanted is None else not wanted),  # None where it was closed
         leave=False,
         bar_format="{desc}: {percentage:3.0f} % |{bar:30}| {elapsed} gone, about {remaining} left",
-    )
-    with bar:
+    ) as bar:
         yield lambda done: bar.update(done - bar.n)

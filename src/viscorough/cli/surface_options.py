@@ -37,7 +37,7 @@ class Surface:
         attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
         if "channel" in self.options:
             attributes["channel"] = self.options["channel"]
-        steps = {name: self.options[name] for name in _OF_PREPARATION if name in self.options}
+        steps = {name: value for name, value in self.options.items() if name in _OF_PREPARATION}
         words = [f"--{name}" if value is True else f"--{name} {value}" for name, value in steps.items()]
         return attributes | {"preparation": " ".join(words) or "none"}
 

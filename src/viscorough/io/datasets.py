@@ -3,8 +3,6 @@
 The only module of the library that imports xarray.
 """
 
-from typing import Any
-
 import xarray as xr
 
 from viscorough.io import netcdf
@@ -36,8 +34,7 @@ def read_dataset(path: FilePath) -> xr.Dataset:
 
     Raises a one-line ValueError if it is missing or damaged.
     """
-    as_stored: dict[str, Any] = {"decode_times": False, "decode_timedelta": False}
     with netcdf.opened(path) as file:
-        ds = xr.open_dataset(xr.backends.NetCDF4DataStore(file), **as_stored).load()
+        ds = xr.open_dataset(xr.backends.NetCDF4DataStore(file), decode_times=False, decode_timedelta=False).load()
     labels = {dim: dim.removesuffix("_index") for dim in map(str, ds.dims) if dim.endswith("_index")}
     return ds.drop_encoding().swap_dims(labels)

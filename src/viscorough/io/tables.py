@@ -6,7 +6,6 @@ parentheses, and a row for each level, in full precision. Where a value is missi
 """
 
 import csv
-import io
 import json
 
 import numpy as np
@@ -27,18 +26,12 @@ def write(content: Content, path: FilePath) -> None:
     if len(dimensions) != 1 or len(*dimensions) != 1:
         raise ValueError(f"{path}: what was computed is no table of one dimension; a NetCDF file (.nc) is needed")
     attributes = content.attributes | netcdf.global_attributes()
-    lines = [f"# {name}: {_as_text(value)}" for name, value in attributes.items()]
-    lines += [f"# column {name}: {_as_text(variable.attributes['long_name'])}" for name, variable in columns.items()]
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
+    attributes |= {f"column {name}": variable.attributes["long_name"] for name, variable in columns.items()}
     units = {name: variable.attributes.get("units", "1") for name, variable in columns.items()}
-    table.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in units.items())
     cells = [["" if value != value else repr(value) for value in v.values.tolist()] for v in columns.values()]
-    table.writerows(zip(*cells, strict=True))
-    with atomic_write(path) as temporary:
-        temporary.write_text("\n".join(lines) + "\n" + text.getvalue(), encoding="utf-8")
-
-
-def _as_text(value: object) -> str:
-    """A value of an attribute as JSON."""
-    return json.dumps(np.asarray(value).tolist(), ensure_ascii=False)
+    with atomic_write(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
+        for name, value in attributes.items():
+            file.write(f"# {name}: {json.dumps(np.asarray(value).tolist(), ensure_ascii=False)}\n")
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in units.items())
+        table.writerows(zip(*cells, strict=True))

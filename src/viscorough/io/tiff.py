@@ -1,10 +1,8 @@
 """Maps of heights in TIFF files: of one channel, with the spacing that GeoTIFF or ImageJ tags state."""
 
-from __future__ import annotations
-
 import logging
 import re
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +11,6 @@ from viscorough import units
 from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
 from viscorough.types import FilePath
-
-if TYPE_CHECKING:
-    import tifffile
 
 _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
 _LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "survey_foot", 9036: "km"}
@@ -53,9 +48,9 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
         return Scan(_without(page.asarray(), page.tags.get(_GDAL_NODATA)), unit, spacing, spacing_unit)
 
 
-def _page(file: tifffile.TiffFile, channel: str | None) -> Any:
-    """The page that holds the heights."""
-    pages: list[Any] = [page for page in cast(Any, file.pages) if page.imagewidth and not page.is_reduced]
+def _page(file: Any, channel: str | None) -> Any:
+    """The page of a tifffile.TiffFile that holds the heights."""
+    pages = [page for page in file.pages if page.imagewidth and not page.is_reduced]
     if not pages:
         raise ValueError("it has no picture")
     if _PARK_SYSTEMS in pages[0].tags or (channel is None and len(pages) == 1):
@@ -65,7 +60,7 @@ def _page(file: tifffile.TiffFile, channel: str | None) -> Any:
     return pages[int(channel)]
 
 
-def _stated(file: tifffile.TiffFile, page: Any, gdal_metadata: str) -> tuple[Any, ...]:
+def _stated(file: Any, page: Any, gdal_metadata: str) -> tuple[Any, ...]:
     """((dx, dy) or None, unit of the spacing, unit of the heights) that tags state."""
     if page.is_geotiff:
         keys = page.geotiff_tags

@@ -11,11 +11,11 @@ from viscorough.errors import ConvergenceError as ConvergenceError
 from viscorough.estimates import estimate as estimate
 from viscorough.indenter import Indenter as Indenter
 from viscorough.io.heights import read_heights as read_heights
+from viscorough.io.heights import read_line as read_line
 from viscorough.io.media import read_medium as read_medium
 from viscorough.io.motion import read_force_history as read_force_history
 from viscorough.io.saving import load_curve as load_curve
 from viscorough.io.saving import save as save
-from viscorough.io.surfaces import read_line as read_line
 from viscorough.loading_curve import LoadingCurve as LoadingCurve
 from viscorough.mdr import line_of_map as line_of_map
 from viscorough.mdr import line_of_surface as line_of_surface

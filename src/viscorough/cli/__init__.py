@@ -43,7 +43,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
     commands : the click.Group to run
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
-    command = "viscorough"
+    command = " ".join(["viscorough", *(name for name in arguments[:1] if name in commands.commands)])
     escape_unencodable_characters()
     try:
         with (
@@ -51,10 +51,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
             warnings.catch_warnings(record=True) as caught,
             commands.make_context("viscorough", arguments, obj=caught) as context,
         ):
-            try:
-                commands.invoke(context)
-            finally:
-                command = f"{command} {context.invoked_subcommand or ''}".rstrip()
+            commands.invoke(context)
         for text in warning_texts(caught):
             complain(command, f"warning: {text}")
     except click.exceptions.Exit as done:

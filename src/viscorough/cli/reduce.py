@@ -50,7 +50,7 @@ def reduce(
     """
     from viscorough import mdr
     from viscorough.io.curves import curve_to_content, stack_curves
-    from viscorough.io.surfaces import dimensions_of_heights, read_line
+    from viscorough.io.heights import dimensions_of_heights, read_line
 
     line_or_map = surface.path
     files.check_output(output, heights=line_or_map)

@@ -1,4 +1,4 @@
-"""Maps of heights read from files of many formats, prepared, and checked for what makes contact results wrong."""
+"""Maps and lines of heights read from files of many formats, and checked for what makes contact results wrong."""
 
 import warnings
 from pathlib import Path
@@ -79,6 +79,51 @@ def read_heights(
     for text in doubts(indenter):
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     return indenter
+
+
+def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str | None = None) -> Indenter:
+    """Read the heights of a line as an Indenter, for the method of dimensionality reduction (mdr.reduce).
+
+    Parameters
+    ----------
+    path : path
+        .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable.
+    spacing : number or text, optional
+        Distance between neighbouring points, in the unit of the heights, or a text as "0.2 um"; by default that of the
+        coordinate in a NetCDF file.
+    unit : str, optional
+        Unit of length of the heights, where the file states none, such as "um".
+
+    Raises
+    ------
+    ValueError
+        In one line, with the file and what is wrong.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import viscorough
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     np.save(f"{folder}/line.npy", np.random.default_rng(1).normal(size=64))
+    ...     line = viscorough.read_line(f"{folder}/line.npy", 0.5)
+    >>> line.heights.shape
+    (64,)
+    """
+    with path_named(path):
+        scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else netcdf_scan(path, None, dimensions=1)
+        return to_indenter(scan, None if spacing is None else (spacing, spacing), unit, dimensions=1)
+
+
+def dimensions_of_heights(path: FilePath) -> int:
+    """Number of dimensions of the heights in a .npy or NetCDF file: 1 for a line; 2 where there are no such heights."""
+    if Path(path).suffix == ".npy":
+        return npy_array(path).ndim
+    if Path(path).suffix != ".nc":
+        return 2
+    with netcdf.opened(path) as file:
+        maps = [name for name, each in file.variables.items() if each.ndim == 2]
+        return file["heights"].ndim if "heights" in file.variables else 2 if maps else 1
 
 
 def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:

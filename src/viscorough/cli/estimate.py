@@ -1,13 +1,11 @@
 """`viscorough estimate`: depth and velocity from the calibrated law alone."""
 
-import warnings
 from pathlib import Path
 
 import click
 
 from viscorough import units
 from viscorough.cli import files, messages, options
-from viscorough.errors import AccuracyWarning
 from viscorough.units import Quantity
 
 
@@ -69,7 +67,7 @@ def estimate(
     if outside:
         text = f"{outside} of {len(times)} times are outside the range of the law"
         text += f", X from {law.x_low:.3g} to {law.x_high:.3g}; elsewhere indent a surface made by viscorough generate"
-        warnings.warn(text, AccuracyWarning, stacklevel=2)
+        messages.warn(text)
     if not output:
         (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
         click.echo(

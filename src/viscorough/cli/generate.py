@@ -51,7 +51,7 @@ def generate(
     options.require(not plateau or roll_off is not None, "--plateau is for use with --roll-off")
 
     from viscorough import surfaces, units
-    from viscorough.io.surfaces import surface_to_content
+    from viscorough.io.heights import surface_to_content
 
     files.check_output(output)
     unit = unit if unit == units.UNKNOWN else units.length_unit(unit)

@@ -1,6 +1,5 @@
 """`viscorough indent`: a map of heights to a loading curve."""
 
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -9,7 +8,6 @@ import click
 
 import viscorough
 from viscorough.cli import files, messages, options, surface_options
-from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
 from viscorough.units import Quantity
 
@@ -96,7 +94,7 @@ def indent(
             result = viscorough.audit(indenter, **how)
             curve, lines, attributes["audit"] = result.curve, str(result).splitlines(), str(result)
             if not result.agrees:
-                warnings.warn(lines[0], AccuracyWarning, stacklevel=2)
+                messages.warn(lines[0])
         else:
             curve = viscorough.indent(indenter, **given, **how)
     content, depth = curve_to_content(curve), with_unit(curve.depth[-1], unit, 6)

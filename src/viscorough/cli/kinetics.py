@@ -1,12 +1,10 @@
 """`viscorough kinetics`: a loading curve to penetration over time."""
 
-import warnings
 from pathlib import Path
 
 import click
 
 from viscorough.cli import files, messages, options
-from viscorough.errors import AccuracyWarning
 from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
 
@@ -80,7 +78,7 @@ def kinetics(
         raise ValueError("times: all are before the curve's first level; later ones are needed, or an earlier level")
     if unknown:
         text = f"at {unknown} of {motion.time.size} times depth or velocity are missing: before the first level of the "
-        warnings.warn(f"{text}curve, or where a step moves a springpot without bound", AccuracyWarning, stacklevel=2)
+        messages.warn(f"{text}curve, or where a step moves a springpot without bound")
     content = kinetics_to_content(motion, over_time)
     files.write_output(content, output, **about, **of_load, correspondence=_CORRESPONDENCE)
     depth = with_unit(motion.depth[-1], loading.length_unit, 6)

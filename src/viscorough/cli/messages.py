@@ -4,10 +4,13 @@ import contextlib
 import io
 import os
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import click
+
+from viscorough.errors import AccuracyWarning
 
 _DELAY = 1.0  # seconds: what is done sooner shows no progress
 
@@ -16,6 +19,11 @@ def announce(output: Path, text: str) -> None:
     """Write the closing line of a command, which names its output file, to standard output, if it can be written."""
     with contextlib.suppress(OSError):  # the file is complete by then
         click.echo(f"{output}: {text}")
+
+
+def warn(text: str) -> None:
+    """Give an AccuracyWarning, which `main` writes after the closing line and the output file has as an attribute."""
+    warnings.warn(text, AccuracyWarning, stacklevel=3)
 
 
 def complain(command: str, text: str) -> None:

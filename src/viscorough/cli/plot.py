@@ -28,7 +28,7 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
     except ModuleNotFoundError as error:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
 
-    from viscorough.io.surfaces import surface_to_content
+    from viscorough.io.heights import surface_to_content
 
     file = surface.path
     files.check_output(output, results=file)

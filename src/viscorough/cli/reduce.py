@@ -1,12 +1,10 @@
 """`viscorough reduce`: the loading curve of a line of independent springs."""
 
-import warnings
 from pathlib import Path
 
 import click
 
 from viscorough.cli import files, messages, options, surface_options
-from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
 
 _OF_A_MAP = (
@@ -67,7 +65,7 @@ def reduce(
         indenter = surface_options.read_indenter(surface, output)
         about = surface.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
         lines = (mdr.line_of_map(indenter, [seed or 0, index]) for index in range(realizations or 1))
-        warnings.warn(_OF_A_MAP, AccuracyWarning, stacklevel=2)
+        messages.warn(_OF_A_MAP)
     curves = []
     with messages.progress_bar("viscorough reduce", progress) as report:
         for line in lines:

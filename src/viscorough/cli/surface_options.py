@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import re
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +14,8 @@ import click
 import viscorough
 from viscorough import units
 from viscorough.cli.files import check_opens, check_output, printable_name
+from viscorough.cli.messages import warn
 from viscorough.cli.options import FILE
-from viscorough.errors import AccuracyWarning
 from viscorough.units import Quantity
 
 _OF_READING = ("spacing", "unit", "channel")
@@ -125,5 +124,5 @@ def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> visc
     indenter = viscorough.read_heights(path, **values)
     if (slope := indenter.rms_slope) > _STEEP_SLOPE:
         text = f"{path}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"
-        warnings.warn(text, AccuracyWarning, stacklevel=2)
+        warn(text)
     return indenter

@@ -8,7 +8,7 @@ from numpy.typing import DTypeLike
 
 from viscorough.contact_maps import Contact
 from viscorough.io.curves import NORMAL_FORCE, OVER_LEVELS
-from viscorough.io.netcdf import Content, Quantities, Variable, centred_axes, described
+from viscorough.io.netcdf import Content, Quantities, Variable, centred_axes, described, padded
 from viscorough.summaries import si_unit
 from viscorough.types import Array
 
@@ -68,11 +68,8 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
             about = {"long_name": f"{text}normal pressure p", "units": si_unit("Pa", unit)}
             variables[f"{name}normal_pressure"] = Variable(dimensions, values * first.shear_modulus, about)
     areas = [contact.patches().areas for contact in contacts]
-    padded = np.full((len(areas), max(map(len, areas))), np.nan)
-    for row, of_contact in zip(padded, areas, strict=True):
-        row[: len(of_contact)] = of_contact
     add((), _PATCHES, patches=[len(of_contact) for of_contact in areas])
-    add(("patch",), _PATCHES, patch_area=list(padded))
+    add(("patch",), _PATCHES, patch_area=list(padded(areas)))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
 

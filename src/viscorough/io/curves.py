@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from viscorough import units
-from viscorough.io.netcdf import Content, Variable, described
+from viscorough.io.netcdf import Content, Variable, described, padded
 from viscorough.loading_curve import LoadingCurve
 from viscorough.summaries import unit_power
 
@@ -148,11 +148,8 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
     if others:
         raise ValueError(f"curves: lengths are in {length_unit} and {others[0]}; one unit is allowed")
     levels = np.array([curve.depth.size for curve in curves])
-    padded = {name: np.full((len(curves), levels.max()), np.nan) for name in OVER_LEVELS}
-    for name, rows in padded.items():
-        for row, curve in zip(rows, curves, strict=True):
-            row[: curve.depth.size] = getattr(curve, name)
-    variables = described(("realization", "level"), padded, OVER_LEVELS, length_unit)
+    over_levels = {name: padded([getattr(curve, name) for curve in curves]) for name in OVER_LEVELS}
+    variables = described(("realization", "level"), over_levels, OVER_LEVELS, length_unit)
     attributes = {"long_name": "number of levels of the curve", "units": "1"}
     variables["levels"] = Variable(("realization",), levels, attributes)
     for name, (kind, long_name) in PER_CURVE.items():
@@ -164,11 +161,11 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
 
 def unstack_curves(content: Content) -> list[LoadingCurve]:
     """The LoadingCurves in a Content made by stack_curves, in order. Raises ValueError as curve_from_content."""
-    padded = {n: v for n, v in content.variables.items() if v.dimensions == ("realization", "level")}
+    stacked = {n: v for n, v in content.variables.items() if v.dimensions == ("realization", "level")}
     per_curve = {name: content.variables[name].values for name in PER_CURVE if name in content.variables}
     curves = []
     for i, levels in enumerate(content.variables["levels"].values.tolist()):
-        variables = {name: Variable(("level",), v.values[i, :levels], v.attributes) for name, v in padded.items()}
+        variables = {name: Variable(("level",), v.values[i, :levels], v.attributes) for name, v in stacked.items()}
         attributes = content.attributes | {name: values[i] for name, values in per_curve.items()}
         curve = curve_from_content(Content(variables, attributes))
         # Counts are stored as floats because of nan.

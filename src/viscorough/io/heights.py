@@ -1,4 +1,4 @@
-"""Maps and lines of heights read from files of many formats, and checked for what makes contact results wrong."""
+"""Maps and lines of heights read from files of many formats, checked for what makes results wrong, and written."""
 
 import warnings
 from pathlib import Path
@@ -113,6 +113,18 @@ def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str |
     with path_named(path):
         scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else netcdf_scan(path, None, dimensions=1)
         return to_indenter(scan, None if spacing is None else (spacing, spacing), unit, dimensions=1)
+
+
+def surface_to_content(indenter: Indenter) -> netcdf.Content:
+    """An Indenter as the Content of a file: `heights` over (y, x), or over x for a line, and these coordinates.
+
+    Coordinates count from the centre of the map, or of the line.
+    """
+    axes = {"x": indenter.spacing} if indenter.heights.ndim == 1 else {"y": indenter.row_spacing, "x": indenter.spacing}
+    unit = indenter.length_unit
+    variables = {"heights": netcdf.Variable(tuple(axes), indenter.heights, {"long_name": "height", "units": unit})}
+    variables |= netcdf.centred_axes(indenter.heights.shape, axes, unit)
+    return netcdf.Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
 
 
 def dimensions_of_heights(path: FilePath) -> int:

@@ -1,6 +1,6 @@
 """CF NetCDF files read and written with netCDF4 alone, since xarray (`io.datasets`) takes long to import."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ from viscorough.arrays import read_only
 from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.unpacking import STORAGE, unpacked
 from viscorough.summaries import si_unit, unit_power, velocity_unit
-from viscorough.types import FilePath
+from viscorough.types import Array, FilePath
 
 # {name of a variable: (long_name, unit)}, the unit being a power of that of length, "time", which is in s in any case,
 # "velocity", or an SI unit, such as "N", which is "1" where the unit of length is not known.
@@ -60,6 +60,14 @@ def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: st
         positions = spacing * (np.arange(points) - (points - 1) / 2)
         axes[name] = Variable((name,), positions, {"long_name": f"position along {name}", "units": unit})
     return axes
+
+
+def padded(rows: Sequence[Array]) -> Array:
+    """Rows of numbers as one array, nan beyond the end of those that are shorter than the longest."""
+    table = np.full((len(rows), max(map(len, rows))), np.nan)
+    for whole, row in zip(table, rows, strict=True):
+        whole[: len(row)] = row
+    return table
 
 
 def global_attributes() -> dict[str, str]:

@@ -8,10 +8,10 @@ from viscorough.io import netcdf, tables
 from viscorough.io.atomic import path_named
 from viscorough.io.contacts import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
+from viscorough.io.heights import surface_to_content
 from viscorough.io.media import save_identified
 from viscorough.io.motion import kinetics_to_content
 from viscorough.io.netcdf import Content
-from viscorough.io.surfaces import surface_to_content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import FilePath
 from viscorough.viscous.correspondence import Kinetics

@@ -14,8 +14,7 @@ from signal import SIG_DFL
 
 import click
 
-from viscorough.cli.files import warning_texts
-from viscorough.cli.messages import complain, discard_what_cannot_be_written, escape_unencodable_characters, report
+from viscorough.cli import files, messages
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
 
@@ -44,7 +43,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     command = " ".join(["viscorough", *(name for name in arguments[:1] if name in commands.commands)])
-    escape_unencodable_characters()
+    messages.escape_unencodable_characters()
     try:
         with (
             on_interrupt(SIG_DFL),  # ends the process at once, also where libraries do not return to Python
@@ -52,8 +51,8 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
             commands.make_context("viscorough", arguments, obj=caught) as context,
         ):
             commands.invoke(context)
-        for text in warning_texts(caught):
-            complain(command, f"warning: {text}")
+        for text in files.warning_texts(caught):
+            messages.complain(command, f"warning: {text}")
     except click.exceptions.Exit as done:
         return done.exit_code
     except BrokenPipeError:  # what reads standard output has read enough, as in viscorough --help | head
@@ -61,11 +60,11 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
     except KeyboardInterrupt:
         return 130
     except ConvergenceError as error:
-        report(command, error)
+        messages.report(command, error)
         return 1
     except (click.ClickException, ValueError, OSError, MemoryError, Warning) as error:
-        report(command, error)
+        messages.report(command, error)
         return 2
     finally:
-        discard_what_cannot_be_written()
+        messages.discard_what_cannot_be_written()
     return 0

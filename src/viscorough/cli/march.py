@@ -99,8 +99,8 @@ def march(
             if method == "events":
                 integrated: Any = viscorough.march_events(indenter, **how)
             else:
-                reached = np.unique(load.impulse[load.impulse > 0]) / per_area if force_history else None
-                ends = load / per_area * np.array(times) if reached is None else reached
+                # The impulse of a history rises from 0.
+                ends = np.unique(load.impulse)[1:] / per_area if force_history else load / per_area * np.array(times)
                 integrated = viscorough.march_steps(indenter, ends, scheme=method, **how)
             if force_history:
                 motion = under_force_history(integrated, load, per_area)

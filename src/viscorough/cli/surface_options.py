@@ -13,9 +13,7 @@ import click
 
 import viscorough
 from viscorough import units
-from viscorough.cli.files import check_opens, check_output, printable_name
-from viscorough.cli.messages import warn
-from viscorough.cli.options import FILE
+from viscorough.cli import files, messages, options
 from viscorough.units import Quantity
 
 _OF_READING = ("spacing", "unit", "channel")
@@ -32,7 +30,7 @@ class Surface:
 
     def attributes(self, indenter: viscorough.Indenter) -> dict[str, object]:
         """What an output file says about the surface and how it was read and prepared."""
-        attributes = {"heights": printable_name(self.path), "spacing": indenter.spacing}
+        attributes = {"heights": files.printable_name(self.path), "spacing": indenter.spacing}
         attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
         if "channel" in self.options:
             attributes["channel"] = self.options["channel"]
@@ -70,7 +68,7 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
     """Decorator that adds the argument HEIGHTS and the options to read it, which reach the command as `surface`."""
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
-        @click.argument(argument, type=FILE)
+        @click.argument(argument, type=options.FILE)
         @click.option(
             "--spacing",
             metavar="DX[,DY]",
@@ -115,14 +113,14 @@ def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> visc
     from viscorough.io.atomic import path_named
 
     path, values = surface.path, dict(surface.options)
-    check_output(output, heights=path, **inputs)
+    files.check_output(output, heights=path, **inputs)
     if path.suffix == ".nc":
-        check_opens(path)
+        files.check_opens(path)
     for name in values.keys() & _VALUES.keys():
         with path_named(f"--{name} {values[name]}"):
             values[name] = _VALUES[name](values[name])
     indenter = viscorough.read_heights(path, **values)
     if (slope := indenter.rms_slope) > _STEEP_SLOPE:
         text = f"{path}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"
-        warn(text)
+        messages.warn(text)
     return indenter

@@ -74,6 +74,5 @@ def _choose(file: Any, wanted: str | None) -> Any:
 
 def _holds_heights(channel: Any) -> bool:
     """Whether a channel holds heights, in a unit of length or in none."""
-    if not channel.is_height_channel or not isinstance(channel.unit, str | None):
-        return False
-    return channel.unit is None or units.is_length(channel.unit)
+    unit = channel.unit
+    return channel.is_height_channel and (unit is None or (isinstance(unit, str) and units.is_length(unit)))

@@ -11,7 +11,6 @@ from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
 from viscorough.io.media import save_identified
 from viscorough.io.motion import kinetics_to_content
-from viscorough.io.netcdf import Content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import FilePath
 from viscorough.viscous.correspondence import Kinetics
@@ -86,7 +85,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
         return curve_from_content(netcdf.read(path))
 
 
-def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> Content:
+def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> netcdf.Content:
     """A result as the Content of its file."""
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
@@ -99,6 +98,6 @@ def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> Content:
     raise TypeError(f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact or Kinetics is needed")
 
 
-def write_content(content: Content, path: FilePath) -> None:
+def write_content(content: netcdf.Content, path: FilePath) -> None:
     """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as of `save`."""
     (tables if Path(path).suffix.lower() == ".csv" else netcdf).write(content, path)

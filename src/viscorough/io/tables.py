@@ -10,9 +10,8 @@ import json
 
 import numpy as np
 
-from viscorough.io import netcdf
 from viscorough.io.atomic import atomic_write
-from viscorough.io.netcdf import Content
+from viscorough.io.netcdf import Content, global_attributes
 from viscorough.types import FilePath
 
 
@@ -25,7 +24,7 @@ def write(content: Content, path: FilePath) -> None:
     dimensions = {variable.dimensions for variable in columns.values()}
     if len(dimensions) != 1 or len(*dimensions) != 1:
         raise ValueError(f"{path}: what was computed is no table of one dimension; a NetCDF file (.nc) is needed")
-    attributes = content.attributes | netcdf.global_attributes()
+    attributes = content.attributes | global_attributes()
     attributes |= {f"column {name}": variable.attributes["long_name"] for name, variable in columns.items()}
     units = {name: variable.attributes.get("units", "1") for name, variable in columns.items()}
     cells = [["" if value != value else repr(value) for value in v.values.tolist()] for v in columns.values()]

@@ -267,7 +267,7 @@ def _grid(table: Array, stated: Spacing | None, required: bool) -> tuple[Array, 
 
     Raises ValueError for points that form no grid or one of another spacing, and for a table that may be either.
     """
-    grid = gridded(table, required=required) if required or table.shape[1] == 3 else None
+    grid = gridded(table, required=required)
     if grid is None and 3 < table.shape[1] <= 6 and gridded(table[:, :3], required=False) is not None:
         raise ValueError(f"{table.shape[1]} columns, of which two are positions; three, x, y and z, are needed")
     if grid is not None and stated is not None:

@@ -40,8 +40,7 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
             text = "in which low numbers are white" if page.photometric == 0 else "in false colours"
             raise ValueError(f"a picture {text}; a map of heights is needed")
         gdal_metadata = str(page.tags[_GDAL_METADATA].value) if _GDAL_METADATA in page.tags else ""
-        is_calibrated = file.is_imagej and "cf" in (file.imagej_metadata or {})
-        if is_calibrated or re.search('role="(scale|offset)"', gdal_metadata):
+        if "cf" in (file.imagej_metadata or {}) or re.search('role="(scale|offset)"', gdal_metadata):
             text = "its numbers are heights only after a scale and an offset are applied"
             raise ValueError(f"{text}; heights are needed")
         spacing, spacing_unit, unit = _stated(file, page, gdal_metadata)
@@ -77,7 +76,7 @@ def _stated(file: Any, page: Any, gdal_metadata: str) -> tuple[Any, ...]:
             return None, units.UNKNOWN, height_unit
         dx, dy = map(float, keys["ModelPixelScale"][:2])
         return (dx, dy), _unit_of_key(keys.get("ProjLinearUnitsGeoKey")), height_unit
-    stated = (file.imagej_metadata or {}) if file.is_imagej else {}
+    stated = file.imagej_metadata or {}
     unit = str(stated.get("unit") or units.UNKNOWN).replace("\\u00B5", "µ")
     if unit == units.UNKNOWN or units.counts_points(unit) or "yunit" in stated:
         return None, units.UNKNOWN, units.UNKNOWN

@@ -14,7 +14,7 @@ from signal import SIG_DFL
 
 import click
 
-from viscorough.cli import files, messages
+from viscorough.cli import messages
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
 
@@ -51,7 +51,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
             commands.make_context("viscorough", arguments, obj=caught) as context,
         ):
             commands.invoke(context)
-        for text in files.warning_texts(caught):
+        for text in messages.warning_texts(caught):
             messages.complain(command, f"warning: {text}")
     except click.exceptions.Exit as done:
         return done.exit_code

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import threading
-import warnings
-from collections.abc import Sequence
 from pathlib import Path
 from signal import default_int_handler
 from typing import TYPE_CHECKING, Any
@@ -14,7 +12,7 @@ import click
 
 import viscorough
 from viscorough import units
-from viscorough.cli.messages import complain
+from viscorough.cli import messages
 from viscorough.interrupts import on_interrupt
 from viscorough.units import Quantity
 
@@ -57,7 +55,7 @@ def check_opens(path: Path) -> None:
 
     def end() -> None:
         text = f"{path}: not opened within {LONGEST:g} s, as can happen if it is damaged; a whole NetCDF file is needed"
-        complain(command, text)
+        messages.complain(command, text)
         os._exit(2)
 
     command = click.get_current_context().command_path
@@ -118,12 +116,7 @@ def write_output(content: Content, output: Path, **attributes: Any) -> None:
     """
     from viscorough.io.saving import write_content
 
-    if texts := warning_texts(click.get_current_context().obj):
+    if texts := messages.warning_texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
     with on_interrupt(default_int_handler):  # raises KeyboardInterrupt, so that no temporary file is left
         write_content(content.with_attributes(**attributes), output)
-
-
-def warning_texts(caught: Sequence[warnings.WarningMessage]) -> list[str]:
-    """The texts of the different warnings, each on one line."""
-    return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))

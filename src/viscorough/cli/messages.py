@@ -5,7 +5,7 @@ import io
 import os
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import click
@@ -24,6 +24,11 @@ def announce(output: Path, text: str) -> None:
 def warn(text: str) -> None:
     """Give an AccuracyWarning, which `main` writes after the closing line and the output file has as an attribute."""
     warnings.warn(text, AccuracyWarning, stacklevel=3)
+
+
+def warning_texts(caught: Sequence[warnings.WarningMessage]) -> list[str]:
+    """The texts of the different warnings, each on one line."""
+    return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))
 
 
 def complain(command: str, text: str) -> None:

@@ -62,10 +62,8 @@ def curve_from_content(content: Content) -> LoadingCurve:
     curve can have, within its tolerance.
     """
     fields: dict[str, Any] = {}
-    for name in OVER_LEVELS:
+    for name in (name for name in OVER_LEVELS if name in STORED or name in content.variables):
         variable = content.variables.get(name)
-        if variable is None and name not in STORED:
-            continue
         if variable is None or variable.dimensions != ("level",) or variable.values.dtype.kind not in "iuf":
             raise ValueError(f"no numbers {name}(level); {_NEEDED}")
         fields[name] = variable.values

@@ -189,9 +189,7 @@ def _table(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
 
 def _fill_empty_cells(text: str, delimiter: str) -> str:
     """A text with nan in empty cells; a delimiter that ends, or starts, every line is left out."""
-    if f"{delimiter} " in text:
-        text = re.sub(rf"{delimiter} +", delimiter, text)
-    lines = text.split("\n")
+    lines = re.sub(rf"{delimiter} +", delimiter, text).split("\n")
     if all(line.endswith(delimiter) for line in lines):
         lines = [line[:-1] for line in lines]
     if all(line.startswith(delimiter) for line in lines):

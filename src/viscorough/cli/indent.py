@@ -85,7 +85,7 @@ def indent(
     if until_fraction is not None:
         given["until_fraction"] = until_fraction
 
-    from viscorough.io.curves import curve_to_content, with_normal_force
+    from viscorough.io.curves import curve_to_content
 
     attributes, lines = surface.attributes(indenter) | elastic_constants, []
     with messages.progress_bar("viscorough indent", progress) as report:
@@ -97,9 +97,8 @@ def indent(
                 messages.warn(lines[0])
         else:
             curve = viscorough.indent(indenter, **given, **how)
-    content, depth = curve_to_content(curve), with_unit(curve.depth[-1], unit, 6)
+    content, depth = curve_to_content(curve, modulus), with_unit(curve.depth[-1], unit, 6)
     if modulus is not None:
-        content = with_normal_force(content, modulus, unit)
         force = content.variables["normal_force"]
         depth += f", F {with_unit(force.values[-1], force.attributes['units'], 6)},"
     files.write_output(content, output, **attributes)

@@ -40,19 +40,17 @@ PER_CURVE = {
 }
 
 
-def curve_to_content(curve: LoadingCurve) -> Content:
-    """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE."""
-    values = {name: getattr(curve, name) for name in OVER_LEVELS}
+def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) -> Content:
+    """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE.
+
+    shear_modulus : G [Pa], for the force F [N] as well, or both in consistent units if that of length is not known
+    """
+    values, unit = {name: getattr(curve, name) for name in OVER_LEVELS}, curve.length_unit
+    if shear_modulus is not None:
+        values["normal_force"] = curve.force * (shear_modulus * units.square_metres(unit))
     attributes = {"title": "Loading curve of a rigid indenter", "comment": COMMENT}
     attributes |= {name: getattr(curve, name) for name in PER_CURVE}
-    return Content(described(("level",), values, OVER_LEVELS, curve.length_unit), attributes)
-
-
-def with_normal_force(content: Content, shear_modulus: float, length_unit: str) -> Content:
-    """The Content of a curve with the force F [N] over its levels, or in consistent units if the unit is not known."""
-    newtons = content.variables["force"].values * (shear_modulus * units.square_metres(length_unit))
-    force = described(("level",), {"normal_force": newtons}, NORMAL_FORCE, length_unit)
-    return Content(content.variables | force, content.attributes)
+    return Content(described(("level",), values, {**OVER_LEVELS, **NORMAL_FORCE}, unit), attributes)
 
 
 def curve_from_content(content: Content) -> LoadingCurve:

@@ -26,8 +26,3 @@ def unit_power(unit: str, exponent: int) -> str:
 def si_unit(unit: str, length_unit: str) -> str:
     """An SI unit such as "s" or "Pa"; "1" where the unit of length is "1", so that all units are those of the user."""
     return "1" if length_unit == "1" else unit
-
-
-def velocity_unit(unit: str) -> str:
-    """The unit of a velocity with times in s: "um s-1"; "s-1" for "1", a unit of length that is not known."""
-    return "s-1" if unit == "1" else f"{unit} s-1"

@@ -11,7 +11,7 @@ from viscorough import __version__
 from viscorough.arrays import read_only
 from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.unpacking import STORAGE, unpacked
-from viscorough.summaries import si_unit, unit_power, velocity_unit
+from viscorough.summaries import si_unit, unit_power
 from viscorough.types import Array, FilePath
 
 # {name of a variable: (long_name, unit)}, the unit being a power of that of length, "time", which is in s in any case,
@@ -44,7 +44,7 @@ def described(
 ) -> dict[str, Variable]:
     """Variables over the same dimensions, each with the long_name and the unit of the quantity of its name."""
     spelled: dict[int | str, str] = {power: unit_power(length_unit, power) for power in (0, 1, 2)}
-    spelled |= {"time": "s", "velocity": velocity_unit(length_unit)}
+    spelled |= {"time": "s", "velocity": "s-1" if length_unit == "1" else f"{length_unit} s-1"}
     variables = {}
     for name, array in values.items():
         long_name, unit = quantities[name]

@@ -29,7 +29,7 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
-from viscorough.summaries import si_unit, span, velocity_unit
+from viscorough.summaries import si_unit, span
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import medium_of
@@ -69,7 +69,7 @@ class Kinetics(ReadOnlyArrays, Saved):
             f"Penetration at {self.time.size} times\n"
             f"time t {span(self.time, si_unit('s', unit))}\n"
             f"depth u {span(self.depth, unit)}\n"
-            f"velocity v {span(self.velocity, si_unit(velocity_unit(unit), unit))}"
+            f"velocity v {span(self.velocity, si_unit(f'{unit} s-1', unit))}"
         )
 
     __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays

@@ -42,16 +42,15 @@ class QuantityOption(click.ParamType):
         self.unit = unit
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Quantity:
-        number, reason = 0.0, ""
+        reason = ""
         try:
             stated = units.quantity(value)
-            number = stated.to(self.unit)
+            if 0 < stated.to(self.unit) < math.inf:
+                return stated
         except ValueError as error:
             reason = f" ({error})" if str(error).startswith("unit ") else ""
-        if not 0 < number < float("inf"):
-            text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
-            self.fail(f"{text}{reason}", param, ctx)
-        return stated
+        text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
+        raise click.BadParameter(f"{text}{reason}", ctx, param)
 
 
 class Increasing(click.ParamType):

@@ -2,7 +2,7 @@
 
 import contextlib
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -44,9 +44,8 @@ def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit
     if Path(path).suffix not in (".npy", ".csv"):
         raise ValueError(f"{path}: unknown kind of file; {what} is read from .csv and .npy")
     names = " and ".join(columns)
-    factors: Sequence[float] = (1.0, 1.0)
     if Path(path).suffix == ".npy":
-        table = npy_array(path)
+        table, factors = npy_array(path), [1.0, 1.0]
     else:
         with reading(path, f"two columns, {names}, are needed"):
             table, factors = _rows_and_factors(path, columns.values(), length_unit)
@@ -55,7 +54,7 @@ def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit
     return table[:, 0].astype(float) * factors[0], table[:, 1].astype(float) * factors[1]
 
 
-def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -> tuple[Array, Sequence[float]]:
+def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -> tuple[Array, list[float]]:
     """The numbers in a .csv file, and the factors that convert its columns to the units wanted."""
     lines = [line.strip() for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
     if missing := next(filter(_MISSING.match, lines), None):
@@ -74,7 +73,7 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
         stated = None if comment is heading else _unit_in(comment.strip("# "))
         if stated is not None and any(_is_another(stated, unit) for unit in wanted):
             raise ValueError(f"the comment {comment[:40]!r} states a unit; a heading of both columns is needed for it")
-    return table, _factors(heading, wanted, length_unit) if heading else (1.0, 1.0)
+    return table, _factors(heading, wanted, length_unit) if heading else [1.0, 1.0]
 
 
 def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[float]:

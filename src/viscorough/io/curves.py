@@ -87,8 +87,7 @@ def _length_unit(content: Content) -> str:
         needed = unit_power(length, power)
         if stated.get(name, needed) != needed:
             raise ValueError(f"{name} is in {stated[name]!r} and depth in {length!r}; {needed!r} is needed for {name}")
-    attribute = content.attributes.get("length_unit", length)
-    if attribute != length:
+    if (attribute := content.attributes.get("length_unit", length)) != length:
         raise ValueError(f"depth is in {length!r} and the attribute length_unit is {attribute!r}; one unit is needed")
     return str(length)
 

@@ -115,13 +115,9 @@ def read(path: FilePath) -> Content:
     Raises a one-line ValueError if the file is missing or damaged.
     """
     with opened(path) as file:
-        variables = {
-            name: Variable(variable.dimensions, read_only(unpacked(variable)), attributes_of(variable))
-            for name, variable in file.variables.items()
-        }
+        variables = {}
+        for name, variable in file.variables.items():
+            # Not those of its storage, which reading undoes.
+            attributes = {key: variable.getncattr(key) for key in variable.ncattrs() if key not in STORAGE}
+            variables[name] = Variable(variable.dimensions, read_only(unpacked(variable)), attributes)
         return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()})
-
-
-def attributes_of(variable: netCDF4.Variable) -> dict[str, Any]:
-    """The attributes of a netCDF4.Variable, without those of its storage, which reading undoes."""
-    return {name: variable.getncattr(name) for name in variable.ncattrs() if name not in STORAGE}

@@ -52,12 +52,12 @@ def reduce(
 
     line_or_map = surface.path
     files.check_output(output, heights=line_or_map)
-    about = {"heights": files.printable_name(line_or_map)}
     if dimensions_of_heights(line_or_map) == 1:
         of_maps = "--realizations and --seed are for maps, of which lines are made; this is a line"
         options.require(not realizations and seed is None, of_maps)
         of_scans = "--channel and preparation are for maps; this is a line"
         options.require(surface.options.keys() <= {"spacing", "unit"}, of_scans)
+        about = {"heights": files.printable_name(line_or_map)}
         lines = [read_line(line_or_map, **surface.options)]
     else:
         no_table = "--realizations: several curves are no table; a NetCDF file (.nc) is needed"

@@ -68,9 +68,7 @@ def _given_spacing(scan: Scan, length_unit: str, spacing: Any) -> tuple[float, .
     if not have_units and scan.spacing is None and scan.spacing_unit not in (units.UNKNOWN, scan.unit):
         text = f"heights are in {scan.unit}, x and y in {scan.spacing_unit}; a spacing with a unit is needed"
         raise ValueError(f"--spacing in plain numbers: {text}")
-    return tuple(
-        positive("spacing", units.number(distance, length_unit, length_unit, "--spacing")) for distance in pair
-    )
+    return tuple(positive("spacing", number) for number in units.numbers(pair, length_unit, length_unit, "--spacing"))
 
 
 def _length_unit(scan: Scan, given: str | None) -> str:

@@ -26,12 +26,17 @@ def read_only(values: Any) -> NDArray[Any]:
 
 
 class ReadOnlyArrays:
-    """Base of frozen dataclasses: fields declared as arrays become read-only ones, and are compared as a whole."""
+    """Base of frozen dataclasses: fields declared as arrays become read-only ones, and are compared as a whole.
+
+    A text of their own (`__str__`) also stands for them in notebooks, not that of a dataclass, with all numbers.
+    """
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         # Else dataclasses compare tuples, of which arrays cannot be parts.
         cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # a dataclass makes one of its own
+        if "__str__" in vars(cls):
+            cls.__repr__ = cls.__str__  # type: ignore[method-assign]  # likewise
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -54,10 +59,8 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
     if values.dtype.kind in "iuf" and values.ndim == 1 and values.size and np.isfinite(values).all():
         values = values.astype(float)
         rises = np.diff(values)
-        is_increasing = (rises > 0).all() or (
-            steps is not None and (rises >= 0).all() and (rises[1:] + rises[:-1] > 0).all()
-        )
-        if is_increasing and (values[0] > 0 or not above_zero):
+        apart = rises if steps is None else rises[1:] + rises[:-1]  # from the one before, or the one before that
+        if (rises >= 0).all() and (apart > 0).all() and (values[0] > 0 or not above_zero):
             return values
     allowed = f"one row of finite numbers{' above 0' if above_zero else ''}, each larger than the one before"
     raise ValueError(f"{name}: allowed is {allowed}{f', or given twice where {steps} steps' if steps else ''}")

@@ -103,8 +103,6 @@ class Contact(ReadOnlyArrays, Saved):
             text += f"\nforce F {force}, mean p {mean}, largest p {largest}"
         return text
 
-    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
-
     @property
     def normal_force(self) -> float | None:
         """Force F [N], or in consistent units if the unit of length is not known; None without a shear modulus."""

@@ -59,8 +59,6 @@ class Estimate(ReadOnlyArrays):
         ]
         return "\n".join([head, *rows])
 
-    __repr__ = __str__
-
 
 def estimate(
     hurst: float, rms: float, diameter: float, force: float, medium: Medium | float, times: ArrayLike

@@ -98,8 +98,6 @@ class Indenter(ReadOnlyArrays, Saved):
             text += f"row spacing {with_unit(self.row_spacing, unit)}\n"
         return f"{text}highest over lowest point {with_unit(difference, unit)}"
 
-    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
-
     def to(self, unit: str) -> "Indenter":
         """The same indenter with lengths in another unit, such as "m". Raises ValueError if its own is not known."""
         if self.length_unit == units.UNKNOWN:

@@ -93,8 +93,6 @@ class LoadingCurve(ReadOnlyArrays, Saved):
             f"contact fraction {span(self.contact_fraction)}"
         )
 
-    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
-
     @property
     def contact_fraction(self) -> Array:
         """Share of the indenter's elements that are in contact, shape (levels,)."""

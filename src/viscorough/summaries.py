@@ -5,8 +5,8 @@ from typing import Any
 
 def span(values: Any, unit: str = "1") -> str:
     """First and last of an array of values, with their unit: "1e-09 to 2e-07 m"."""
-    first, last = (f"{float(values[i]):.4g}" for i in (0, -1))
-    return f"{first} to {last}{'' if unit == '1' else f' {unit}'}" if len(values) > 1 else with_unit(values[0], unit)
+    first, last = with_unit(values[0]), with_unit(values[-1], unit)
+    return f"{first} to {last}" if len(values) > 1 else last
 
 
 def with_unit(value: float, unit: str = "1", digits: int = 4) -> str:

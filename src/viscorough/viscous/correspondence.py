@@ -72,8 +72,6 @@ class Kinetics(ReadOnlyArrays, Saved):
             f"velocity v {span(self.velocity, si_unit(f'{unit} s-1', unit))}"
         )
 
-    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
-
 
 class ForceHistory(NamedTuple):
     """A force over time, linear between samples, and its integral; read-only arrays of shape (samples,).

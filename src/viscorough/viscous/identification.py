@@ -88,8 +88,6 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
             f"scatter of depth {with_unit(self.scatter, self.length_unit, 3)}"
         )
 
-    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
-
 
 def identify_medium(
     curve: LoadingCurve, force: ArrayLike | ForceHistory, times: ArrayLike, depth: ArrayLike, *, kind: str = "table"

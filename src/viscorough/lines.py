@@ -16,7 +16,7 @@ from numpy.typing import DTypeLike
 
 from viscorough import line_waves, memory, spectrum
 from viscorough.indenter import positive
-from viscorough.types import Array, Complex, Seed
+from viscorough.types import Array, Integers, Seed
 
 _ROOM = 1000  # between the rms height and the limits of the floating-point type
 _BLOCK = 16384  # waves computed at a time in double precision
@@ -69,32 +69,29 @@ class SelfAffineLines:
 
     def heights(self, seed: Seed) -> Array:
         """Heights of the realization of this seed, in order; shape (points,), read-only."""
-        if not self._in_pairs:
-            return self._by_real_transform(seed)
-        ordered = self._by_four_steps(seed).T.copy()
-        ordered.flags.writeable = False  # so that an indenter need not copy them
-        return ordered.reshape(-1).view(np.float32)
+        heights = self.heights_in_any_order(seed)
+        if self._in_pairs:  # y_2j + i y_2j+1 at [j₁, j₂]
+            ordered = heights.view(np.complex64).reshape(self._packed.shape).T.copy()
+            ordered.flags.writeable = False  # so that an indenter need not copy them
+            heights = ordered.reshape(-1).view(np.float32)
+        return heights
 
     def heights_in_any_order(self, seed: Seed) -> Array:
         """The same heights, read-only, in unspecified order; valid until the next call of a method."""
+        key = line_waves.key_of(spectrum.seed_sequence(seed))
         if not self._in_pairs:
-            return self._by_real_transform(seed)
-        heights = self._by_four_steps(seed).reshape(-1).view(np.float32)
+            return self._by_real_transform(key)
+        packed = self._packed
+        mean_square = line_waves.fill_packed_spectrum(packed.reshape(-1), key, self._amplitude, fixed=self._fixed)
+        fft.c2c(packed, axes=[0], forward=False, out=packed)
+        line_waves.twiddle(packed.view(np.float32), np.float32(spectrum.scale_factor(self._rms, mean_square)))
+        fft.c2c(packed, axes=[1], forward=False, out=packed)
+        heights = packed.reshape(-1).view(np.float32)
         heights.flags.writeable = False
         return heights
 
-    def _by_four_steps(self, seed: Seed) -> Complex:
-        """Pairs of heights, y_2j + i y_2j+1 at [j₁, j₂]; overwritten by the next call."""
-        packed = self._packed
-        mean_square = line_waves.fill_packed_spectrum(
-            packed.reshape(-1), line_waves.key_of(spectrum.seed_sequence(seed)), self._amplitude, fixed=self._fixed
-        )
-        fft.c2c(packed, axes=[0], forward=False, out=packed)
-        line_waves.twiddle(packed.view(np.float32), np.float32(spectrum.scale_factor(self._rms, mean_square)))
-        return fft.c2c(packed, axes=[1], forward=False, out=packed)
-
-    def _by_real_transform(self, seed: Seed) -> Array:
-        points, key = self._points, line_waves.key_of(spectrum.seed_sequence(seed))
+    def _by_real_transform(self, key: Integers) -> Array:
+        points = self._points
         memory_ = np.empty(2 * (points // 2 + 1), self._dtype)
         coefficients = memory_.view(np.result_type(self._dtype, np.complex64))  # of the waves k = 0, 1, ...
         mean_square = 0.0

@@ -1,6 +1,7 @@
 """The public names and their modules, for tools that read types and for `__init__.py`, which imports on first use."""
 
 from viscorough import reference as reference
+from viscorough.arrays import ForceHistory as ForceHistory
 from viscorough.calibrated_law import penetration_law as penetration_law
 from viscorough.contact.loading_path import indent as indent
 from viscorough.contact.one_contact import contact_at as contact_at
@@ -27,7 +28,6 @@ from viscorough.sum_rules import complete_contact as complete_contact
 from viscorough.surfaces import cut_disc as cut_disc
 from viscorough.surfaces import self_affine_disc as self_affine_disc
 from viscorough.surfaces import self_affine_line as self_affine_line
-from viscorough.viscous.correspondence import ForceHistory as ForceHistory
 from viscorough.viscous.correspondence import impulses as impulses
 from viscorough.viscous.correspondence import kinetics as kinetics
 from viscorough.viscous.identification import IdentifiedMedium as IdentifiedMedium

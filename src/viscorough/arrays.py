@@ -1,7 +1,7 @@
 """Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; samples over time."""
 
 import dataclasses
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -48,6 +48,31 @@ class ReadOnlyArrays:
         for field in dataclasses.fields(cast(Any, self)):
             if field.type is np.ndarray:
                 object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
+
+
+class ForceHistory(NamedTuple):
+    """A force over time, linear between samples, and its integral; read-only arrays of shape (samples,).
+
+    Attributes
+    ----------
+    times : array
+        t, increasing, or the same in two samples: a step from one force to the other.
+    force : array
+        F(t) ≥ 0.
+    impulse : array
+        ∫F dt up to t.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> history = viscorough.impulses([0.0, 1.0], [0.0, 2.0])  # a ramp
+    >>> history.impulse.tolist()
+    [0.0, 1.0]
+    """
+
+    times: np.ndarray
+    force: np.ndarray
+    impulse: np.ndarray
 
 
 def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:

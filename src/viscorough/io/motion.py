@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscorough.arrays import ForceHistory
 from viscorough.io.atomic import path_named
 from viscorough.io.columns import read_columns
 from viscorough.io.curves import OVER_LEVELS
 from viscorough.io.netcdf import Content, Quantities, described
 from viscorough.types import Array, FilePath
-from viscorough.viscous.correspondence import ForceHistory, Kinetics, impulses
+from viscorough.viscous.correspondence import Kinetics, impulses
 
 if TYPE_CHECKING:
     from viscorough.estimates import Estimate

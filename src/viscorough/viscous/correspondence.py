@@ -20,13 +20,13 @@ the sphere). Where Φ decreases the contact recedes, and the correspondence ends
 """
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, samples
+from viscorough.arrays import ForceHistory, ReadOnlyArrays, increasing, integral, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span
@@ -71,31 +71,6 @@ class Kinetics(ReadOnlyArrays, Saved):
             f"depth u {span(self.depth, unit)}\n"
             f"velocity v {span(self.velocity, si_unit(f'{unit} s-1', unit))}"
         )
-
-
-class ForceHistory(NamedTuple):
-    """A force over time, linear between samples, and its integral; read-only arrays of shape (samples,).
-
-    Attributes
-    ----------
-    times : array
-        t, increasing, or the same in two samples: a step from one force to the other.
-    force : array
-        F(t) ≥ 0.
-    impulse : array
-        ∫F dt up to t.
-
-    Examples
-    --------
-    >>> import viscorough
-    >>> history = viscorough.impulses([0.0, 1.0], [0.0, 2.0])  # a ramp
-    >>> history.impulse.tolist()
-    [0.0, 1.0]
-    """
-
-    times: np.ndarray
-    force: np.ndarray
-    impulse: np.ndarray
 
 
 def kinetics(
@@ -144,7 +119,7 @@ def kinetics(
     (True, True)
     """
     medium = medium_of(medium, curve.length_unit)
-    load: Any = consistent_force(force, curve.length_unit)
+    load = consistent_force(force, curve.length_unit)
     constant = np.ndim(load) == 0
     if constant and not (np.isfinite(load) and load > 0):
         raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
@@ -196,18 +171,17 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     return np.append(0.0, times) if springs else times
 
 
-def creep_and_rate(force: ForceHistory | Any, medium: Medium, times: Any) -> tuple[Array, Array, Array]:
+def creep_and_rate(force: Any, medium: Medium, times: Any) -> tuple[Array, Array, Array]:
     """Times, Φ and dΦ/dt there."""
     if np.ndim(force) > 0:
         history, place = resampled(force, times)
         creep, rate = creep_response(medium, history)
         return history.times[place], creep[place], rate[place]
-    load: Any = force
-    times = impulses(load, times).times
+    times = impulses(force, times).times
     if times[-1] > medium.last_time:
         raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
     with np.errstate(over="ignore"):
-        return times, load * medium.creep_compliance(times), load * medium.creep_rate(times)
+        return times, force * medium.creep_compliance(times), force * medium.creep_rate(times)
 
 
 def resampled(force: ForceHistory | Any, times: Any) -> tuple[ForceHistory, Integers]:

@@ -4,21 +4,15 @@ For media of springs and dashpots Φ is a sum of states that are carried from sa
 branches. For others every sample is summed over all before it, at a cost of samples². Either way the integral is exact.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscorough.arrays import jumps_and_slopes
+from viscorough.arrays import ForceHistory, jumps_and_slopes
 from viscorough.compilation import njit
 from viscorough.types import Array, Integers
 from viscorough.viscous.medium import Medium, RetardationSpectrum
-
-if TYPE_CHECKING:
-    from viscorough.viscous.correspondence import ForceHistory
 
 _ROUNDING = 1e-12  # relative to the terms of dΦ/dt, which may be negative by as much
 _HALVINGS = 60  # of an interval in which dΦ/dt may change its sign

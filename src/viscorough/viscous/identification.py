@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma, stdtrit
 
-from viscorough.arrays import ReadOnlyArrays, increasing, integral
+from viscorough.arrays import ForceHistory, ReadOnlyArrays, increasing, integral
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span, with_unit
 from viscorough.types import Array, Integers
 from viscorough.units import UNKNOWN
-from viscorough.viscous.correspondence import ForceHistory, consistent_force, impulses, resampled
+from viscorough.viscous.correspondence import consistent_force, impulses, resampled
 from viscorough.viscous.creep_response import branch_states
 from viscorough.viscous.media import CreepTable, Prony, Springpot
 from viscorough.viscous.medium import Medium

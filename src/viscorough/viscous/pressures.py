@@ -8,11 +8,12 @@ leave of the force, distributed as dp_el/dF, the pressure of a flat punch of the
 import numpy as np
 
 from viscorough import units
+from viscorough.arrays import ForceHistory
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.indenter import Indenter
 from viscorough.types import Array
-from viscorough.viscous.correspondence import ForceHistory, consistent_force, impulses, resampled
+from viscorough.viscous.correspondence import consistent_force, impulses, resampled
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium

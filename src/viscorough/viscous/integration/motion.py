@@ -1,17 +1,11 @@
 """Direct integrations of the viscous problem as motions over time, for a given force and viscosity."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from viscorough.arrays import ForceHistory
+from viscorough.types import Array
 from viscorough.viscous.integration.events import Events
-
-if TYPE_CHECKING:
-    from viscorough.types import Array
-    from viscorough.viscous.correspondence import ForceHistory
-    from viscorough.viscous.integration.stepping import Steps
+from viscorough.viscous.integration.stepping import Steps
 
 
 def under_constant_force(integration: Events | Steps, force_per_viscosity: float) -> dict[str, Array]:
@@ -29,7 +23,7 @@ def under_force_history(integration: Events | Steps, history: ForceHistory, visc
     """Time, depth, contact count, force and velocity of Events or Steps at the times of a force history, by name.
 
     integration : Events, or Steps that end at every impulse of the history above zero, over the viscosity
-    history : viscous.correspondence.ForceHistory
+    history : arrays.ForceHistory
 
     Raises ValueError for an impulse beyond the last event.
     """

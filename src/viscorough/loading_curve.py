@@ -136,8 +136,7 @@ class LoadingCurve(ReadOnlyArrays, Saved):
 
         inside = (force > self.force[0]) & (force <= self.force[-1])
         j = np.searchsorted(self.force, force[inside])
-        levels = self.force, self.depth, self.stiffness
-        forces, depths, stiffnesses = ((values[j - 1], values[j]) for values in levels)
+        forces, depths, stiffnesses = ((at[j - 1], at[j]) for at in (self.force, self.depth, self.stiffness))
         joined = self.contact_count[j] - self.contact_count[j - 1]
         depth[inside], stiffness[inside] = interpolate_between(forces, depths, stiffnesses, joined, force[inside])
         return depth, stiffness

@@ -128,8 +128,7 @@ def _fields(variables: Variables) -> Figure:
     for i, part in enumerate(figure.subfigures(contacts, 1, squeeze=False)[:, 0]):
         part.suptitle(_state(variables, i), fontsize=mpl.rcParams["axes.titlesize"])
         for axes, name in zip(part.subplots(1, len(names), squeeze=False)[0], names, strict=True):
-            values = stacks[name][i].astype(float)
-            _map(part, axes, variables, name, np.where(outside[i], np.nan, values) if name == "contact" else values)
+            _map(part, axes, variables, name, np.where(outside[i], np.nan, stacks[name][i].astype(float)))
     return figure
 
 
@@ -179,13 +178,8 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
     image = axes.imshow(values, origin="upper", **look)
     axes.set_facecolor("0.85")
     if name != "contact":
-        figure.colorbar(
-            image,
-            ax=axes,
-            label=_label_of(variables, name),
-            shrink=0.85,
-            extend="max" if name == "pressure" else "neither",
-        )
+        extend = "max" if name == "pressure" else "neither"
+        figure.colorbar(image, ax=axes, label=_label_of(variables, name), shrink=0.85, extend=extend)
     _label(axes, variables, "x", "y", title)
 
 

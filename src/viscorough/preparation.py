@@ -72,8 +72,7 @@ def prepare(
         return indenter
     heights = indenter.heights.copy()
     with np.errstate(over="ignore"):
-        for value in np.atleast_1d(nodata).astype(heights.dtype):
-            heights[heights == value] = np.nan
+        heights[np.isin(heights, np.asarray(nodata).astype(heights.dtype))] = np.nan
     if crop is not None:
         for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
             if not 0 <= first < end <= size:
@@ -96,8 +95,8 @@ def doubts(indenter: Indenter) -> list[str]:
     if indenter.heights.ndim != 2 or min(indenter.heights.shape) < 3:
         return []
     heights = indenter.heights
-    texts = [*_suspicious_values(heights)]
-    texts += [] if texts else [*_tilt(indenter), *_spikes(heights)]  # the former would explain the latter
+    # Suspicious values would explain tilt and spikes.
+    texts = [*_suspicious_values(heights)] or [*_tilt(indenter), *_spikes(heights)]
     return [*texts, *_holes(heights)]
 
 

@@ -181,11 +181,9 @@ def _parsed(text: str) -> Any:
     Powers of more than one digit and powers of powers are refused: pint would compute them, however long that takes.
     """
     wanted = "a unit such as um, nm, N or Pa s is needed"
-    if not re.fullmatch(_ALLOWED, text):
-        raise ValueError(f"unit {text[:60]!r}: {wanted}")
     spelled = re.sub(_POWER, lambda match: f"{match[1] or ')'}**{match[2] or match[3]}", text)
-    if re.search(_LONG_POWER, spelled) or spelled.count("**") > 6:
-        raise ValueError(f"unit {text!r}: {wanted}")
+    if not re.fullmatch(_ALLOWED, text) or re.search(_LONG_POWER, spelled) or spelled.count("**") > 6:
+        raise ValueError(f"unit {text[:60]!r}: {wanted}")
     try:
         parsed = _registry().Quantity(spelled)
         size = float(parsed.to_base_units().magnitude)

@@ -200,8 +200,7 @@ def _check_growth(times: Array, depth: Array) -> None:
     """Raise ValueError where the depth recedes by more than scatter and resolution of the record explain."""
     steps = np.diff(depth)
     scatter = 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6)
-    resolution = abs(steps[steps != 0]).min(initial=np.inf) if (steps == 0).any() else 0.0
-    resolution = resolution if np.isfinite(resolution) else 0.0
+    resolution = abs(steps[steps != 0]).min() if 0 < np.count_nonzero(steps) < steps.size else 0.0
     for size in (2**k for k in range(depth.size.bit_length() - 1)):
         count = depth.size // size
         mean = depth[: count * size].reshape(count, size).mean(axis=1)

@@ -67,13 +67,8 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
     True
     """
     check_indenter("reduce", line, 1)
-    return reduce_heights(
-        line.heights,
-        line.spacing,
-        until_fraction=until_fraction,
-        until_force=until_force,
-        length_unit=line.length_unit,
-    )
+    until: dict[str, Any] = {"until_fraction": until_fraction, "until_force": until_force}
+    return reduce_heights(line.heights, line.spacing, length_unit=line.length_unit, **until)
 
 
 def reduce_heights(

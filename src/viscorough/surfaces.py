@@ -88,16 +88,8 @@ def self_affine_disc(
         raise ValueError(f"period: must be at least 1 diameter, not {period}")
     if rms_over not in ("disc", "square"):
         raise ValueError(f"rms_over: must be 'disc' or 'square', not {rms_over!r}")
-    square = square_of_disc(
-        hurst,
-        n,
-        period=period,
-        corners=corners,
-        roll_off_wavelength=roll_off_wavelength,
-        roll_off_level=roll_off_level,
-        amplitudes=amplitudes,
-        seed=seed,
-    )
+    roll_off: dict[str, Any] = {"roll_off_wavelength": roll_off_wavelength, "roll_off_level": roll_off_level}
+    square = square_of_disc(hurst, n, period=period, corners=corners, amplitudes=amplitudes, seed=seed, **roll_off)
     heights = cut_disc(square, n)
     heights *= rms / np.nanstd(heights) if rms_over == "disc" else rms
     return Indenter(heights, diameter / n, length_unit=length_unit)
@@ -254,14 +246,6 @@ def self_affine_line(
     >>> viscorough.self_affine_line(0.7, 1000, rms=0.1, seed=1).heights.shape
     (1000,)
     """
-    lines = SelfAffineLines(
-        hurst,
-        points,
-        rms=rms,
-        length=length,
-        roll_off_wavelength=roll_off_wavelength,
-        roll_off_level=roll_off_level,
-        amplitudes=amplitudes,
-        dtype=dtype,
-    )
+    roll_off: dict[str, Any] = {"roll_off_wavelength": roll_off_wavelength, "roll_off_level": roll_off_level}
+    lines = SelfAffineLines(hurst, points, rms=rms, length=length, amplitudes=amplitudes, dtype=dtype, **roll_off)
     return Indenter(lines.heights(seed), lines.spacing, length_unit=length_unit)

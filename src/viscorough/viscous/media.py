@@ -240,7 +240,7 @@ class Prony(_Exponential):
         object.__setattr__(self, "relaxed_modulus", relaxed)
         for name in ("moduli", "relaxation_times"):
             values = getattr(self, name)
-            if isinstance(values, str | bytes | dict) or np.ndim(values) != 1 or len(values) == 0:
+            if np.ndim(values) != 1 or len(values) == 0:
                 raise ValueError(f"Prony: {name} {values!r}; allowed: a list of one or more numbers above 0")
             numbers = tuple(_number(self, f"{name}[{i}]", value) for i, value in enumerate(values))
             object.__setattr__(self, name, numbers)

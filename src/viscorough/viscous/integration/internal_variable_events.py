@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import expm
 
-from viscorough import units
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.types import Array
 from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.internal_variables import MediumMotion, load_samples, spectrum_of
+from viscorough.viscous.integration.internal_variables import MediumMotion, checked_input
 from viscorough.viscous.medium import Medium, RelaxationSpectrum
 
 _ROUNDING = 1e-12  # of the motion in a step in which nothing moves
@@ -66,9 +65,7 @@ def march_medium_events(
     >>> bool(motion.depth[0] < motion.depth[1])
     True
     """
-    relaxation = spectrum_of("march_medium_events", medium, indenter.length_unit)
-    area = units.square_metres(indenter.length_unit)
-    times, load = load_samples("march_medium_events", times, force, None, area)
+    relaxation, area, times, load = checked_input("march_medium_events", indenter, medium, times, force)
     events = march_events(indenter, until_fraction=until_fraction)
     motion = _total_motion(relaxation, times, load)
     if (recedes := np.diff(motion, prepend=0) < -_ROUNDING * motion).any():

@@ -11,6 +11,7 @@ the contact, and the surface behind them recovers.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -113,9 +114,7 @@ def march_medium(
     >>> bool(motion.depth[1] < motion.depth[2])
     True
     """
-    relaxation = spectrum_of("march_medium", medium, indenter.length_unit)
-    area = units.square_metres(indenter.length_unit)
-    times, load = load_samples("march_medium", times, force, depth, area)
+    relaxation, area, times, load = checked_input("march_medium", indenter, medium, times, force, depth)
     elements = elements_of_map(indenter, "march_medium")
     by_depth, rows, receding, rate = force is None, [], np.nan, 0.0
     state = _State(elements, relaxation, by_depth=by_depth)
@@ -146,23 +145,22 @@ def march_medium(
     return MediumMotion(*moved, read_only(last_pressure), float(receding))
 
 
-def spectrum_of(caller: str, medium: Medium | float | str, length_unit: str) -> RelaxationSpectrum:
-    """The RelaxationSpectrum of a medium. Raises ValueError, which starts with the caller, if it has none."""
-    medium = medium_of(medium, length_unit)
+def checked_input(
+    caller: str, indenter: Indenter, medium: Any, times: Any, force: Any, depth: Any = None
+) -> tuple[RelaxationSpectrum, float, Array, Array]:
+    """The medium's RelaxationSpectrum, the area in m² that forces are divided by, times and load, of shape (times,).
+
+    The load is a depth, or a force over that area. Raises ValueError that starts with the caller.
+    """
+    medium, area = medium_of(medium, indenter.length_unit), units.square_metres(indenter.length_unit)
     if medium.relaxation is None:
         raise ValueError(f"{caller}: {type(medium).__name__}; allowed: media of springs and dashpots")
-    return medium.relaxation
-
-
-def load_samples(
-    caller: str, times: ArrayLike, force: ArrayLike | None, depth: ArrayLike | None, area: float
-) -> tuple[Array, Array]:
-    """Times and load, a depth or a force per area, of shape (times,). Raises ValueError that starts with the caller."""
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
     name, load = ("depth", depth) if force is None else ("force", force)
     times = increasing(f"{caller}: times", times, steps=f"the {name}")
-    return times, samples(f"{caller}: {name}", load, times) / (area if depth is None else 1.0)
+    load = samples(f"{caller}: {name}", load, times) / (area if depth is None else 1.0)
+    return medium.relaxation, area, times, load
 
 
 class _State:

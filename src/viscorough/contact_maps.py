@@ -162,6 +162,5 @@ class Contact(ReadOnlyArrays, Saved):
         labels, count = ndimage.label(self.contact)
         sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
         order = np.argsort(-sizes, kind="stable")
-        rank = np.zeros(count + 1, dtype=labels.dtype)
-        rank[1 + order] = np.arange(1, count + 1)
+        rank = np.append(0, 1 + np.argsort(order)).astype(labels.dtype)
         return Patches(rank[labels], sizes[order] * self.spacing * self.row_spacing)

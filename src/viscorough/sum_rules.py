@@ -394,10 +394,9 @@ def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Arra
     """
     weight = rules.errors[1:] ** (2 / 3)
     of_one_sign = max(rules.error / max(float(np.linalg.norm(rules.errors)), _TINY), 1.0)
-    parts = np.minimum(np.ceil(weight * np.sqrt(weight.sum()) / allowed * of_one_sign), _MOST_PARTS)
+    parts = np.clip(np.ceil(weight * np.sqrt(weight.sum()) / allowed * of_one_sign), 1, _MOST_PARTS).astype(int)
     # Levels must not be so close that their differences are lost to rounding.
     parts[np.diff(curve.depth) < 1e-6 * curve.depth[1:]] = 1
-    parts = np.maximum(parts, 1).astype(int)
     intervals = zip(curve.depth[:-1], curve.depth[1:], parts, strict=True)
     added = (np.linspace(start, end, number + 1)[1:-1] for start, end, number in intervals)
     return np.concatenate([np.empty(0), *added])
@@ -410,8 +409,7 @@ def _merged(curve: LoadingCurve, added: LoadingCurve) -> LoadingCurve:
         name: np.append(getattr(curve, name), getattr(added, name))[order]
         for name in ("depth", "force", "stiffness", "contact_count", "residual")
     }
-    applications = curve.operator_applications + added.operator_applications
-    return replace(curve, operator_applications=applications, **levels)
+    return replace(curve, operator_applications=curve.operator_applications + added.operator_applications, **levels)
 
 
 def _solutions(elements: Elements, right_sides: list[Array], threads: int) -> list[Array]:

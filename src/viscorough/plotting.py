@@ -35,8 +35,7 @@ _PERCENTILE = 99  # of the pressures in contact, at which their colours end: a s
 _MOST_MAPS = 4  # contacts of one file that are drawn
 _STYLE: dict[Any, Any] = {"font.size": 8, "axes.titlesize": 8, "lines.linewidth": 1.2, "lines.markersize": 3}
 _STYLE |= {"savefig.dpi": 200, "svg.hashsalt": "viscorough"}
-_COLOURS: dict[str, Any] = {"heights": "cividis", "gap": "cividis", "pressure": "inferno"}
-_COLOURS |= {"contact": mpl.colors.ListedColormap(["white", _VERMILION])}
+_COLOURS = {"heights": "cividis", "gap": "cividis", "pressure": "inferno"}
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SYMBOLS = {"depth": "u", "force": "F/G", "stiffness": "k/G", "pressure": "p/G", "time": "t", "velocity": "v"}
 # Name of a variable: what stands on its axis.
@@ -168,10 +167,10 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
         step = (position[-1] - position[0]) / max(len(position) - 1, 1) or 1.0
         extent += [position[0] - step / 2, position[-1] + step / 2]
     left, right, top, bottom = extent  # the first row is at the top
-    look: dict[str, Any] = {"extent": [left, right, bottom, top], "cmap": _COLOURS[name]}
+    look: dict[str, Any] = {"extent": [left, right, bottom, top], "cmap": _COLOURS.get(name)}
     title = name
     if name == "contact":
-        look |= {"vmin": 0, "vmax": 1}
+        look |= {"cmap": mpl.colors.ListedColormap(["white", _VERMILION]), "vmin": 0, "vmax": 1}
     if name == "pressure" and (values > 0).any():
         look["vmax"] = np.percentile(values[values > 0], _PERCENTILE)
         title += f", colours to the {_PERCENTILE}th percentile"

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 UNKNOWN = "1"
-# Units of length that are read without pint: spelling, and how files and results spell it.
-_COMMON_LENGTHS = {"m": "m", "mm": "mm", "um": "um", "µm": "um", "μm": "um", "nm": "nm"}
+# Units of length that are read without pint, as files and results spell them; users may write µ for u.
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 # Patterns are compiled at first use, so that the command line starts faster.
 _ALLOWED = r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}"
@@ -144,8 +143,8 @@ def length_unit(text: str) -> str:
     Raises ValueError unless the text is a unit of length.
     """
     text = text.strip()
-    if text in _COMMON_LENGTHS:
-        return _COMMON_LENGTHS[text]
+    if (spelled := re.sub("[µμ]", "u", text)) in _METRES:
+        return spelled
     unit = _parsed(text)
     if not unit.check("[length]"):
         raise ValueError(f"unit {text!r}: not a unit of length, such as um, nm or m")

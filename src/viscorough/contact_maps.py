@@ -95,10 +95,8 @@ class Contact(ReadOnlyArrays, Saved):
             f"mean p/G {with_unit(self.mean_pressure)}, largest p/G {with_unit(self.largest_pressure)}"
         )
         if self.shear_modulus is not None and self.normal_force is not None:
-            mean, largest = (
-                with_unit(self.shear_modulus * pressure, si_unit("Pa", unit))
-                for pressure in (self.mean_pressure, self.largest_pressure)
-            )
+            pressures = self.mean_pressure, self.largest_pressure
+            mean, largest = (with_unit(self.shear_modulus * p, si_unit("Pa", unit)) for p in pressures)
             force = with_unit(self.normal_force, si_unit("N", unit))
             text += f"\nforce F {force}, mean p {mean}, largest p {largest}"
         return text

@@ -133,8 +133,7 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
 
 def _factors(functions: Array, target: Array) -> Array:
     """Factors of functions, shape (functions, points), whose sum is closest to the target."""
-    factors: Array = np.linalg.lstsq(functions @ functions.T, functions @ target, rcond=1e-13)[0]
-    return factors
+    return np.linalg.lstsq(functions @ functions.T, functions @ target, rcond=1e-13)[0]
 
 
 def _sag(curvature: float, squared: Array) -> Array:

@@ -28,7 +28,7 @@ def read_only(values: Any) -> NDArray[Any]:
 class ReadOnlyArrays:
     """Base of frozen dataclasses: fields declared as arrays become read-only ones, and are compared as a whole.
 
-    A text of their own (`__str__`) also stands for them in notebooks, not that of a dataclass, with all numbers.
+    Where a class has a text (`__str__`), notebooks show it, too, in place of all numbers of the arrays.
     """
 
     def __init_subclass__(cls, **options: Any) -> None:

@@ -1,5 +1,6 @@
 """Units as users and files write them."""
 
+import pint
 import pytest
 
 from support.command_line import python
@@ -60,3 +61,10 @@ def test_common_units_do_without_pint():
     modules = python("-c", program).stdout
     assert "viscorough.units" in modules
     assert "pint" not in modules
+
+
+@pytest.mark.parametrize("force", ["5 mN", "2", units.Quantity(5.0, "mN"), pint.Quantity(5.0, "mN")])
+def test_force_with_a_unit_needs_a_modulus(force):
+    with pytest.raises(ValueError, match=r"^force .*: a force needs --shear-modulus"):
+        units.forces_over_modulus([1.0, force], None, "m", "force")
+    assert units.forces_over_modulus([1.0, units.Quantity(2.0)], None, "m", "force") == [1.0, 2.0]

@@ -72,8 +72,7 @@ def periodic_squares(surfaces, points=512):
             contact = pressure > 0
             changes = sum(np.count_nonzero(contact != np.roll(contact, 1, axis)) for axis in (0, 1))
             coefficients.append((contact.sum() - EXCESS_PER_CHANGE * changes) / contact.size / LIGHT)
-            separation, _ = mean_separations(heights, LEVELS * slope)
-            u0.append(-np.diff(separation) / np.diff(np.log(LEVELS)))
+            u0.append(-np.diff(mean_separations(heights, LEVELS * slope)) / np.diff(np.log(LEVELS)))
         area, plateau = f"A* E* h′/(A₀ p), H = {hurst}", f"u₀/h, H = {hurst}"
         yield "periodic", area, 2.0, np.mean(coefficients), 0.4, BETWEEN, AREA_SOURCE
         yield "periodic", plateau, 0.4, np.mean(u0, axis=0).max(), 0.05, ONE_DIGIT, SEPARATION_SOURCE

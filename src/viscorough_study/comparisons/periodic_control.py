@@ -30,7 +30,6 @@ COLUMNS = {
     "x": ("X at which a disc has this mean pressure, p/E* = (4/π) X h/L", "1"),
     "surfaces": ("surfaces", "1"),
     **described("g", "−dū/(h d ln p), mean over the surfaces"),
-    "contact_fraction": ("mean share of the elements in contact", "1"),
 }
 
 
@@ -49,25 +48,23 @@ def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_d
             own_seed = realization_seed(seed, *periodic_key(hurst, number))
             heights = self_affine_square(hurst, points, seed=own_seed, **waves)
             found.append(mean_separations(heights, 4 / np.pi * x))
-        separation, fraction = np.moveaxis(np.array(found), 1, 0)
-        g = -np.diff(separation) / np.diff(np.log(x))
+        g = -np.diff(found) / np.diff(np.log(x))
         rows = pd.DataFrame({"x": np.sqrt(x[1:] * x[:-1])} | three_columns("g", mean_with_interval(g)))
-        rows = rows.assign(hurst=hurst, roll_off_wavelength=wavelength, surfaces=surfaces)
-        tables.append(rows.assign(contact_fraction=(fraction[:, 1:] + fraction[:, :-1]).mean(axis=0) / 2))
+        tables.append(rows.assign(hurst=hurst, roll_off_wavelength=wavelength, surfaces=surfaces))
     return pd.concat(tables, ignore_index=True)[list(COLUMNS)]
 
 
 def mean_separations(heights, pressures):
-    """ū/h, and the share of the elements in contact, at increasing mean pressures p L/(E* h); shape (2, pressures).
+    """ū/h at increasing mean pressures p L/(E* h), shape (pressures,).
 
     heights : of a periodic square, shape (n, n), of mean 0; any unit
     """
     shape = np.array(heights / heights.std(), dtype=float)
-    pressure, found = np.full(shape.shape, pressures[0]), []
+    pressure, separations = np.full(shape.shape, pressures[0]), []
     for mean in pressures:
         separation, pressure = periodic_contact(shape, pressure * (mean / pressure.mean()))
-        found.append((separation, (pressure > 0).mean()))
-    return np.transpose(found)
+        separations.append(separation)
+    return np.array(separations)
 
 
 def periodic_contact(heights, start, tolerance=TOLERANCE):

@@ -38,15 +38,9 @@ def on_abscissae(curves, rms, diameter, x):
 
     κ = k/(4GL) at F/G = 4hLX (Eq. 3); nan beyond the last level of a curve. Between levels ln(count) is linear in
     ln F, and below the first level the count is that of the first level.
-    Raises ValueError for rms heights out of range.
     """
     diameters = np.broadcast_to(diameter, len(curves))
-    heights = np.empty((len(rms), len(curves)))
-    for row, (name, values) in zip(heights, rms.items(), strict=True):
-        if np.shape(values) not in ((), row.shape) or not np.all(np.isfinite(values) & (np.asarray(values) > 0)):
-            raise ValueError(f"on_abscissae: rms[{name!r}] must be {len(curves)} positive numbers, or one for all")
-        row[:] = values
-
+    heights = np.array([np.broadcast_to(values, len(curves)) for values in rms.values()])
     stiffness = np.empty((*heights.shape, len(x)))
     count = np.empty_like(stiffness)
     for i, (curve, length) in enumerate(zip(curves, diameters, strict=True)):

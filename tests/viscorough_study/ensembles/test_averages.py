@@ -88,9 +88,3 @@ def test_averages_are_over_the_realizations_defined(gaps):
     last = aggregate(curves[:1], {"line": 1.0}, 1.0, [0.1, 1e3], hurst=0.5, case="a").isel(abscissa=1)
     assert last.realizations_defined == 0, "beyond all curves"
     assert all(np.isnan(last[name]) for name in ("velocity_arithmetic", "velocity_geometric", "contact_count_median"))
-
-
-@pytest.mark.parametrize("rms", [-1.0, [1.0, 2.0]])
-def test_rms_heights_out_of_range_are_refused(rms):
-    with pytest.raises(ValueError, match=r"rms\['disc'\]"):
-        aggregate([line_curve([0, 1])], {"disc": rms}, 1.0, [0.1], hurst=0.5, case="a")

@@ -44,12 +44,12 @@ def coincide_equal_windows(evidence, tolerance):
 
 def line_area(evidence, tolerance):
     """Contact fraction of lines over that of discs."""
-    return _ratios(evidence, "area_ratio", tolerance)
+    return _at_centres(evidence, "area_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
 
 def line_gap(evidence, tolerance):
     """Mean gap of lines over that of discs."""
-    return _ratios(evidence, "gap_ratio", tolerance)
+    return _at_centres(evidence, "gap_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
 
 def single_surface(evidence, tolerance):
@@ -58,21 +58,16 @@ def single_surface(evidence, tolerance):
     The interval is that of the standard deviation of a normal distribution, by the χ² distribution.
     """
 
-    def values(row):
-        return tuple(np.exp(deviation_interval(row["stiffness_scatter"], row["realizations"] - 1)))
+    def factor(row, column):
+        return tuple(np.exp(deviation_interval(row[column], row["realizations"] - 1)))
 
-    return _at_centres(evidence, "stiffness_scatter", values, (-np.inf, 1 + tolerance))
-
-
-def _ratios(evidence, column, tolerance):
-    """Cases of a ratio that should be 1 at the centre of region (b)."""
-    return _at_centres(evidence, column, lambda row: interval(row, column), (1 / (1 + tolerance), 1 + tolerance))
+    return _at_centres(evidence, "stiffness_scatter", (-np.inf, 1 + tolerance), factor)
 
 
-def _at_centres(evidence, column, values, allowed):
+def _at_centres(evidence, column, allowed, values=interval):
     """Cases of the comparison surface by surface at the centre of region (b), with the extremes over the region.
 
-    column : must be defined; values : function of a row of the comparison, returns value and interval
+    column : must be defined; values : function of a row of the comparison and the column, returns value and interval
     """
     table = evidence.tables["reduction"].dropna(subset=column)
     for hurst, window in evidence.regions.items():
@@ -81,6 +76,6 @@ def _at_centres(evidence, column, values, allowed):
             yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
             continue
         offset = np.log(rows["x"]) - np.log(rows["x"].iloc[[0, -1]]).mean()
-        row, region_values = rows.loc[offset.abs().idxmin()], [values(row)[0] for row in rows.to_dict("records")]
-        more = {"realizations": row["realizations"], "extremes": (min(region_values), max(region_values))}
-        yield evidence.case(hurst_name(hurst), values(row), 1.0, allowed, cases=len(evidence.regions), **more)
+        row, over_region = rows.loc[offset.abs().idxmin()], [values(row, column)[0] for row in rows.to_dict("records")]
+        more = {"realizations": row["realizations"], "extremes": (min(over_region), max(over_region))}
+        yield evidence.case(hurst_name(hurst), values(row, column), 1.0, allowed, cases=len(evidence.regions), **more)

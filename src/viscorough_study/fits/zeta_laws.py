@@ -106,7 +106,7 @@ def _ratios(ensembles, windows, *, average, resamples, seed):
     if not windows or None in windows:
         return {"zeta": UNCOMPARED, "curve": UNCOMPARED}
     common = max(low for low, _ in windows), min(high for _, high in windows)
-    zeta_ratios, curve_ratios = {law: [] for law in LAWS}, {law: [] for law in LAWS}
+    ratios = {quantity: {law: [] for law in LAWS} for quantity in ("zeta", "curve")}
     for i, ((hurst, ensemble), window) in enumerate(zip(ensembles.items(), windows, strict=True)):
         x, velocity = ensemble["x"].values, ensemble["velocity"].values
         betas, zetas = fit_power_law(x, velocity, window, average=average, resamples=resamples, seed=[seed, i])
@@ -115,9 +115,7 @@ def _ratios(ensembles, windows, *, average, resamples, seed):
         for law, (function, gamma) in LAWS.items():
             zeta, scale = function(hurst), zeta_scale(betas, "with" if gamma else "without")
             curve = reference.velocity_law(x[inside], zeta, reference.exponent_alpha(hurst), gamma=gamma)
-            zeta_ratios[law].append(np.log(zetas * scale / zeta)[:, None])
-            curve_ratios[law].append(means - np.log(curve))
-    zeta_ratios, curve_ratios = (
-        {law: np.stack(values, axis=1) for law, values in ratios.items()} for ratios in (zeta_ratios, curve_ratios)
-    )
-    return {"zeta": zeta_ratios, "curve": curve_ratios if common[0] < common[1] else UNCOMPARED}
+            ratios["zeta"][law].append(np.log(zetas * scale / zeta)[:, None])
+            ratios["curve"][law].append(means - np.log(curve))
+    stacked = {name: {law: np.stack(rows, axis=1) for law, rows in by_law.items()} for name, by_law in ratios.items()}
+    return stacked if common[0] < common[1] else stacked | {"curve": UNCOMPARED}

@@ -62,8 +62,7 @@ class Evidence:
     @cached_property
     def combinations(self):
         """{H: list of the ensembles of all combinations of force, viscosity, size and rms height}, as in `pooled`."""
-        cases = {hurst: self._ensembles(pool.select(self.discs, hurst=hurst), "case") for hurst in self.pooled}
-        return {hurst: list(by_case.values()) for hurst, by_case in cases.items()}
+        return {h: list(self._ensembles(pool.select(self.discs, hurst=h), "case").values()) for h in self.pooled}
 
     def _ensembles(self, discs, name):
         return pool.ensembles(discs, name, rms_convention=self.conventions["rms_convention"])

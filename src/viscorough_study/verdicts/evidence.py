@@ -16,6 +16,7 @@ from viscorough_study.run.paper_data import number
 
 # From best to worst: the verdict on a claim is the worst of its cases.
 VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
+OUTCOMES = {True: "reproduced", False: "not reproduced", None: "undecided"}  # whether a criterion is met: its verdict
 # Columns of a case in the table of verdicts (verdicts.claims), which describes them.
 CASE = ("case", "value", "low", "high", "least", "largest", "expected", "verdict")
 CASE += ("convention", "conventions", "agreeing", "contradicting")
@@ -173,15 +174,11 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, 
         that could not be computed is never decided
     convention : in which alone it is met, if any; counts : conventions, agreeing, contradicting
     """
-    verdict = "not reproduced"
     if not np.isfinite(values[0]):
-        verdict, convention = "undecided", ""
+        met, convention = None, ""
     elif met:
-        verdict, convention = "reproduced", ""
-    elif convention:
-        verdict = "reproduced under a stated convention"
-    elif met is None:
-        verdict = "undecided"
+        convention = ""
+    verdict = "reproduced under a stated convention" if convention else OUTCOMES[met]
     return dict(zip(CASE, (name, *values, *extremes, expected, verdict, convention, *counts), strict=True))
 
 

@@ -84,13 +84,10 @@ def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
         with replacement, so that it has the scatter and the correlation along X of the real one
     draws : number of ensembles; options : further arguments of `plateau`
     """
-    passed, failed, needed = 0, 0, decades_min * (1 - ROUNDING)
-    for _ in range(draws):
-        drawn = residuals[random.integers(len(residuals), size=len(residuals))]
-        columns = plateau(log_x, mean + drawn, random=random, **options)
-        passed += columns["decades_low"] >= needed
-        failed += columns["decades_high"] < needed
-    return passed / draws, failed / draws
+    drawn = (residuals[random.integers(len(residuals), size=len(residuals))] for _ in range(draws))
+    found = pd.DataFrame([plateau(log_x, mean + scatter, random=random, **options) for scatter in drawn])
+    needed = decades_min * (1 - ROUNDING)
+    return (found["decades_low"] >= needed).mean(), (found["decades_high"] < needed).mean()
 
 
 def plateau_table(discs, *, control, rms_convention, seed, **options):

@@ -120,11 +120,10 @@ def _exponent_rows(discs, lines, windows, number, *, seed, **bootstrap):
     rows, seeds = [], np.random.SeedSequence(seed).spawn(2)
     for name, pair in zip(WINDOWS, (regions, [regions[0], regions[0]], kappa), strict=True):
         rows.append({"window": name})
-        if None in pair:
-            continue
-        (first, _), (second, _) = (
-            fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=own)
-            for ensemble, window, own in zip((discs, lines), pair, seeds, strict=True)
-        )
-        rows[-1] |= three_columns("difference", with_interval(second - first, number))
+        if None not in pair:
+            (first, _), (second, _) = (
+                fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=own)
+                for ensemble, window, own in zip((discs, lines), pair, seeds, strict=True)
+            )
+            rows[-1] |= three_columns("difference", with_interval(second - first, number))
     return rows

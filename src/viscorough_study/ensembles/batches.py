@@ -53,9 +53,8 @@ def batch_of_curves(members, settings):
         "case": (np.asarray(ensemble, dtype=object), "name of the ensemble", ""),
     }
     for name, (values, text, units) in stored.items():
-        dimensions = ("realization",) if values.ndim else ()
         attributes = {"long_name": text} | ({"units": units} if units else {})
-        content.variables[name] = Variable(dimensions, values, attributes)
+        content.variables[name] = Variable(("realization",) * values.ndim, values, attributes)
     return content.with_attributes(settings=json.dumps(settings))
 
 

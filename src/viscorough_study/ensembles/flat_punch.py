@@ -8,7 +8,7 @@ from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
 from viscorough.surfaces import cut_disc
-from viscorough_study.ensembles.pool import elements_across
+from viscorough_study.ensembles.pool import elements_across, ensembles
 
 
 @cache
@@ -18,9 +18,13 @@ def punch_stiffness(elements_across):
     return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
 
 
-def grid_and_punch(source, elements):
-    """Elements across discs of this number of elements, or points of lines, and κ_c of the flat punch on this grid."""
-    if source == "lines":
-        return elements, COMPLETE_CONTACT_STIFFNESS
-    across = elements_across(elements)
-    return across, punch_stiffness(across)
+def ensembles_on_grids(pool, source, rms_convention):
+    """Yield H, elements across discs or points of lines, κ_c of the flat punch on this grid, and the ensemble on it.
+
+    source : of the pool, "lines" or discs; rms_convention : of discs
+    """
+    convention = "line" if source == "lines" else rms_convention
+    for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=convention).items():
+        across = elements_across(elements)
+        grid = (elements, COMPLETE_CONTACT_STIFFNESS) if source == "lines" else (across, punch_stiffness(across))
+        yield hurst, *grid, ensemble

@@ -11,8 +11,8 @@ mean of g over ln X on it. Lines of the MDR have κ_c = 1.
 import numpy as np
 import pandas as pd
 
-from viscorough_study.ensembles.flat_punch import grid_and_punch
-from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.ensembles.flat_punch import ensembles_on_grids
+from viscorough_study.ensembles.pool import select
 from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
 from viscorough_study.fits.power_law import log_means
 
@@ -50,9 +50,7 @@ def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_conventio
     rows, curves = [], []
     for (source, group), pool in pools.items():
         pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], hursts)))
-        convention = "line" if source == "lines" else rms_convention
-        for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=convention).items():
-            number, punch = grid_and_punch(source, elements)
+        for hurst, number, punch, ensemble in ensembles_on_grids(pool, source, rms_convention):
             labels = {"source": source, "case_group": group, "hurst": hurst, "across": number}
             row, curve = fit_interface(ensemble, punch, **fit)
             rows.append(labels | row)

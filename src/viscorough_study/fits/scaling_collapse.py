@@ -22,8 +22,8 @@ from scipy.interpolate import make_interp_spline
 from scipy.special import zeta
 
 from viscorough.reference import exponent_beta
-from viscorough_study.ensembles.flat_punch import grid_and_punch
-from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.ensembles.flat_punch import ensembles_on_grids
+from viscorough_study.ensembles.pool import select
 from viscorough_study.fits.power_law import ROUNDING, log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
@@ -131,14 +131,12 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     """
     group, grids_by_hurst = "controls" if source == "controls" else "sizes", {}
     generator = np.random.default_rng(seed)
-    convention = "line" if source == "lines" else rms_convention
-    on_grids = ensembles(select(pool, group=group), "hurst", "elements", rms_convention=convention)
-    for (hurst, elements), ensemble in sorted(on_grids.items()):
+    on_grids = ensembles_on_grids(select(pool, group=group), source, rms_convention)
+    for hurst, number, punch, ensemble in sorted(on_grids, key=lambda grid: grid[:2]):
         enough = np.logical_or.accumulate(ensemble["contact_count_median"].values >= elements_min)
         if ensemble.sizes["realization"] < FEWEST["realizations"] or not enough.any():
             continue
         kept = enough & (ensemble["fraction_defined"].values >= fraction_min)
-        number, punch = grid_and_punch(source, elements)
         velocity = ensemble["velocity"].values[:, kept]
         means = log_means(velocity, average, resamples, generator)
         share = variance_share(hurst, number, source)

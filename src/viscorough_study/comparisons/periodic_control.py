@@ -43,12 +43,10 @@ def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_d
     x, tables = abscissa(x_low, x_high, per_decade), []
     rolled_off = {"roll_off_wavelength": points * roll_off["wavelength"], "roll_off_level": roll_off["level"]}
     for hurst, (wavelength, waves) in product(hursts, ((np.nan, {}), (roll_off["wavelength"], rolled_off))):
-        found = []
-        for number in range(surfaces):
-            own_seed = realization_seed(seed, *periodic_key(hurst, number))
-            heights = self_affine_square(hurst, points, seed=own_seed, **waves)
-            found.append(mean_separations(heights, 4 / np.pi * x))
-        g = -np.diff(found) / np.diff(np.log(x))
+        seeds = [realization_seed(seed, *periodic_key(hurst, number)) for number in range(surfaces)]
+        squares = [self_affine_square(hurst, points, seed=own_seed, **waves) for own_seed in seeds]
+        separations = [mean_separations(heights, 4 / np.pi * x) for heights in squares]
+        g = -np.diff(separations) / np.diff(np.log(x))
         rows = pd.DataFrame({"x": np.sqrt(x[1:] * x[:-1])} | three_columns("g", mean_with_interval(g)))
         tables.append(rows.assign(hurst=hurst, roll_off_wavelength=wavelength, surfaces=surfaces))
     return pd.concat(tables, ignore_index=True)[list(COLUMNS)]

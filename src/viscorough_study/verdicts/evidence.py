@@ -56,9 +56,8 @@ class Evidence:
     @cached_property
     def whole(self):
         """{H: the discs of `pooled` whose curves extend to region (c)}, those of the largest X."""
-        until_x = self.discs["until_x"].values
-        whole = self._ensembles(self.discs.isel(realization=np.flatnonzero(until_x == until_x.max())), "hurst")
-        return {hurst: whole[hurst] for hurst in self.pooled}
+        longest = pool.select(self.discs, until_x=self.discs["until_x"].values.max())
+        return dict(sorted(self._ensembles(longest, "hurst").items()))
 
     @cached_property
     def combinations(self):

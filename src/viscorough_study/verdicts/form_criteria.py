@@ -51,10 +51,8 @@ def history(evidence, tolerance):
     Histories of equal impulse reach equal depths, and should have equal contact.
     """
     disc = _disc(evidence, min(evidence.pooled))
-    motions = []
-    for times, forces in HISTORIES.values():
-        force = IMPULSE * np.array(forces)
-        motions.append(march_medium(disc, Newtonian(1.0), np.array(times), force=force))
+    histories = [(times, IMPULSE * np.array(forces)) for times, forces in HISTORIES.values()]
+    motions = [march_medium(disc, Newtonian(1.0), times, force=force) for times, force in histories]
     sets, depths = [motion.pressure > 0 for motion in motions], [motion.depth[-1] for motion in motions]
     differing = [int((first != second).sum()) for first, second in pairwise(sets)]
     apart = [abs(second / first - 1) for first, second in pairwise(depths)]

@@ -150,9 +150,8 @@ def markdown(table, claims):
         lines = [f"### {heading}", "", "| claim, case | quantity, value | the paper | verdict |", "|---|---|---|---|"]
         for name in names:
             claim, rows = claims[name], table[table["claim"] == name]
-            lines.append(
-                f"| **{claim['statement']}** ({claim['where']}) | {claim['quantity']} | | **{verdicts[name]}** |"
-            )
+            head = "| **{statement}** ({where}) | {quantity} | | **{verdict}** |"
+            lines.append(head.format(**claim, verdict=verdicts[name]))
             shown = cases_shown(rows)
             lines += [_case_line(row) for row in shown.to_dict("records")]
             lines += [f"| {len(rows) - len(shown)} more cases | | | |"] if len(shown) < len(rows) else []

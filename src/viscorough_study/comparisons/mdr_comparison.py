@@ -69,15 +69,13 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low,
 
 def _compare(disc, line, force):
     """ln of κ of disc and line, of the ratio of their contact fractions, and of that of their forces at equal depth."""
-    depth, stiffness = disc.at_force(force)
-    fractions = [
-        np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)
-    ]
+    (depth, stiffness), log_force = disc.at_force(force), np.log(force)
+    fractions = [np.interp(log_force, np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)]
     # The curve of the line is straight up to the first level.
     straight = np.minimum(np.log(depth / line.depth[0]), 0)
     line_force = straight + np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
     logarithms = np.log([stiffness / 4, line.at_force(force)[1] / 4])
-    return *logarithms, fractions[1] - fractions[0], line_force - np.log(force)
+    return *logarithms, fractions[1] - fractions[0], line_force - log_force
 
 
 def is_power_of_ten(x):

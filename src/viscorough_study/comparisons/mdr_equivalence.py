@@ -94,14 +94,12 @@ def _lambda_rows(discs, lines, window, number, **bootstrap):
         row = {"x": abscissa, "in_region": int(in_window(abscissa, window))}
         row |= three_columns("lambda", with_interval(lambdas[:, i], number))
         rows.append(row | three_columns("velocity_ratio", with_interval(np.exp(errors[:, i]), number)))
-    summary = {}
-    for name, values in (
-        ("drift", np.exp(2 * _rise(x[region], match.stretch_at(x[region])))),
-        ("error_trend", _rise(x[region], match.deviation(best, region)) / 2),
-        ("error_whole", np.abs(errors[:, x[chosen] >= window[0]]).max(axis=1)),
-    ):
-        summary |= three_columns(name, with_interval(values, number))
-    return rows, summary
+    drift = np.exp(2 * _rise(x[region], match.stretch_at(x[region])))
+    trend = _rise(x[region], match.deviation(best, region)) / 2
+    whole = np.abs(errors[:, x[chosen] >= window[0]]).max(axis=1)
+    summary = three_columns("drift", with_interval(drift, number))
+    summary |= three_columns("error_trend", with_interval(trend, number))
+    return rows, summary | three_columns("error_whole", with_interval(whole, number))
 
 
 def _rise(x, values):

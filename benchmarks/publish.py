@@ -22,7 +22,7 @@ import pandas as pd
 from PIL import Image  # a dependency of matplotlib
 
 from viscorough.calibrated_law import CONSTANTS
-from viscorough_study.fits.infinite_grid import OMEGA, PLACES, place_in_range
+from viscorough_study.fits.infinite_grid import OMEGA
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.run.rule_costs import duration_text
@@ -202,10 +202,11 @@ def infinite_grid():
     names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for source, quantity in cells]
     rows = [f"| {hurst:g} | {expected:.3f} | {' | '.join(row)} |" for (hurst, expected), *row in cells.itertuples()]
     head = f"| *H* | *H*/(1 + *H*) | {' | '.join(names)} |"
-    places = list(map(place_in_range, table["omega"], table["omega_low"], table["omega_high"]))
+    at_end = table["omega"].isin(OMEGA[[0, -1]])
+    reaches_end = ~at_end & ((table["omega_low"] <= OMEGA[0]) | (table["omega_high"] >= OMEGA[-1]))
     text = (
-        f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {places.count(PLACES[2])} of "
-        f"these {len(table)} fits, and its interval reaches an end in {places.count(PLACES[1])} others."
+        f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {at_end.sum()} of "
+        f"these {len(table)} fits, and its interval reaches an end in {reaches_end.sum()} others."
     )
     return markdown_table(head, rows) + "\n" + paragraph(text)
 

@@ -14,14 +14,13 @@ import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
-from viscorough_study.fits.intervals import described, equivalence, interval, three_columns
+from viscorough_study.fits.intervals import described, equivalence, three_columns
 from viscorough_study.fits.scaling_collapse import COLUMNS as COLLAPSE_COLUMNS
 from viscorough_study.fits.scaling_collapse import QUANTITIES, collapse_table, curve_table, grids
 
 OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial exponents of the correction
 CURVES_END = 1.0  # X up to which curves are drawn
 FINDINGS = {True: "agrees", False: "departs", None: "undecided"}
-PLACES = ("inside the range tried", "interval reaches an end", "at an end")  # of ω in the range of OMEGA
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
     **{name: COLLAPSE_COLUMNS[name] for name in ("hurst", "quantity")},
@@ -43,14 +42,6 @@ COLUMNS = {
         "",
     ),
 }
-
-
-def place_in_range(omega, low, high):
-    """One of `PLACES`: the position of ω and its interval in the range tried."""
-    ends = OMEGA[[0, -1]]
-    if np.isclose(omega, ends).any():
-        return PLACES[2]
-    return PLACES[1] if low <= ends[0] or high >= ends[1] else PLACES[0]
 
 
 def points(hurst_grids, quantity, *, elements_min, x_high):
@@ -99,7 +90,7 @@ def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
         if not fits:
             continue
         low, high = min(row["beta_low"] for row in fits), max(row["beta_high"] for row in fits)
-        expected, undetermined = exponent_beta(hurst), place_in_range(*interval(fits[0], "omega")) == PLACES[2]
+        expected, undetermined = exponent_beta(hurst), fits[0]["omega"] in OMEGA[[0, -1]]
         agrees = None if undetermined else equivalence((low - expected, high - expected), -tolerance, tolerance)
         row = {"source": source, "hurst": hurst, "quantity": quantity, "law": law, "grids": len(hurst_grids)}
         row |= fits[0] | {"expected": expected, "ranges": len(fits), "ranges_low": low, "ranges_high": high}

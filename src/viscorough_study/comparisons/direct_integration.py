@@ -17,10 +17,9 @@ from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 
 COLUMNS = {
     "case": ("indenter", ""),
-    "alpha": ("α of κ ∝ X^α: exact for sphere and cone, 1/(1 + H) for rough discs", "1"),
     "contact_count": ("elements in contact", "1"),
     "depth_ratio": ("depth of the direct integration over the elastic depth under the force GFt/η", "1"),
-    "with_gamma": ("this ratio by Eq. 8: 1/Γ(2 − α)", "1"),
+    "with_gamma": ("this ratio by Eq. 8: 1/Γ(2 − α); α is exact for sphere and cone, 1/(1 + H) for rough discs", "1"),
 }
 # α of bodies z ∝ rⁿ, for which F ∝ u^(1 + 1/n): k ∝ F^(1/(n + 1))
 BODIES = {"sphere": (reference.sphere(1.0), 1 / 3), "cone": (reference.cone(1.0), 1 / 2)}
@@ -62,4 +61,4 @@ def _rows(case, alpha, events, impulse, elastic_depth):
     counts = events.contact_count[events.event_at(impulse)]
     ratios = events.depth_at(impulse) / elastic_depth
     factor = 1 / gamma_function(2 - alpha)
-    return [(case, alpha, count, ratio, factor) for count, ratio in zip(counts, ratios, strict=True)]
+    return [(case, count, ratio, factor) for count, ratio in zip(counts, ratios, strict=True)]

@@ -25,12 +25,10 @@ COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
     **{name: COLLAPSE_COLUMNS[name] for name in ("hurst", "quantity")},
     "law": ("power: A X^β; corrected: A X^β exp(B X^ω)", ""),
-    "grids": ("grids fitted together", "1"),
     "elements_min": ("elements in contact at which the fit begins", "1"),
     "x_high": ("X at which the fit ends", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
     **described("beta", "exponent of an infinitely fine grid", ends="of its 95 % interval over realizations"),
-    "ranges": ("ranges fitted", "1"),
     "ranges_low": ("lowest end of the intervals in all ranges", "1"),
     "ranges_high": ("highest end of the intervals in all ranges", "1"),
     "amplitude": ("A", "1"),
@@ -92,8 +90,8 @@ def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
         low, high = min(row["beta_low"] for row in fits), max(row["beta_high"] for row in fits)
         expected, undetermined = exponent_beta(hurst), fits[0]["omega"] in OMEGA[[0, -1]]
         agrees = None if undetermined else equivalence((low - expected, high - expected), -tolerance, tolerance)
-        row = {"source": source, "hurst": hurst, "quantity": quantity, "law": law, "grids": len(hurst_grids)}
-        row |= fits[0] | {"expected": expected, "ranges": len(fits), "ranges_low": low, "ranges_high": high}
+        row = {"source": source, "hurst": hurst, "quantity": quantity, "law": law}
+        row |= fits[0] | {"expected": expected, "ranges_low": low, "ranges_high": high}
         rows.append(row | {"finding": FINDINGS[agrees]})
     return pd.DataFrame(rows, columns=list(COLUMNS))
 

@@ -24,7 +24,6 @@ COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
     "realizations": ("realizations in the ensemble", "1"),
     **described("decades", "decades of X over which the local slope is constant within the tolerance"),
-    "draws": ("synthetic ensembles of each kind", "1"),
     "power_law_passes": ("share of synthetic power laws with the scatter of this ensemble that pass the test", "1"),
     "power_law_fails": ("share of them that fail it", "1"),
     "control_passes": ("share that pass of ensembles with the mean curve of the control", "1"),
@@ -119,7 +118,7 @@ def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_mi
     x, margin = ensemble["x"].values, 10 ** (half_width * (1 + ROUNDING))
     chosen = (x >= x_range[0] / margin) & (x <= x_range[1] * margin)
     log_x, log_y = np.log(x[chosen]), np.log(ensemble["velocity"].values[:, chosen])
-    row = {"hurst": ensemble["hurst"].item(), "realizations": len(log_y), "draws": draws}
+    row = {"hurst": ensemble["hurst"].item(), "realizations": len(log_y)}
     if not np.isfinite(log_y).all():
         return row
     options = {"half_width": half_width * np.log(10), "tolerance": tolerance, "random": random}

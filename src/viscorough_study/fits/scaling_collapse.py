@@ -38,7 +38,6 @@ COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
     "quantity": ("; ".join(f"{name}: {text}" for name, text in QUANTITIES.items()), ""),
     "x_high": ("X up to which curves are compared, from elements_min elements in contact on", "1"),
-    "grids": ("grids compared", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
     "p_value": ("share of independent realizations of one curve with a larger spread around their common curve", "1"),
     "beta_low": ("lowest exponent with which the curves collapse at the 5 % level; empty if there is none", "1"),
@@ -163,7 +162,7 @@ def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
     curves = [(grid, grid.curve(quantity, x_high)) for grid in hurst_grids]
     curves = [(grid, tuple(values[..., ::THINNED] for values in curve)) for grid, curve in curves if curve is not None]
     expected = exponent_beta(hurst)
-    row = {"grids": len(curves), "expected": expected, "finding": FINDINGS[2]}
+    row = {"expected": expected, "finding": FINDINGS[2]}
     if len(curves) < 2:
         return row
     tried = expected + np.arange(-TRIED, TRIED + STEP / 2, STEP)

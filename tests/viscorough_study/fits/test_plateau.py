@@ -78,4 +78,4 @@ def test_curves_that_do_not_reach_all_abscissae_are_undecided():
     curves[0, -40:] = np.nan
     short = ensemble_of(X, curves).isel(rms_convention=0)
     columns = plateau_row(short, None, resamples=20, draws=2, random=np.random.default_rng(1), **OPTIONS)
-    assert columns == {"hurst": 0.7, "realizations": 20, "draws": 2}
+    assert columns == {"hurst": 0.7, "realizations": 20}

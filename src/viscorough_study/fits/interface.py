@@ -10,6 +10,7 @@ mean of g over ln X on it. Lines of the MDR have κ_c = 1.
 
 import numpy as np
 import pandas as pd
+from scipy.ndimage import label
 
 from viscorough_study.ensembles.flat_punch import ensembles_on_grids
 from viscorough_study.ensembles.pool import select
@@ -81,7 +82,5 @@ def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
 
 def run_around(allowed, place):
     """Indices of the run of allowed abscissae around `place`, with this one."""
-    outside = np.flatnonzero(~allowed)
-    first = outside[outside < place].max(initial=-1) + 1
-    last = outside[outside > place].min(initial=len(allowed))
-    return np.arange(first, last)
+    runs, _ = label(allowed | (np.arange(len(allowed)) == place))
+    return np.flatnonzero(runs == runs[place])

@@ -28,6 +28,8 @@ class ContactEvents(NamedTuple):
 
     depth, pressure_sum, tangent_sum : u, ΣP and Σq
     count : elements in contact just beyond the event
+
+    The fields are in the order of those of a ContactState.
     """
 
     depth: np.ndarray
@@ -83,14 +85,15 @@ def solve(
     """
     if candidates > max_count and not 0 < contact.count < max_count:
         return None  # the contact only grows
-    depth_step, others = depth - contact.reduced_depth, _without(np.arange(candidates), contact.members)
-    deflection, rate = _deflections_at(elements, *contact.member_loads(), others)
+    loads, depth_step = contact.member_loads(), depth - contact.reduced_depth
+    others = _without(np.arange(candidates), loads.members)
+    deflection, rate = _deflections_at(elements, *loads, others)
     gap = deflection - contact.reduced_depth + elements.initial_gap[others]
     # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
     overlap = -ROUNDING * depth
     is_early = gap + depth_step * (1 - LATE * depth_step / depth) * (rate - 1) < overlap
-    members = np.sort(np.append(contact.members, others[is_early]))
-    possible = np.append(contact.members, others[gap + depth_step * (rate - 1) < overlap])
+    members = np.sort(np.append(loads.members, others[is_early]))
+    possible = np.append(loads.members, others[gap + depth_step * (rate - 1) < overlap])
     for _ in range(_MAX_ITERATIONS):
         if members.size > max_count:
             return None
@@ -122,10 +125,11 @@ def follow_events(
     Returns ContactEvents after the given contact, the ContactState at the last event, and whether ΣP exceeds its limit
     before another element touches. Elements that touch at the same depth, to rounding, are one event.
     """
+    loads = contact.member_loads()
     with uninterrupted():
         depth, total, stiffness, members, factor = _follow(
             elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
-            contact.members, contact.reduced_pressure, min(most, elements.initial_gap.size), pressure_sum,
+            loads.members, loads.pressure, min(most, elements.initial_gap.size), pressure_sum,
         )  # fmt: skip
     count = np.arange(contact.count, contact.count + depth.size)
     # The first entry is the given contact. The last event is known to be complete only if no element is left.

@@ -77,7 +77,7 @@ def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
     Those elements are loaded that lie no deeper below the highest one of their block than it deflects itself, as if
     with the ellipse of pressures of a Hertzian contact.
     """
-    row, column = elements.map_place
+    row, column = elements.places_on_map()
     block = row // _SIDE * pressure.shape[1] + column // _SIDE
     members = np.flatnonzero(pressure.ravel()[block])
     block, gap = block[members], elements.initial_gap[members]
@@ -172,8 +172,8 @@ class ForceSearch:
         if contact.count < _FEWEST_BLOCKS or least <= below.reduced_depth:
             solver.candidates(largest, largest)  # so that the first contact does not rank more
             return nothing
-        pressure = np.zeros(blocks.heights.shape)
-        pressure[coarse.elements.places_on_map(contact.members)] = unit * contact.reduced_pressure
+        of_blocks, pressure = contact.member_loads(), np.zeros(blocks.heights.shape)
+        pressure[coarse.elements.places_on_map(of_blocks.members)] = unit * of_blocks.pressure
         largest = solver.depth_of_box(least, largest)  # ranks elements
         likely = min(likely, largest)
         loads = _loads_in_blocks(solver.elements, pressure)

@@ -314,14 +314,14 @@ class ContactSolver:
 
     def _lost_contact(self, before: ContactState, after: ContactState) -> tuple[int, float]:
         """Number of elements that left the contact in a step, and the largest gap there, reduced."""
-        if after.fields and before.fields and before.fields.initial_gap is after.fields.initial_gap:
-            places = self._loops.difference(before.fields.inside, after.fields.inside)
-            return places.size, after.fields.gap(places).max(initial=0)
         if after.fields and before.fields:
-            lost = self._loops.new_members(before.fields, after.fields)
+            _, places = self._loops.new_places(before.fields, after.fields)
         else:
             lost = np.setdiff1d(before.members, after.members, assume_unique=True)
-        return lost.size, after.fields.gap(after.fields.place[lost]).max(initial=0) if after.fields else np.inf
+            if not after.fields:
+                return lost.size, np.inf
+            places = after.fields.place[lost]
+        return places.size, after.fields.gap(places).max(initial=0)
 
 
 def _has_fields_on(grid: GridSolver, contact: ContactState) -> bool:

@@ -91,13 +91,8 @@ class Elements:
         """Lower bound of the initial gaps of all elements but the `count` first ones; infinite if there are no more."""
         return float(self.initial_gap[count]) if count < self.initial_gap.size else self.ranked_depth
 
-    @property
-    def map_place(self) -> tuple[Integers, Integers]:
-        """Rows and columns of the ranked elements in the indenter's heights."""
-        return self.places_on_map(slice(None))
-
-    def places_on_map(self, ranks: Integers | slice) -> tuple[Integers, Integers]:
-        """Rows and columns in the indenter's heights of elements of given ranks."""
+    def places_on_map(self, ranks: Integers | slice = slice(None)) -> tuple[Integers, Integers]:
+        """Rows and columns in the indenter's heights of elements of given ranks, or of all ranked ones."""
         return self.row[ranks] + self.origin[0], self.column[ranks] + self.origin[1]
 
 
@@ -209,11 +204,6 @@ class ContactState:
     def members(self) -> Integers:
         """Elements in contact, as ranks, shape (count,)."""
         return self.member_loads().members
-
-    @property
-    def reduced_pressure(self) -> Array:
-        """P on the members, shape (count,)."""
-        return self.member_loads().pressure
 
     @property
     def depth(self) -> float:

@@ -149,12 +149,7 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
     if before.fields is None or after.fields is None:  # the one after may have been solved from an earlier contact
         return np.inf
     loops = GridLoops(threads)
-    if after.fields.initial_gap is before.fields.initial_gap:
-        place = place_after = loops.difference(after.fields.inside, before.fields.inside)
-    else:
-        members, places = loops.new_members(after.fields, before.fields), before.fields.place
-        # Place 0, outside the grid, for elements that were not ranked.
-        place, place_after = np.append(places, 0)[np.minimum(members, places.size)], after.fields.place[members]
+    place_after, place = loops.new_places(after.fields, before.fields)
     if place.size < _PREDICTED_COUNT or not place.all():  # place 0 is outside the grid of the contact before
         return np.inf
     fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values

@@ -67,19 +67,20 @@ def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
     indenter, depths = pressing
     curve = press(indenter, depths, route)
     solver = ContactSolver(indenter, TOLERANCE, OPTIONS[route])
-    place, scale = solver.elements.map_place, 4 * np.pi * indenter.element_side
+    place, scale = solver.elements.places_on_map(), 4 * np.pi * indenter.element_side
     matrix, initial_gap = influence_matrix(*place, indenter.aspect), indenter.initial_gap[place]
     contact, inside = solver.unloaded_state(), np.zeros(indenter.elements, dtype=bool)
     for i, depth in enumerate(depths):
         contact = solver.advance(contact, depth)
         pressure, solver_gap = np.zeros(indenter.elements), solver.gap_map(contact)[place]
-        pressure[contact.members] = contact.reduced_pressure * solver.units.pressure
+        members, reduced_pressure, _ = contact.member_loads()
+        pressure[members] = reduced_pressure * solver.units.pressure
         gap = matrix @ pressure * indenter.element_side / (4 * np.pi) - depth + initial_gap
         limit = TOLERANCE * depth
         # The solver adds up its steps in single precision: the rounding error must stay far below the tolerance.
         np.testing.assert_allclose(solver_gap, gap, rtol=0, atol=0.05 * limit)
 
-        before, inside = inside, np.isin(np.arange(indenter.elements), contact.members)
+        before, inside = inside, np.isin(np.arange(indenter.elements), members)
         assert np.all(inside[before])
         assert np.all(pressure >= 0)
         assert np.all(solver_gap >= -limit)

@@ -59,7 +59,7 @@ def test_elements_ranked_step_by_step_are_those_of_all_at_once(indenter, few_ran
     assert everything.initial_gap[0] == 0 < elements.initial_gap[-1]
     assert np.all(np.diff(everything.initial_gap) >= 0)
     np.testing.assert_allclose(
-        everything.initial_gap * steps.units.length, indenter.initial_gap[everything.map_place], rtol=1e-15
+        everything.initial_gap * steps.units.length, indenter.initial_gap[everything.places_on_map()], rtol=1e-15
     )
     for depth in (0.01, 0.1, 0.3):
         elements = steps.up_to(elements, depth)

@@ -52,10 +52,16 @@ class GridLoops:
         """Largest |e| on the set, where e is stored in the flat field `gap`."""
         return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
 
-    # Over the elements, by rank.
+    # Over the elements, by rank, or where their places are the same over flat fields.
 
-    def new_members(self, after: GridFields, before: GridFields) -> Integers:
-        """Ranks of the elements in contact in GridFields, but not in other ones, which may be of another grid."""
+    def new_places(self, after: GridFields, before: GridFields) -> tuple[Integers, Integers]:
+        """Places of the elements in contact in GridFields, but not in other ones, on the grids of both.
+
+        Elements that have no place on the grid before have the place 0 there, which is outside the grid.
+        """
+        if after.initial_gap is before.initial_gap:
+            places = self.difference(after.inside, before.inside)
+            return places, places
 
         def new(i: int, j: int) -> Integers:
             is_new = after.inside[after.place[i:j]]
@@ -63,7 +69,8 @@ class GridLoops:
             is_new[: place.size] &= ~before.inside[place]
             return i + np.flatnonzero(is_new)
 
-        return joined(self.over(after.place, new))
+        ranks = joined(self.over(after.place, new))
+        return after.place[ranks], np.append(before.place, 0)[np.minimum(ranks, before.place.size)]
 
     # Over flat fields.
 

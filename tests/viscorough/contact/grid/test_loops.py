@@ -47,12 +47,16 @@ def test_sums_over_elements_that_join():
     np.testing.assert_allclose(sums, expected, rtol=1e-9)
 
 
-def test_new_members_and_the_lowest_value_are_found_in_every_block():
+def test_new_places_and_the_lowest_value_are_found_in_every_block():
     inside, other = np.random.default_rng(3).random((2, 2 * BLOCK)) < 0.5
     place = np.arange(2 * BLOCK)
-    before = SimpleNamespace(place=place[: BLOCK + 5], inside=other)  # when fewer elements were ranked
-    joined = GridLoops(3).new_members(SimpleNamespace(place=place, inside=inside), before)
-    np.testing.assert_array_equal(joined, np.flatnonzero(inside & ~(other & (place < BLOCK + 5))))
+    before = SimpleNamespace(
+        place=place[: BLOCK + 5], inside=other, initial_gap=None
+    )  # when fewer elements were ranked
+    after = SimpleNamespace(place=place, inside=inside, initial_gap=place)
+    places, places_before = GridLoops(3).new_places(after, before)
+    np.testing.assert_array_equal(places, np.flatnonzero(inside & ~(other & (place < BLOCK + 5))))
+    np.testing.assert_array_equal(places_before, np.where(places < BLOCK + 5, places, 0))
     for lowest_at in (0, -1):
         assert GridLoops(3).lowest(-1.0 * (place == place[lowest_at])) == -1
 

@@ -232,8 +232,7 @@ class _LoadingPath:
     def _advance(self, ratio: float) -> ContactState:
         """The contact at a depth larger by a ratio, or by less where the force at which to stop is reached before."""
         contact, last_depth = self._contact, self._contact.reduced_depth
-        missing = self._until_pressure_sum - contact.pressure_sum
         # The curve lies above its tangent: at this depth the force at which to stop is reached or just exceeded.
-        sufficient_depth = last_depth + missing / contact.tangent_sum
+        sufficient_depth = last_depth + (self._until_pressure_sum - contact.pressure_sum) / contact.tangent_sum
         depth = max(min(last_depth * ratio, sufficient_depth), last_depth * self._control.min_ratio)
         return self._solver.advance_reduced(contact, depth)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -87,7 +86,6 @@ def contact_at(
     by_depth, unit = force is None, indenter.length_unit
     if shear_modulus is not None:
         shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
-    given: Any
     if by_depth:
         given = units.numbers(depth, unit, unit, "depth")
     else:

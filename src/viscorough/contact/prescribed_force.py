@@ -120,7 +120,7 @@ class ForceSearch:
             self._below = self._above.pop()
         guess, sought = self._estimate(target)
         for attempt in range(_MAX_ATTEMPTS):
-            if guess and attempt == 0:
+            if guess:
                 depth = guess.reduced_depth
             elif (attempt == 0 or not self._below.count) and (
                 target <= self._first.pressure_sum or self._solver.is_flat
@@ -130,11 +130,10 @@ class ForceSearch:
                 contact = self._solver.advance_reduced(self._solver.unloaded_state(), depth)
                 return self._solver.settled(contact, depth, target)
             else:
-                guess = None
                 if not (self._below.count and self._above) and (contact := self._follow_events(target)):
                     return contact
                 depth, sought = self._guess(target, attempt)
-            contact = self._solver.advance_reduced(self._below, depth, sought, guess)
+            contact, guess = self._solver.advance_reduced(self._below, depth, sought, guess), None
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
             other = self._above[-1] if self._above else self._below
             if contact.pressure_sum <= target:

@@ -289,8 +289,7 @@ class ContactSolver:
             require_for_box(self.indenter.heights, box, **self._of_memory)
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
-            of_grid: dict[str, Any] = {"threads": self.threads, "reach": reach}
-            self._grid = GridSolver(box, self.elements, self.tolerance, self.options, **of_grid)
+            self._grid = GridSolver(box, self.elements, self.tolerance, self.options, threads=self.threads, reach=reach)
         return self._grid
 
     def _checked(self, before: ContactState, after: ContactState) -> ContactState:

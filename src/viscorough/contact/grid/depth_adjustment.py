@@ -23,21 +23,19 @@ _LEAST_STIFFNESS = 0.28
 class PrescribedForce:
     """ΣP that is to be reached, at a reduced depth up to the largest one; there a smaller sum is accepted.
 
-    loops : GridLoops
+    size : of flat fields; loops : GridLoops
     """
 
-    def __init__(self, pressure_sum: float, largest_depth: float, loops: GridLoops) -> None:
+    def __init__(self, pressure_sum: float, largest_depth: float, size: int, loops: GridLoops) -> None:
         self._pressure_sum, self._largest_depth, self._loops = pressure_sum, largest_depth, loops
-        self._ones: Array = np.empty(0)  # kept from set to set
+        self._ones = np.ones(size, np.float32)
         self._stiffness = _LEAST_STIFFNESS
 
-    def prepare(self, search: ConjugateGradients, places: Integers, size: int) -> None:
+    def prepare(self, search: ConjugateGradients, places: Integers) -> None:
         """Prepare for another contact set, that of the ConjugateGradients.
 
-        places : of its elements in flat fields, which have this size
+        places : of its elements in flat fields
         """
-        if self._ones.size == 0:
-            self._ones = np.ones(size, np.float32)
         self._places, self._response = places, search.uniform_response(self._ones)
         self._stiffness = float(self._response.sum(dtype=float))
 

@@ -155,7 +155,7 @@ class ContactSearch:
             if changed or search is None:
                 search = self._search(contact_set, search if 0 < releases < _HALVE_STEP_EVERY else None)
                 if force:
-                    force.prepare(search, contact_set.places, inside.size)
+                    force.prepare(search, contact_set.places)
             search.precondition(self.residual)
             if force:
                 depth = force.adjust_depth(search, pressure, change, depth)

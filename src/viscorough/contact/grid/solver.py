@@ -121,7 +121,7 @@ class GridSolver:
         search = self._search
         start = self._predicted if contact.fields else self._guessed
         pressure, change, inside = start(contact, depth)
-        prescribed = PrescribedForce(*force, self._loops) if force else None
+        prescribed = PrescribedForce(*force, self.initial_gap.size, self._loops) if force else None
         contact_set, depth = search.solve_pressure(pressure, change, inside, depth, prescribed)
         now = pressure, change, depth
         tangent, tangent_gap = initial_tangent(now, contact, contact_set, search.inner, self._loops)

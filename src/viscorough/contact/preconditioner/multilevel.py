@@ -190,8 +190,8 @@ class Preconditioner:
         changed = self._factor.update(inside)
         if not changed:
             return
-        squares, of_blocks = self._squares, self._factor.squares
-        squares[REACH:-REACH, REACH:-REACH] = of_blocks
+        squares = self._squares
+        squares[REACH:-REACH, REACH:-REACH] = self._factor.squares
         self._scale = (squares > 0) / np.sqrt(np.maximum(squares, _TINY))  # zero for blocks without contact
         self._changed += changed
         if self._changed > _OUTDATED * count:

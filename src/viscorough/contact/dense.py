@@ -87,7 +87,8 @@ def solve(
         return None  # the contact only grows
     loads, depth_step = contact.member_loads(), depth - contact.reduced_depth
     others = _without(np.arange(candidates), loads.members)
-    deflection, rate = _deflections_at(elements, *loads, others)
+    of_elements = elements.influence, elements.row, elements.column
+    deflection, rate = _deflections(*of_elements, *loads, others)
     gap = deflection - contact.reduced_depth + elements.initial_gap[others]
     # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
     overlap = -ROUNDING * depth
@@ -99,7 +100,7 @@ def solve(
             return None
         pressure, tangent = _pressure_and_tangent(elements, members, depth)
         others = _without(possible, members)
-        deflection, _ = _deflections_at(elements, members, pressure, tangent, others)
+        deflection, _ = _deflections(*of_elements, members, pressure, tangent, others)
         joining = others[deflection - depth + elements.initial_gap[others] < overlap]
         staying = members[pressure >= -ROUNDING * pressure.max()]
         if joining.size == 0 and staying.size == members.size:
@@ -145,11 +146,6 @@ def follow_events(
     solve_factored(factor[:last, :last], solution)
     order = np.argsort(members[:last])
     return events, _exact_contact(contact.units, last_depth, members[order], *solution[:, order]), ends_at_force
-
-
-def _deflections_at(elements: Elements, *loads_and_targets: Array | Integers) -> tuple[Array, Array]:
-    """`_deflections` of the elements."""
-    return _deflections(elements.influence, elements.row, elements.column, *loads_and_targets)
 
 
 def _without(elements: Integers, members: Integers) -> Integers:

@@ -13,12 +13,12 @@ from pathlib import Path
 import click
 import numpy as np
 import pandas as pd
-from measuring import LARGE_PAGES, output_option, run_timed, save_times
+from measuring import LARGE_PAGES, fit_cost, output_option, run_timed, save_times
 
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures import style
-from viscorough_study.performance import costs, timing
+from viscorough_study.performance import timing
 from viscorough_study.run.seeds import large_disc_key, realization_seed
 
 # Elements across the discs, and across one that is indented first to load the compiled functions.
@@ -80,7 +80,7 @@ def plot_large(table):
     time.plot(elements, table["wall_threads"], "s", markerfacecolor="none", color=style.GREY, label=threads)
     for axes, values in ((time, table["processor"]), (memory, table["memory"] / 1e9)):
         axes.plot(elements, values, "o", color=style.BLUE, label="measured (elements across)")
-        exponent, factor = costs.fit_cost(elements[larger], values[larger])
+        exponent, factor = fit_cost(elements[larger], values[larger])
         line = factor * elements[larger] ** exponent
         axes.plot(elements[larger], line, color=style.GREY, label=f"exponent {exponent:.2f}")
         for across, *at in zip(table["across"], elements, values, strict=True):

@@ -15,13 +15,13 @@ import numpy as np
 import other_solvers
 import pandas as pd
 import solver_race
-from measuring import LARGE_PAGES, output_option, run_timed, save_times
+from measuring import LARGE_PAGES, fit_cost, output_option, run_timed, save_times
 
 from viscorough import Indenter, contact_at
 from viscorough.contact.ranking import Ranking
 from viscorough.surfaces import self_affine_square
 from viscorough_study.figures import style
-from viscorough_study.performance import costs, timing
+from viscorough_study.performance import timing
 from viscorough_study.run.seeds import light_map_key, realization_seed
 
 # Elements across the maps, one map of each size, and contact fractions that the loads on them are chosen for.
@@ -93,7 +93,7 @@ def plot_light_contact(table):
     axes = figure.subplots()
     for fraction, rows in own.groupby("fraction"):
         larger = rows[min(len(rows) // 2, len(rows) - 2) :]
-        exponent, _ = costs.fit_cost(larger["number"], larger["wall_s"])
+        exponent, _ = fit_cost(larger["number"], larger["wall_s"])
         label = f"contact of {100 * fraction:g} %, $N^{{{exponent:.2f}}}$"
         axes.plot(rows["number"], rows["wall_s"], **looks[fraction], label=label)
     ranking = own.groupby("number")["ranking_s"].min()

@@ -1,15 +1,17 @@
-"""Common parts of the benchmarks: environment of what is timed, option and content of the output file."""
+"""Common parts of the benchmarks: environment of what is timed, output option and file, and growth of a cost."""
 
+import json
 import os
 import sys
 from pathlib import Path
 
 import click
+import numpy as np
 
 import viscorough
 from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
-from viscorough_study.run.tables import recorded, write_json, write_table
+from viscorough_study.run.tables import recorded, write_table
 
 # One thread, and the settings of the allocator of the workflow, both of which a process reads when it starts.
 ENVIRONMENT = {
@@ -28,6 +30,13 @@ def run_timed(main, **variables):
     if any(os.environ.get(name) != value for name, value in wanted.items()):
         os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | wanted)
     main()
+
+
+def write_json(content, path):
+    """Write a mapping as a JSON file, atomically; its folder is made if needed."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with atomic_write(path) as temporary:
+        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
 def save(content, output):
@@ -54,3 +63,11 @@ def save_times(table, output, columns, title, settings):
     described = {"columns": columns, "dimension": "measurement", "title": title, "attributes": attributes}
     write_table(table, output, output.with_suffix(".nc"), **described)
     click.echo(f"written to {output}")
+
+
+def fit_cost(number, cost):
+    """(a, c) of cost = c·number^a, by least squares of the logarithms; nan for fewer than two sizes."""
+    if len(number) < 2:
+        return np.nan, np.nan
+    exponent, logarithm = np.polyfit(np.log(number), np.log(cost), 1)
+    return exponent, np.exp(logarithm)

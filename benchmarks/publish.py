@@ -19,6 +19,7 @@ from pathlib import Path
 
 import click
 import pandas as pd
+from measuring import write_json
 from PIL import Image  # a dependency of matplotlib
 
 from viscorough.calibrated_law import CONSTANTS
@@ -26,7 +27,6 @@ from viscorough_study.fits.infinite_grid import OMEGA
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.run.rule_costs import duration_text
-from viscorough_study.run.tables import write_json
 from viscorough_study.verdicts.claims import markdown, overall
 from viscorough_study.verdicts.evidence import VERDICTS
 

@@ -8,6 +8,8 @@ are left out. The table has the columns of COLUMNS; a NetCDF file beside it also
 `make speed` runs it.
 """
 
+import gc
+import tracemalloc
 from dataclasses import dataclass
 from functools import partial
 
@@ -109,7 +111,7 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
     paths = {threads: partial(task.solve, threads) for threads in task.threads}
     own_rows, own_times, rows, fastest = [], {threads: [] for threads in paths}, [], np.inf
     for threads, path in paths.items():
-        solution, memory = timing.with_memory(path)
+        solution, memory = _with_memory(path)
         named = {"solver": "viscorough", "version": __version__, "threads": threads, "tolerance": task.residual}
         own_rows.append(_row(task, *task.outcome(solution), memory) | named)
     for name, command in solvers.items():
@@ -172,6 +174,16 @@ def _row(task, residual, force, iterations, memory):
         "iterations": iterations,
         "memory": memory,
     }
+
+
+def _with_memory(function):
+    """Result of a function, and the peak memory of its arrays [bytes]."""
+    gc.collect()
+    tracemalloc.start()
+    try:
+        return function(), tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
 
 
 def _loosest_tolerance(ask, required):

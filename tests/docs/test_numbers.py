@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 import publish
 import pytest
+from measuring import fit_cost
 
 from support.documentation import ROOT, read
 from support.study import CLAIMS
 from support.workflow import merged, read_settings
 from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.reference import exponent_beta
-from viscorough_study.performance.costs import fit_cost
 from viscorough_study.run.cases import disc_cases
 
 TABLE = publish.published_claims()

@@ -1,4 +1,4 @@
-"""Evaluation of tables of costs: Pareto front, fastest methods, and growth of the cost with the size."""
+"""Evaluation of tables of costs: Pareto front and fastest methods."""
 
 import numpy as np
 
@@ -13,11 +13,3 @@ def fastest(table, error):
     """{group of methods: its fastest row within an error}, without groups that do not reach it."""
     reached = table[table["error"] <= error]
     return {group: rows.loc[rows["wall_s"].idxmin()] for group, rows in reached.groupby("group", sort=False)}
-
-
-def fit_cost(number, cost):
-    """(a, c) of cost = c·number^a, by least squares of the logarithms; nan for fewer than two sizes."""
-    if len(number) < 2:
-        return np.nan, np.nan
-    exponent, logarithm = np.polyfit(np.log(number), np.log(cost), 1)
-    return exponent, np.exp(logarithm)

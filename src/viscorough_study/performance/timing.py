@@ -1,10 +1,8 @@
-"""Time and memory of computations; repeats are interleaved, so that changes of the machine's speed affect all alike."""
+"""Time of computations; repeats are interleaved, so that changes of the machine's speed affect all alike."""
 
-import gc
 import os
 import platform
 import time
-import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -20,16 +18,6 @@ def timed(function):
     """Result of a function, and its wall and processor seconds."""
     wall, processor = time.perf_counter(), time.process_time()
     return function(), time.perf_counter() - wall, time.process_time() - processor
-
-
-def with_memory(function):
-    """Result of a function, and the peak memory of its arrays [bytes]."""
-    gc.collect()
-    tracemalloc.start()
-    try:
-        return function(), tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
 
 
 def machine():

@@ -1,7 +1,6 @@
-"""Tidy tables, written as CSV and NetCDF, and results as JSON."""
+"""Tidy tables, written as CSV and NetCDF."""
 
 import json
-from pathlib import Path
 
 import xarray as xr
 
@@ -33,14 +32,6 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
     write_dataset(ds, nc_path)
     with atomic_write(csv_path) as temporary:
         table.to_csv(temporary, index=False, lineterminator="\n")
-
-
-def write_json(content, path):
-    """Write a mapping as a JSON file, atomically; its folder is made if needed."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(path) as temporary:
-        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
 def recorded(**mappings):

@@ -48,28 +48,17 @@ def _paper_discs(settings):
     shared = {"pool": "discs", "indentation": settings["indentation"] | indentation}
     base = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
     for hurst in discs["hurst"]:
-        surface = settings["surface"] | {"hurst": hurst}
         for combination in sorted(discs["combinations"], key=lambda combination: combination["number"] // 10):
-            tens = combination["number"] // 10
-            case = cases.setdefault(hurst_id(hurst) + (f"_{tens}0" if tens else ""), shared | base | {"ensembles": []})
-            ensemble = {
-                "elements": discs["elements"],
-                "realizations": discs["realizations"],
-                "name": f"{hurst_id(hurst)}_c{combination['number']}",
-                "spawn_key": seeds.disc_key(hurst, combination["number"]),
-                "combination": combination,
-                "surface": surface | {name: combination[name] for name in ("rms", "diameter")},
-            }
-            case["ensembles"].append(ensemble)
+            number, lengths = combination["number"], {name: combination[name] for name in ("rms", "diameter")}
+            surface = settings["surface"] | {"hurst": hurst} | lengths
+            ensemble = _ensemble(f"{hurst_id(hurst)}_c{number}", seeds.disc_key(hurst, number), surface, discs)
+            name = hurst_id(hurst) + (f"_{number // 10}0" if number >= 10 else "")
+            case = cases.setdefault(name, shared | base | {"ensembles": []})
+            case["ensembles"].append(ensemble | {"combination": combination})
         for name, changed in _changes_of_variants(settings).items():
-            ensemble = {
-                "name": f"{hurst_id(hurst)}_{name}",
-                "spawn_key": seeds.variant_key(hurst, name),
-                "elements": discs["elements"],
-                "surface": settings["surface"] | changed | UNIT_DISC | {"hurst": hurst},
-                "realizations": variants["realizations"],
-            }
-            cases[ensemble["name"]] = shared | _joint_description([ensemble], variants["batch"], name)
+            surface = settings["surface"] | changed | UNIT_DISC | {"hurst": hurst}
+            ensemble = _ensemble(f"{hurst_id(hurst)}_{name}", seeds.variant_key(hurst, name), surface, discs | variants)
+            cases[ensemble["name"]] = _joint_case([ensemble], variants["batch"], name, **shared)
     return cases
 
 
@@ -99,21 +88,23 @@ def _size_discs(settings):
         ("controls", [sizes["control"]], seeds.size_control_key),
     ):
         ensembles = [
-            {"name": group, "spawn_key": key(change["hurst"], grid["elements"]), "surface": surface | change, **grid}
+            _ensemble(group, key(change["hurst"], grid["elements"]), surface | change, grid)
             for change, grid in itertools.product(changes, sizes["discs"])
         ]
-        cases[group] = shared | _joint_description(ensembles, sizes["batch"], group)
+        cases[group] = _joint_case(ensembles, sizes["batch"], group, **shared)
     return cases
 
 
-def _joint_description(ensembles, batch, group):
-    """Group, ensembles, realizations and batch of a case whose ensembles are batched in sequence."""
-    return {
-        "group": group,
-        "ensembles": ensembles,
-        "realizations": sum(ensemble["realizations"] for ensemble in ensembles),
-        "batch": batch,
-    }
+def _ensemble(name, spawn_key, surface, grid):
+    """An ensemble of a case; grid : settings, among them its realizations, and elements or points."""
+    numbers = {key: grid[key] for key in ("elements", "points", "realizations") if key in grid}
+    return {"name": name, "spawn_key": spawn_key, "surface": surface} | numbers
+
+
+def _joint_case(ensembles, batch, group, **shared):
+    """A case whose ensembles are batched in sequence; shared : what it has in common with other cases."""
+    realizations = sum(ensemble["realizations"] for ensemble in ensembles)
+    return shared | {"group": group, "ensembles": ensembles, "realizations": realizations, "batch": batch}
 
 
 def line_cases(settings):
@@ -122,25 +113,18 @@ def line_cases(settings):
     A description has the form of a case of discs, with points instead of elements, the arguments of self_affine_line as
     surface, and until_x instead of indentation.
     """
-    lines, sizes = settings["lines"], settings["sizes"]
+    lines, sizes, cases = settings["lines"], settings["sizes"], {}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
     surface = {name: settings["surface"][name] for name in names} | UNIT_LINE
-
-    def ensemble(name, hurst, key, grid):
-        numbers = {"points": grid["points"], "realizations": grid["realizations"]}
-        return {"name": name, "spawn_key": key, "surface": surface | {"hurst": hurst}} | numbers
-
-    cases = {}
     for hurst in lines["hurst"]:
-        line = ensemble(hurst_id(hurst), hurst, seeds.line_key(hurst), lines)
-        cases[line["name"]] = {"pool": "lines", "until_x": settings["indentation"]["until_x"]}
-        cases[line["name"]] |= _joint_description([line], lines["batch"], "lines")
+        line = _ensemble(hurst_id(hurst), seeds.line_key(hurst), surface | {"hurst": hurst}, lines)
+        until_x = settings["indentation"]["until_x"]
+        cases[line["name"]] = _joint_case([line], lines["batch"], "lines", pool="lines", until_x=until_x)
     powers = [
-        ensemble("sizes", hurst, seeds.size_line_key(hurst, grid["points"]), grid)
+        _ensemble("sizes", seeds.size_line_key(hurst, grid["points"]), surface | {"hurst": hurst}, grid)
         for hurst, grid in itertools.product(sizes["hurst"], sizes["lines"])
     ]
-    cases["sizes"] = {"pool": "size_lines", "until_x": sizes["until_x"]}
-    cases["sizes"] |= _joint_description(powers, sizes["batch"], "sizes")
+    cases["sizes"] = _joint_case(powers, sizes["batch"], "sizes", pool="size_lines", until_x=sizes["until_x"])
     return cases
 
 
@@ -181,23 +165,17 @@ def batches(case):
     return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
 
 
-def realizations(batch):
-    """First realization of a batch, and the one after its last."""
-    first, last = batch.split("-")
-    return [int(first), int(last) + 1]
-
-
 def batch_ensembles(case, batch):
     """Ensembles of a batch, each with name, spawn_key, surface, elements or points, and numbers of its realizations.
 
     numbers : first realization of the batch in this ensemble, and the one after its last
     """
-    first, end = realizations(batch)
+    first, last = map(int, batch.split("-"))
     parts, before = [], 0
     for ensemble in case["ensembles"]:
         after = before + ensemble["realizations"]
-        if before < end and first < after:
-            parts.append(_in_batch(ensemble, [max(first - before, 0), min(end, after) - before]))
+        if before <= last and first < after:
+            parts.append(_in_batch(ensemble, [max(first - before, 0), min(last + 1, after) - before]))
         before = 0 if case.get("side_by_side") else after
     return parts
 

@@ -29,7 +29,7 @@ if importlib.util.find_spec("viscorough_study") is None:  # an installed library
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.run import cases
-from viscorough_study.run.paper_data import number, read_paper
+from viscorough_study.run.paper_data import read_paper
 from viscorough_study.run.scans import scans
 from viscorough_study.run.settings import check_settings
 from viscorough_study.run.settings_files import read_settings_file

@@ -6,6 +6,7 @@ TABLE_INPUTS = {
     "measured_curves": curves_of_pool("measured"),
 }
 SEED = {"seed": config["seed"]}
+BETA_HURST_MIN = paper("numbers")["agreement"]["beta_hurst_min"]["value"]
 CONTROLS = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
 # {rule: further arguments of its function}
 TABLE_PARAMS = {
@@ -35,7 +36,7 @@ TABLE_PARAMS = {
     },
     "compare_zeta_laws": {
         "conventions": chosen("figures", "average", "rms_convention"),
-        "hurst_mins": [0.0, number(paper("numbers"), "agreement", "beta_hurst_min")],
+        "hurst_mins": [0.0, BETA_HURST_MIN],
         "fit": without("scaling", "resamples"),
         **chosen("scaling", "resamples"),
         **SEED,
@@ -50,7 +51,7 @@ TABLE_PARAMS = {
         **SEED,
     },
     "compare_level_placement": config["methods"]["scenes"] | chosen("methods", "repeats") | SEED,
-    "map_failures": config["stability"] | {"hurst_min": number(paper("numbers"), "agreement", "beta_hurst_min")} | SEED,
+    "map_failures": config["stability"] | {"hurst_min": BETA_HURST_MIN} | SEED,
     "fit_sizes": config["scaling"] | chosen("sizes", "windows") | SEED,
     "compare_grids": chosen("scaling", "elements_min") | chosen("figures", "rms_convention"),
     "fit_collapse": {

@@ -8,8 +8,3 @@ import yaml
 def read_paper(folder, name):
     """Content of one of the files `laws`, `numbers` and `claims` in the folder."""
     return yaml.safe_load((Path(folder) / f"{name}.yaml").read_text(encoding="utf-8"))
-
-
-def number(numbers, section, name):
-    """A number that the paper states; numbers : content of the file `numbers`."""
-    return numbers[section][name]["value"]

@@ -12,7 +12,6 @@ from viscorough_study.ensembles import pool
 from viscorough_study.fits.conventions import FITTED, as_text, select, source_values
 from viscorough_study.fits.intervals import NO_INTERVAL, equivalence, interval
 from viscorough_study.fits.power_law import find_region
-from viscorough_study.run.paper_data import number
 
 # From best to worst: the verdict on a claim is the worst of its cases.
 VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
@@ -87,7 +86,7 @@ class Evidence:
 
     def paper_value(self, section, name):
         """A number that the paper states (resources/paper/numbers.yaml)."""
-        return number(self.numbers, section, name)
+        return self.numbers[section][name]["value"]
 
     def are_few(self, realizations):
         """Whether these are fewer realizations than the paper averages for a curve."""

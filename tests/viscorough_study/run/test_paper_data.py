@@ -3,7 +3,6 @@
 import yaml
 
 from support.study import CLAIMS, NUMBERS, ROOT
-from viscorough_study.run.paper_data import number
 
 
 def test_every_number_has_its_place():
@@ -13,9 +12,10 @@ def test_every_number_has_its_place():
 
 
 def test_numbers_and_claims_agree():
-    assert number(NUMBERS, "boundary_elements", "elements") == 51432
-    assert str(number(NUMBERS, "boundary_elements", "elements")) in CLAIMS["elements"]["statement"]
-    assert f"{number(NUMBERS, 'agreement', 'beta_hurst_min'):g}" in CLAIMS["beta"]["statement"]
+    elements = NUMBERS["boundary_elements"]["elements"]["value"]
+    assert elements == 51432
+    assert str(elements) in CLAIMS["elements"]["statement"]
+    assert f"{NUMBERS['agreement']['beta_hurst_min']['value']:g}" in CLAIMS["beta"]["statement"]
 
 
 def test_settings_of_the_paper_are_its_numbers():
@@ -25,5 +25,5 @@ def test_settings_of_the_paper_are_its_numbers():
     assert default["discs"]["hurst"] == numbers["hurst_exponents"]
     assert len(default["discs"]["combinations"]) == numbers["combinations_per_hurst"]
     assert paper["discs"]["realizations"] >= numbers["realizations_min"]
-    assert paper["lines"]["points"] == number(NUMBERS, "reduction", "points")
-    assert len(paper["lines"]["hurst"]) == number(NUMBERS, "reduction", "hurst_count")
+    assert paper["lines"]["points"] == NUMBERS["reduction"]["points"]["value"]
+    assert len(paper["lines"]["hurst"]) == NUMBERS["reduction"]["hurst_count"]["value"]

@@ -6,12 +6,12 @@ import numpy as np
 
 from viscorough_study.page.results import Number
 from viscorough_study.performance.costs import fastest
+from viscorough_study.robustness.stress_solutions import MODELS
 from viscorough_study.verdicts.claims import counted_verdicts
 
 GROUPS = {"path": "elastic path", "marching": "direct integration in time", "model": "model"}
 ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # allowed errors of the velocity for which the fastest method is given
 ADVISED = 1e-2  # allowed error of the advice at the top of the page
-MODELS = ("MDR", "power law", "power law with Γ")
 
 
 def verdict_counts(results):

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from viscorough_study.page import answers, content
 from viscorough_study.page.discussion import QUANTITIES, discussion
-from viscorough_study.page.results import netcdf_of, read_results, read_table
+from viscorough_study.page.results import read_results, read_table
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
@@ -24,7 +24,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
     conventions = results.settings["claims"]["conventions"]
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)
     fastest = answers.fastest_methods(results)
-    costs_nc = netcdf_of(tables["rule_costs"])
+    costs_nc = Path(tables["rule_costs"]).with_suffix(".nc")
     return {
         "results": results,
         "conventions": conventions,
@@ -50,7 +50,6 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
         "quantities": QUANTITIES,
         "measured": content.measured(results, conventions),
         "choices": ("automatic", "best by hand", "naive"),
-        "settings": content.settings_list(results, scale),
         "costs": results.records("rule_costs"),
         **{name: read_recorded(costs_nc, name) for name in ("machine", "versions", "made")},
         "time": duration_text(results.tables["rule_costs"]["share_s"].sum()),

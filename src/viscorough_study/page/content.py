@@ -1,4 +1,4 @@
-"""Contents of the page below the answers: verdicts, tables, scale and settings of the run."""
+"""Contents of the page below the answers: verdicts, tables and scale of the run."""
 
 import json
 
@@ -141,32 +141,3 @@ def _pool(path):
         "groups": list(dict.fromkeys(group.tolist())),
         "description": description | description["ensembles"][0],
     }
-
-
-def settings_list(results, scale):
-    """[(name, value)] of the settings that a reader needs to judge the results."""
-    discs, lines = scale["discs"], scale["lines"]
-    surface, indentation = discs["description"]["surface"], discs["description"]["indentation"]
-    conventions, fit = results.settings["claims"]["conventions"], results.settings["scaling"]
-    listed = ", ".join
-    return [
-        ("root seed of every random surface", discs["description"]["seed"]),
-        ("discs, elements across", discs["description"]["elements"]),
-        ("discs, Hurst exponents", listed(map(str, discs["hurst"]))),
-        ("discs, combinations of force, viscosity, diameter and rms height", discs["cases_per_hurst"]),
-        ("discs, realizations of each combination", discs["realizations"]),
-        ("discs, further ensembles", listed(discs["groups"][1:]) or "none"),
-        ("discs, tolerance of depth and stiffness", indentation["tolerance"]),
-        ("surfaces, period over diameter", surface["period"]),
-        ("surfaces, amplitudes of the waves", surface["amplitudes"]),
-        ("surfaces, rms height over", surface["rms_over"]),
-        ("lines, points", lines["description"]["points"]),
-        ("lines, Hurst exponents", f"{len(lines['hurst'])} from {lines['hurst'][0]} to {lines['hurst'][-1]}"),
-        ("lines, realizations of each", lines["realizations"]),
-        ("fits, bootstrap samples", fit["resamples"]),
-        ("fits, fewest elements in contact", fit["elements_min"]),
-        ("fits, largest stiffness κ", fit["stiffness_max"]),
-        ("figures, mean over realizations", conventions["average"]),
-        ("figures, rms height h of the", conventions["rms_convention"]),
-        ("figures, window of the fit", conventions["window_rule"]),
-    ]

@@ -5,6 +5,7 @@ page, so that a reader or a test can look it up.
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import pandas as pd
 
@@ -49,9 +50,7 @@ class Results:
     def rows(self, table, **wanted):
         """Rows of a table with these values, {column: value}."""
         rows = self.tables[table]
-        for column, value in wanted.items():
-            rows = rows[rows[column] == value]
-        return rows
+        return rows[(rows[list(wanted)] == list(wanted.values())).all(axis=1)]
 
     def number(self, table, row, column):
         """The number at a place of a table."""
@@ -78,17 +77,12 @@ class Results:
 
 def read_results(tables):
     """Results of the tables at {name: path of the CSV}; the NetCDF files have the same names in the same folder."""
-    frames = {name: read_table(path) for name, path in tables.items()}
-    settings = {name: read_recorded(netcdf_of(path), "settings", missing={}) for name, path in tables.items()}
-    return Results(frames, settings)
+    files = {name: Path(path).with_suffix(".nc") for name, path in tables.items()}
+    settings = {name: read_recorded(file, "settings", missing={}) for name, file in files.items()}
+    return Results({name: read_table(path) for name, path in tables.items()}, settings)
 
 
 def read_table(path):
     """Table of a CSV file; empty texts, which pandas reads as nan, become ""."""
     table = pd.read_csv(path, keep_default_na=False, na_values=[""])
     return table.assign(**{name: table[name].astype(object).fillna("") for name in MAY_BE_EMPTY if name in table})
-
-
-def netcdf_of(csv_path):
-    """Path of the NetCDF file beside the CSV file of a table."""
-    return str(csv_path).removesuffix(".csv") + ".nc"

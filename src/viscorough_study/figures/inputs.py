@@ -1,8 +1,7 @@
 """Readers of figure inputs other than tables; a function has the name of the argument and takes {argument: path}."""
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.ensembles.pool import ensembles as ensembles_by
-from viscorough_study.ensembles.pool import select
+from viscorough_study.ensembles import pool
 from viscorough_study.ensembles.surface_files import read_surfaces
 
 
@@ -14,20 +13,20 @@ def examples(files):
 
 def ensembles(files):
     """Base discs of a pool, one ensemble per case."""
-    return list(ensembles_by(select(read_dataset(files["ensembles"]), group="base"), "case").values())
+    return list(pool.ensembles(pool.select(read_dataset(files["ensembles"]), group="base"), "case").values())
 
 
 def discs(files):
     """Base discs of a pool, one ensemble per Hurst exponent."""
-    by_hurst = ensembles_by(select(read_dataset(files["discs"]), group="base"), "hurst")
+    by_hurst = pool.ensembles(pool.select(read_dataset(files["discs"]), group="base"), "hurst")
     return [by_hurst[hurst] for hurst in sorted(by_hurst)]
 
 
 def lines(files):
     """Lines of a pool, one ensemble per Hurst exponent."""
-    return list(ensembles_by(read_dataset(files["lines"]), "hurst").values())
+    return list(pool.ensembles(read_dataset(files["lines"]), "hurst").values())
 
 
 def groups(files):
     """{group: ensemble of its measured surfaces} of a pool."""
-    return ensembles_by(read_dataset(files["groups"]), "group")
+    return pool.ensembles(read_dataset(files["groups"]), "group")

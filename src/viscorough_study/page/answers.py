@@ -54,13 +54,12 @@ def rough_disc(results):
 
 
 def fastest_methods(results):
-    """For every allowed error, {group: fastest method of the group that reaches it, or None}."""
-    rough, advice = rough_disc(results), []
+    """{allowed error: {group: fastest method of the group that reaches it, or None}}."""
+    rough, methods = rough_disc(results), {}
     for error in ERRORS:
         rows = fastest(rough, error)
-        named = {group: method_row(results, rows[group].name) if group in rows else None for group in GROUPS}
-        advice.append({"error": error, "fastest": named})
-    return advice
+        methods[error] = {group: method_row(results, rows[group].name) if group in rows else None for group in GROUPS}
+    return methods
 
 
 def method_row(results, row):

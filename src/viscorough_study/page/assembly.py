@@ -38,7 +38,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
         "differing": [claim for claims in verdicts.values() for claim in claims if claim["full_scale"]],
         "groups": answers.GROUPS,
         "fastest_methods": fastest,
-        "advised": next(row["fastest"] for row in fastest if row["error"] == answers.ADVISED),
+        "advised": fastest[answers.ADVISED],
         "advised_elements": results.number("methods", answers.rough_disc(results).index[0], "elements"),
         "best_model": answers.best_model(results),
         "failures": answers.failures(results),

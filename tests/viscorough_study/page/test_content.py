@@ -57,7 +57,7 @@ def test_the_fastest_method_that_reaches_an_error_is_named():
     table = table.assign(problem="rough disc, H = 0.8", hurst=0.8, elements=257)
     coarse = table.assign(elements=65, wall_s=1e-6, error=0.0)
     methods = Results({"methods": pd.concat([coarse, table], ignore_index=True)}, {})
-    fastest = {row["error"]: row["fastest"] for row in fastest_methods(methods)}
+    fastest = fastest_methods(methods)
     assert fastest[0.1]["path"] == method_row(methods, 6)
     assert [fastest[1e-2][group]["wall_s"].value for group in ("path", "marching")] == [0.2, 5.0]
     assert fastest[1e-2]["model"] is None

@@ -49,7 +49,7 @@ def measure(problem, repeats, *, longest, methods=METHODS):
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, one row per method and value.
     """
-    rows, functions, elements = {}, {}, len(problem.indenter.heights)
+    rows, functions, elements = [], {}, len(problem.indenter.heights)
     for method in methods:
         if elements > method.largest or (method.rough_only and problem.body):
             continue
@@ -57,23 +57,16 @@ def measure(problem, repeats, *, longest, methods=METHODS):
             logging.info("%s: %s, %s %g", problem.name, method.name, method.parameter, value)
             function = partial(method.run, problem, value)
             (velocity, steps), *seconds = timing.timed(function)
-            key = method.name, value
-            rows[key] = {
-                "method": method.name,
-                "group": method.group,
-                "parameter": method.parameter,
-                "value": float(value),
-                **dict(zip(TIMES, seconds, strict=True)),
-                "error": np.sqrt(np.mean((velocity / problem.velocity - 1) ** 2)),
-                "steps": steps,
-            }
+            error = np.sqrt(np.mean((velocity / problem.velocity - 1) ** 2))
+            row = {"method": method.name, "group": method.group, "parameter": method.parameter, "value": float(value)}
+            rows.append(row | {"error": error, "steps": steps} | dict(zip(TIMES, seconds, strict=True)))
             spent = min(seconds)  # on a busy machine only the wall time grows
             if spent < min(longest, MAX_REPEATED):
-                functions[key] = function
+                functions[len(rows) - 1] = function
             if spent >= longest:
                 break
     logging.info("%s: %d repeats", problem.name, repeats)
-    for key, seconds in timing.interleaved(functions, repeats).items():
-        rows[key] |= dict(zip(TIMES, seconds, strict=True))
-    table = pd.DataFrame(rows.values()).assign(problem=problem.name, hurst=problem.hurst, elements=elements)
+    for place, seconds in timing.interleaved(functions, repeats).items():
+        rows[place] |= dict(zip(TIMES, seconds, strict=True))
+    table = pd.DataFrame(rows).assign(problem=problem.name, hurst=problem.hurst, elements=elements)
     return table[list(COLUMNS)]

@@ -42,6 +42,5 @@ def _case_looks(cases):
     looks = {}
     for case in cases:
         body, _, method = case.partition("_")
-        marker = {"marker": methods[method]["marker"], "markerfacecolor": "none"}
-        looks[case] = {"color": bodies[body]["color"], **marker}
+        looks[case] = methods[method] | {"color": bodies[body]["color"], "markerfacecolor": "none"}
     return looks

@@ -100,7 +100,7 @@ def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: s
             raise ValueError(f"{name}: the shear modulus {shear_modulus:g} is too small; a larger one is needed")
         return [force / divisor for force in newtons] if isinstance(newtons, list) else newtons / divisor
     for force in forces if isinstance(forces, list | tuple) else [forces]:
-        if isinstance(force, str) or getattr(with_unit(force), "unit", ""):
+        if isinstance(force, str) or getattr(with_unit(force), "unit", None):
             text = "a force needs --shear-modulus or --young (shear_modulus in Python); a plain number is F/G"
             raise ValueError(f"{name} {force}: {text}")
     return numbers(forces, "N", length_unit, name)

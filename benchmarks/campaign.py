@@ -11,6 +11,7 @@ solutions give (viscorough.sum_rules).
 
 from functools import partial
 from multiprocessing import Pool
+from pathlib import Path
 from unittest.mock import patch
 
 import click
@@ -61,7 +62,7 @@ def failure(family, seed, case):
 @click.option("--family", type=click.Choice(list(FAMILIES)), help="Only this family.")
 @click.option("--case", type=click.IntRange(0), help="Only the case of this number.")
 @click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
-@click.option("--output", help="File to write, JSON.")
+@click.option("--output", type=click.Path(path_type=Path), help="File to write, JSON.")
 def main(cases, seed, family, case, cores, output):
     """Count silent failures; exit code 1 if there is any."""
     counts, failures = {}, []

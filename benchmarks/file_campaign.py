@@ -89,7 +89,7 @@ def difference(case, indenter):
 @click.option("--files", type=click.IntRange(1), default=10_000, show_default=True, help="Number of files.")
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Seed of all files.")
 @click.option("--only", type=click.IntRange(0), help="Number of the one file to try.")
-@click.option("--output", help="File to write, JSON.")
+@click.option("--output", type=click.Path(path_type=Path), help="File to write, JSON.")
 def main(files, seed, only, output):
     """Count files that are read as another map; exit code 1 if there is any, or an unambiguous one is refused."""
     began, counts, failures = time.perf_counter(), {}, []

@@ -173,7 +173,7 @@ def load():
 @click.option("--runs", type=click.IntRange(1), default=10_000, show_default=True, help="Number of runs.")
 @click.option("--seed", type=click.IntRange(0), default=2013, show_default=True, help="Seed of all runs.")
 @click.option("--only", type=click.IntRange(0), help="Number of the one run to try.")
-@click.option("--output", help="File to write, JSON.")
+@click.option("--output", type=click.Path(path_type=Path), help="File to write, JSON.")
 def main(runs, seed, only, output):
     """Count runs that break the contract; exit code 1 if there is any."""
     began, numbers = time.perf_counter(), range(runs) if only is None else [only]

@@ -33,9 +33,9 @@ class ContactEvents(NamedTuple):
     """
 
     depth: np.ndarray
-    count: np.ndarray  # type: ignore[assignment]  # in place of the method of a tuple
     pressure_sum: np.ndarray
     tangent_sum: np.ndarray
+    count: np.ndarray  # type: ignore[assignment]  # in place of the method of a tuple
 
 
 @njit
@@ -136,7 +136,7 @@ def follow_events(
     # The first entry is the given contact. The last event is known to be complete only if no element is left.
     complete = np.append(np.diff(depth) > ROUNDING * depth[1:], members.size == elements.count)
     complete[0] = False
-    events = ContactEvents(depth[complete], count[complete], total[complete], stiffness[complete])
+    events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
     ends_at_force = bool(total[-1] > pressure_sum)
     if events.depth.size == 0:
         return events, contact, ends_at_force

@@ -21,7 +21,7 @@ from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
 from viscorough.contact.state import ContactState
-from viscorough.contact.step_control import StepControl, contacts_ahead, division
+from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
 from viscorough.indenter import Indenter, positive
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Progress
@@ -134,7 +134,7 @@ def indent(
     else:
         solver = ContactSolver(indenter, tolerance, options, threads)
         levels = _LoadingPath(solver, until_fraction, until_force, progress).levels_from(start_fraction)
-    depth = solver.units.length * np.array([level.reduced_depth for level in levels])
+    depth = solver.units.length * np.array([level.depth for level in levels])
     force = solver.units.force * np.array([level.pressure_sum for level in levels])
     warn_beyond_theory("indent", indenter, depth[-1])
     return LoadingCurve(
@@ -151,11 +151,11 @@ def indent(
     )
 
 
-def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[ContactState]:
+def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:
     """The levels of so many contacts, which are solved one after the other."""
     levels = []
     for contact in contacts:
-        levels.append(contact.summary)
+        levels.append(Level.of(contact))
         progress(len(levels) / number)
     return levels
 
@@ -170,10 +170,10 @@ class _LoadingPath:
         # A little more, so that rounding does not leave the last level below the force.
         self._until_pressure_sum = (1 + ROUNDING) * until_force / solver.units.force
         self._contact = solver.first_contact()
-        self._levels = [self._contact.summary]
-        self._ahead = contacts_ahead()
+        self._levels = [Level.of(self._contact)]
+        self._ahead = ContactsAhead()
 
-    def levels_from(self, start_fraction: float) -> list[ContactState]:
+    def levels_from(self, start_fraction: float) -> list[Level]:
         """All levels; only a few of them below the start fraction."""
         self._approach(start_fraction * self._solver.elements.count)
         self._follow_events()
@@ -185,7 +185,7 @@ class _LoadingPath:
 
     def _add(self, contact: ContactState) -> None:
         self._contact = contact
-        self._levels.append(contact.summary)
+        self._levels.append(Level.of(contact))
         done = max(contact.count / self._until_count, contact.pressure_sum / self._until_pressure_sum)
         self._progress(min(done, 1.0) ** _PROGRESS_EXPONENT)
 
@@ -196,7 +196,7 @@ class _LoadingPath:
             contact = self._solver.advance_reduced(self._contact, self._contact.reduced_depth * ratio)
             # A contact beyond the start is kept for later: the interval that contains the start must be a short one.
             if contact.count >= start_count or contact.pressure_sum > self._until_pressure_sum:
-                self._ahead.append(contact)
+                self._ahead.keep(contact)
             else:
                 self._add(contact)
             if self._ahead:  # then levels approach the nearest of these contacts
@@ -211,9 +211,9 @@ class _LoadingPath:
         events, self._contact, _ = self._solver.follow_events(contact, most, self._until_pressure_sum)
         if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
             self._levels.pop()  # more elements touch at exactly that depth
-        self._levels += [ContactState(contact.units, *event) for event in zip(*events, strict=True)]
+        self._levels += [Level(*event) for event in zip(*events, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
-        self._ahead = contacts_ahead(contact for contact in self._ahead if contact.reduced_depth > nearest)
+        self._ahead = ContactsAhead(contact for contact in self._ahead if contact.reduced_depth > nearest)
 
     def _step_to_the_end(self) -> None:
         ratio = self._control.first_ratio(self._levels)
@@ -223,8 +223,8 @@ class _LoadingPath:
             step = self._ahead[-1].reduced_depth / self._contact.reduced_depth
             excess = self._control.excess(self._contact, self._ahead[-1])
             if excess > 1 and step > self._control.min_ratio:
-                divided = division(self._contact, self._ahead[-1])
-                self._ahead.append(self._solver.advance_reduced(self._contact, divided))
+                divided = division(Level.of(self._contact), Level.of(self._ahead[-1]))
+                self._ahead.keep(self._solver.advance_reduced(self._contact, divided))
                 continue
             self._add(self._ahead.pop())
             ratio = self._control.next_ratio(step, excess)

@@ -18,7 +18,7 @@ from viscorough.compilation import njit
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.state import ContactState, Elements, MemberLoads
-from viscorough.contact.step_control import contacts_ahead, interpolate
+from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.types import Array, Progress
@@ -95,7 +95,7 @@ class ForceSearch:
 
     def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
-        self._below, self._above = solver.unloaded_state(), contacts_ahead()
+        self._below, self._above = solver.unloaded_state(), ContactsAhead()
         # Up to how many elements in contact events are followed; the event of the last one may lie beyond the force.
         dense = solver.options.dense_contacts, solver.options.dense_interactions
         self._events = int(min(_EVENTS, *dense, solver.elements.count - 1))
@@ -139,7 +139,7 @@ class ForceSearch:
             if contact.pressure_sum <= target:
                 self._below = contact
             else:
-                self._above.append(contact)
+                self._above.keep(contact)
             if self._is_near(contact, other, target):
                 depth = contact.reduced_depth + (target - contact.pressure_sum) / contact.tangent_sum
                 settled = self._solver.settled(contact, depth, target)
@@ -213,22 +213,22 @@ class ForceSearch:
 
     def _next_depth(self, target: float, attempt: int) -> float:
         """Depth to solve next, between the nearest contacts below and above the force."""
-        below = self._below
-        by_tangent = below.reduced_depth + (target - below.pressure_sum) / below.tangent_sum
+        below = Level.of(self._below)
+        by_tangent = below.depth + (target - below.pressure_sum) / below.tangent_sum
         if below.count == self._solver.elements.count:
             return by_tangent
         if not self._above:
             # The power law through the last contact, whose exponent only grows where the contact does.
-            exponent = below.pressure_sum / (below.tangent_sum * below.reduced_depth)
+            exponent = below.pressure_sum / (below.tangent_sum * below.depth)
             ratio = (target / below.pressure_sum) ** exponent
-            return below.reduced_depth * (ratio if below.count >= _REPRESENTATIVE else min(ratio, _MAX_DEPTH_RATIO))
-        above = self._above[-1]
+            return below.depth * (ratio if below.count >= _REPRESENTATIVE else min(ratio, _MAX_DEPTH_RATIO))
+        above = Level.of(self._above[-1])
         if attempt % 2:  # converges for any convex curve
-            depth = min(by_tangent, above.reduced_depth - (above.pressure_sum - target) / above.tangent_sum)
+            depth = min(by_tangent, above.depth - (above.pressure_sum - target) / above.tangent_sum)
         else:
             depth = interpolate(below, above, np.array([target]))[0]
         # Both contacts are only as exact as the tolerance: where they are too close, the tangent gives the next depth.
-        return float(min(depth, above.reduced_depth) if depth > below.reduced_depth else by_tangent)
+        return float(min(depth, above.depth) if depth > below.depth else by_tangent)
 
     def _is_near(self, contact: ContactState, other: ContactState, target: float) -> bool:
         """Whether the tangent of a contact leads to the force: the stiffness changes by less than the tolerance.

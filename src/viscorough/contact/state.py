@@ -14,7 +14,7 @@ Inside the solver, u, g, P and e are in units of the largest initial gap, so tha
 unit of length; such quantities are called reduced. `Units` holds the factors that convert them.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -184,11 +184,6 @@ class ContactState:
     residual: float = 0.0
     loads: MemberLoads | None = None
     fields: GridFields | None = None
-
-    @property
-    def summary(self) -> "ContactState":
-        """The contact without loads and fields, which are most of its memory."""
-        return replace(self, loads=None, fields=None)
 
     def member_loads(self) -> MemberLoads:
         """The MemberLoads; on the grid they are gathered at every call."""

@@ -6,8 +6,7 @@ the bound; about three times the bound is accepted where the error predicted fro
 small enough.
 """
 
-from collections import deque
-from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -44,9 +43,29 @@ _TINY = 1e-30
 _MOST_AHEAD = 2
 
 
-def contacts_ahead(contacts: Iterable[ContactState] = ()) -> deque[ContactState]:
+@dataclass(frozen=True)
+class Level:
+    """The quantities of a contact that a loading curve stores; reduced as in state.ContactState."""
+
+    depth: float
+    pressure_sum: float
+    tangent_sum: float
+    count: int
+    residual: float = 0.0
+
+    @classmethod
+    def of(cls, contact: ContactState) -> "Level":
+        """The level of a contact."""
+        return cls(contact.reduced_depth, contact.pressure_sum, contact.tangent_sum, contact.count, contact.residual)
+
+
+class ContactsAhead(list):
     """Contacts already solved beyond the one that is wanted, the nearest last; few, as each takes memory."""
-    return deque(contacts, maxlen=_MOST_AHEAD)
+
+    def keep(self, contact: ContactState) -> None:
+        """Add a contact nearer than all others."""
+        self.append(contact)
+        del self[:-_MOST_AHEAD]
 
 
 class StepControl:
@@ -64,10 +83,10 @@ class StepControl:
         self.min_ratio = 1 + self._accuracy
         self.events = int(min(_EVENTS_PER_ACCURACY / self._accuracy, _MAX_EVENTS))
 
-    def first_ratio(self, levels: list[ContactState]) -> float:
+    def first_ratio(self, levels: list[Level]) -> float:
         """Ratio of the first step after contact events, from the bound over the last quarter of them."""
         first = levels[-1 - len(levels) // 4]
-        ratio = levels[-1].reduced_depth / first.reduced_depth
+        ratio = levels[-1].depth / first.depth
         if ratio == 1:
             return _INITIAL_DEPTH_RATIO
         return self.next_ratio(ratio, interpolation_bound(first, levels[-1]) / self._accuracy)
@@ -77,7 +96,7 @@ class StepControl:
 
         before, after : ContactStates
         """
-        bound = interpolation_bound(before, after) / self._accuracy
+        bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
         if not _NEGLIGIBLE_BOUND < bound < _RELAXED_BOUND:
             return bound  # the step is to be divided, or the next one much longer, in any case
         is_smooth = _predicted_error(before, after, self._threads) <= _PREDICTED_ERROR * self._accuracy
@@ -89,49 +108,48 @@ class StepControl:
         return np.clip(ratio ** np.clip(change, _LEAST_CHANGE, _LARGEST_CHANGE), self.min_ratio, _MAX_DEPTH_RATIO)
 
 
-def interpolation_bound(before: ContactState, after: ContactState) -> float:
+def interpolation_bound(before: Level, after: Level) -> float:
     """Bound on the relative error of the depth interpolated between two levels, from the convexity of the curve.
 
     It is the largest distance of the interpolated depth from the sides of the triangle of chord and tangents, which is
     evaluated where the tangents meet and at equal intervals of the force.
 
-    before, after : ContactStates
+    before, after : Levels
     """
     if after.count - before.count in (0, 1):
         return 0.0  # the two tangents are the curve
     rise = after.pressure_sum - before.pressure_sum
-    at_meeting = before.tangent_sum * _meeting(before, after) * (after.reduced_depth - before.reduced_depth) / rise
+    at_meeting = before.tangent_sum * _meeting(before, after) * (after.depth - before.depth) / rise
     share = np.append(_POINTS, min(max(at_meeting, _SMALLEST_SHARE), 1.0))
     force = np.minimum(before.pressure_sum + share * rise, after.pressure_sum)
     depth = interpolate(before, after, force)
-    chord = before.reduced_depth + share * (after.reduced_depth - before.reduced_depth)
+    chord = before.depth + share * (after.depth - before.depth)
     tangents = np.minimum(
-        before.reduced_depth + (force - before.pressure_sum) / before.tangent_sum,
-        after.reduced_depth - (after.pressure_sum - force) / after.tangent_sum,
+        before.depth + (force - before.pressure_sum) / before.tangent_sum,
+        after.depth - (after.pressure_sum - force) / after.tangent_sum,
     )
     return _BETWEEN_POINTS * (np.maximum(tangents - depth, depth - chord) / depth).max()
 
 
-def division(before: ContactState, after: ContactState) -> float:
+def division(before: Level, after: Level) -> float:
     """Depth at which to divide the interval between two levels: where their tangents meet.
 
     If the stiffness jumps at one depth, it is this one. Otherwise it is near the middle of the interval.
     """
-    width = after.reduced_depth - before.reduced_depth
-    return before.reduced_depth + width * np.clip(_meeting(before, after), *_DIVISION)
+    return before.depth + (after.depth - before.depth) * np.clip(_meeting(before, after), *_DIVISION)
 
 
-def _meeting(before: ContactState, after: ContactState) -> float:
+def _meeting(before: Level, after: Level) -> float:
     """Depth at which the tangents of two levels meet, as a share of the interval between them."""
-    width = after.reduced_depth - before.reduced_depth
+    width = after.depth - before.depth
     rise = after.tangent_sum - before.tangent_sum
     missing = after.tangent_sum * width - (after.pressure_sum - before.pressure_sum)
     return missing / (rise * width) if rise > 0 else 0.5
 
 
-def interpolate(before: ContactState, after: ContactState, force: Array) -> Array:
-    """Depths interpolated between two contacts at reduced forces ΣP, as LoadingCurve.at_force does."""
-    forces, depths = (before.pressure_sum, after.pressure_sum), (before.reduced_depth, after.reduced_depth)
+def interpolate(before: Level, after: Level, force: Array) -> Array:
+    """Depths interpolated between two Levels at reduced forces ΣP, as LoadingCurve.at_force does."""
+    forces, depths = (before.pressure_sum, after.pressure_sum), (before.depth, after.depth)
     stiffnesses = before.tangent_sum, after.tangent_sum
     return interpolate_between(forces, depths, stiffnesses, after.count - before.count, force)[0]
 
@@ -166,5 +184,5 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
     above_tangent = added * sums[2:] * rise / predicted_rise
     force = before.pressure_sum + width * (share * before.tangent_sum + above_tangent)
     depth = before.reduced_depth + width * share
-    interpolated = interpolate(before, after, np.minimum(force, after.pressure_sum))
+    interpolated = interpolate(Level.of(before), Level.of(after), np.minimum(force, after.pressure_sum))
     return np.abs(interpolated / depth - 1).max()

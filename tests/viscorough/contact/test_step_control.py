@@ -6,15 +6,13 @@ import pytest
 from viscorough import Indenter, indent, march_events, self_affine_disc
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.solver import ContactSolver
-from viscorough.contact.state import ContactState, Units
-from viscorough.contact.step_control import StepControl, division, interpolate, interpolation_bound
+from viscorough.contact.step_control import Level, StepControl, division, interpolate, interpolation_bound
 
 
 def springs(gaps, depth):
-    """The contact of independent springs of stiffness 1 with these gaps."""
+    """The level of independent springs of stiffness 1 with these gaps."""
     overlap = np.maximum(depth - gaps, 0)
-    count = np.count_nonzero(overlap)
-    return ContactState(Units(1.0, 1.0), depth, count, overlap.sum(), count)
+    return Level(depth, overlap.sum(), np.count_nonzero(overlap), np.count_nonzero(overlap))
 
 
 @pytest.mark.parametrize(("least", "width"), [(0.0, 1.0), (0.31, 0.01), (0.5, 0.01), (0.5, 0.2), (0.78, 0.01)])
@@ -73,7 +71,7 @@ def test_the_bound_is_relaxed_only_where_a_small_error_is_predicted(indenter, de
     contact = solver.advance_reduced(solver.unloaded_state(), depths[0] / 2)
     before = solver.advance_reduced(contact, depths[0])
     after = solver.advance_reduced(before, depths[1])
-    bound = interpolation_bound(before, after) / tolerance
+    bound = interpolation_bound(Level.of(before), Level.of(after)) / tolerance
     assert 0.5 < bound < 3
     assert control.excess(before, after) == pytest.approx(bound / 3.3 if relaxed else bound)
 
@@ -87,6 +85,6 @@ def test_touches_before_a_dense_solution_are_not_predicted():
     before, after = contacts
     assert before.fields is not None
     assert after.fields is None
-    bound = interpolation_bound(before, after) / 1e-3
+    bound = interpolation_bound(Level.of(before), Level.of(after)) / 1e-3
     assert 1 < bound < 3
     assert StepControl(1e-3).excess(before, after) == pytest.approx(bound)

@@ -2,7 +2,7 @@
 
     python benchmarks/large_discs.py --output results/tables/large.csv --figure results/figures/large.png
 
-Each disc is indented in a process of its own, whose peak memory counts. `make large` runs it.
+Each disc is indented in a separate process, whose peak memory counts. `make large` runs it.
 """
 
 import resource

@@ -1,4 +1,4 @@
-"""Cost of one disc on grids from coarse to fine: the table, each row of a process of its own, and its figure."""
+"""Cost of one disc on grids from coarse to fine: the table, each row from a separate process, and its figure."""
 
 import re
 

@@ -79,6 +79,9 @@ report: settings
 docs: environment
 	$(BIN)/sphinx-build -q -W -E -b html docs build/docs
 
+# Tests run Python hundreds of times, which would compile every source again.
+unexport PYTHONDONTWRITEBYTECODE
+
 # What takes half a minute of `make test`, for the change at hand; COMMIT= compares with another commit than the last.
 COMMIT ?= HEAD
 check: environment

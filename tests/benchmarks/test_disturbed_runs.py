@@ -31,9 +31,9 @@ def test_measured_times_may_differ_and_nothing_else(tmp_path):
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """A workflow whose one job takes some seconds."""
+    """A workflow whose one job takes a second."""
     rule = 'rule wait:\n    output: "results/done.txt"\n    shell: "sleep {seconds} && echo done > {{output}}"\n'
-    (tmp_path / "Snakefile").write_text(rule.format(seconds=3))
+    (tmp_path / "Snakefile").write_text(rule.format(seconds=1))
     options = ["--cores", "1", "--rerun-incomplete", "--nolock"]  # locks of killed runs are removed by the workflow
     monkeypatch.setattr(chaos, "SNAKEMAKE", [sys.executable, "-m", "snakemake", *options])
     return tmp_path

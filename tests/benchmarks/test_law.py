@@ -10,7 +10,7 @@ from law_calibration import COLUMNS
 def test_law_is_calibrated_for_every_exponent_and_grid(tmp_path, monkeypatch):
     monkeypatch.setattr(law, "HURST", (0.4, 0.9))
     monkeypatch.setattr(law, "ACROSS", (17,))
-    monkeypatch.setattr(law, "RESAMPLES", 3)
+    monkeypatch.setattr(law, "RESAMPLES", 1)
     tables = []
     for cores in (1, 2):
         output = tmp_path / f"tables/{cores}.csv"

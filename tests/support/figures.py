@@ -50,7 +50,7 @@ def drawn_points(axes):
 
 def whole_on_page(figure):
     """Whether nothing that is drawn reaches beyond the page, once laid out."""
-    figure.draw_without_rendering()
+    figure.get_layout_engine().execute(figure)
     box, (width, height) = figure.get_tightbbox(FigureCanvasAgg(figure).get_renderer()), figure.get_size_inches()
     return box.x0 > -0.01 and box.y0 > -0.01 and box.x1 < width + 0.01 and box.y1 < height + 0.01
 

@@ -14,7 +14,7 @@ from support.workflow import HANGS, ROOT, copy_project, environment, merged, rea
 
 LONG = {
     "discs": {"hurst": [0.9], "realizations": 2, "combinations": read_settings("config")["discs"]["combinations"][:1]},
-    "lines": {"hurst": [0.9], "points": 16384, "realizations": 40, "batch": 20},
+    "lines": {"hurst": [0.9], "points": 16384, "realizations": 60, "batch": 20},
     "variants": {"cases": []},
 }
 POOL = "results/ensembles/lines.nc"
@@ -50,28 +50,38 @@ def batches(folder):
     return {path: path.stat().st_mtime_ns for path in (folder / "results/curves/lines/h09000").glob("*.nc")}
 
 
-@pytest.mark.parametrize("signal_number", [signal.SIGKILL, signal.SIGINT])
-def test_a_run_that_ends_while_it_makes_its_second_batch_goes_on(folder, signal_number):
+def make_until(folder, signal_number, batch):
+    """Output of a run that gets a signal while it makes this batch."""
     with make(folder) as run:
         deadline = time.monotonic() + HANGS
-        while len(list((folder / "results/logs/reduce_lines/h09000").glob("*.log"))) < 2:
-            assert time.monotonic() < deadline, "the run does not begin its second batch"
+        while len(list((folder / "results/logs/reduce_lines/h09000").glob("*.log"))) < batch:
+            assert time.monotonic() < deadline, f"the run does not begin batch {batch}"
             assert run.poll() is None, run.communicate()[0]
             time.sleep(0.02)
         os.killpg(run.pid, signal_number)
-        first, _ = run.communicate(timeout=HANGS)
+        output, _ = run.communicate(timeout=HANGS)
     assert run.returncode != 0
-    done = batches(folder)
-    assert done
     assert not (folder / POOL).exists()
-    killed = signal_number == signal.SIGKILL
-    assert bool(list((folder / ".snakemake/locks").glob("*"))) == killed, first
-    assert killed or "Traceback" not in first
+    return output
+
+
+def test_a_run_that_was_interrupted_and_then_killed_goes_on(folder):
+    locks = folder / ".snakemake/locks"
+    first = make_until(folder, signal.SIGINT, batch=2)
+    assert "Traceback" not in first
+    assert not list(locks.glob("*")), first
+    interrupted = batches(folder)
+    assert interrupted
+    second = make_until(folder, signal.SIGKILL, batch=3)
+    assert GOES_ON not in second
+    assert list(locks.glob("*")), second
+    killed = batches(folder)
+    assert interrupted.items() <= killed.items(), "what was made is kept"
     with make(folder) as run:
-        second, _ = run.communicate(timeout=HANGS)
-    assert run.returncode == 0, second
-    assert second.count(GOES_ON) == killed
-    assert done.items() <= batches(folder).items(), "what was made is kept"
+        third, _ = run.communicate(timeout=HANGS)
+    assert run.returncode == 0, third
+    assert third.count(GOES_ON) == 1
+    assert killed.items() <= batches(folder).items(), "what was made is kept"
     with xr.open_dataset(folder / POOL) as pool:
-        assert pool.sizes["realization"] == 40
+        assert pool.sizes["realization"] == 60
     assert not list((folder / "results").rglob("*.part"))

@@ -55,7 +55,7 @@ SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).pare
 
 
 def read_yaml(path):
-    return yaml.safe_load((PROJECT / path).read_text(encoding="utf-8"))
+    return yaml.load((PROJECT / path).read_text(encoding="utf-8"), yaml.CSafeLoader)
 
 
 def complete(settings, files):

@@ -6,13 +6,14 @@ Axis labels give units in parentheses after the symbol, and none for dimensionle
 """
 
 from functools import wraps
-from io import BytesIO
 from itertools import cycle
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from matplotlib import colormaps, rc_context
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
@@ -24,6 +25,7 @@ from viscorough_study.run.readable import readable
 MM = 1 / 25.4
 WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one
 SMALL = 7  # points
+DPI = 200  # of pictures
 FEW_DECADES = 2.1  # range of a logarithmic axis below which ticks at decades alone are too few
 GREY, PALE = "0.4", "0.8"
 # The colours of Okabe and Ito, distinguishable with any colour vision.
@@ -58,7 +60,6 @@ STYLE = {
     "legend.handlelength": 2.2,
     "legend.labelspacing": 0.3,
     "figure.constrained_layout.use": True,
-    "savefig.dpi": 200,
     "pdf.fonttype": 42,  # TrueType: embedded, and the text can be searched
 }
 
@@ -80,6 +81,7 @@ def figure(plot):
             raise ValueError(f"{plot.__name__}: the table has no rows; at least one is needed")
         drawn = plot(*arguments, **options)
         for axes in drawn.axes:
+            axes.tick_params(which="minor", labelbottom=False, labelleft=False)
             for axis in (axes.xaxis, axes.yaxis):
                 if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
                     _set_ticks(axis)
@@ -130,17 +132,17 @@ def save_figure(figure, *paths):
             if suffix == "png":
                 _save_picture(figure, temporary)
             else:
-                figure.savefig(temporary, format=suffix, metadata={"CreationDate": None} if suffix == "pdf" else None)
+                FigureCanvasPdf(figure).print_pdf(temporary, metadata={"CreationDate": None})
         figure.set_layout_engine("none")  # keeps the layout of the first format, which takes as long as drawing
 
 
 def _save_picture(figure, path):
     """Write a PNG file of at most 256 colours, a third of the size: the page embeds all figures."""
-    drawn = BytesIO()
-    figure.savefig(drawn, format="png", pil_kwargs={"compress_level": 1})
-    with Image.open(drawn) as picture:
-        colours = picture.convert("RGB").quantize(256, dither=Image.Dither.NONE)
-        colours.save(path, format="png", dpi=picture.info["dpi"], optimize=True)
+    figure.set_dpi(DPI)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    colours = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3]).quantize(256, dither=Image.Dither.NONE)
+    colours.save(path, format="png", dpi=(DPI, DPI), optimize=True)
 
 
 def hurst_looks(exponents):

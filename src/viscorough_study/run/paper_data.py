@@ -7,4 +7,4 @@ import yaml
 
 def read_paper(folder, name):
     """Content of one of the files `laws`, `numbers` and `claims` in the folder."""
-    return yaml.safe_load((Path(folder) / f"{name}.yaml").read_text(encoding="utf-8"))
+    return yaml.load((Path(folder) / f"{name}.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader)

@@ -45,15 +45,15 @@ class SourceDigests:
     def _module(self, path):
         """(digest of the syntax tree, files of the modules that are imported) of a file."""
         if path not in self._modules:
-            tree, imported, tables = ast.parse(path.read_text(encoding="utf-8")), set(), set()
-            for node in ast.walk(tree):
+            text, imported = path.read_text(encoding="utf-8"), set()
+            tree = ast.parse(text)
+            for node in _statements(tree):
                 if isinstance(node, _WITH_DOCSTRING) and ast.get_docstring(node, clean=False) is not None:
                     del node.body[0]
-                if isinstance(node, ast.Constant) and re.fullmatch(r"\w+\.csv", str(node.value)):
-                    tables.update(path.parent.glob(f"data/{node.value}"))
                 for name in _imported_names(node):
                     imported |= self._files(name.split("."))
-            contents = [table.read_text(encoding="utf-8") for table in sorted(tables)]
+            tables = {path.parent / "data" / name for name in re.findall(r"[\"'](\w+\.csv)[\"']", text)}
+            contents = [table.read_text(encoding="utf-8") for table in sorted(tables) if table.is_file()]
             self._modules[path] = _digest("\n".join([ast.dump(tree), *contents])), imported
         return self._modules[path]
 
@@ -66,6 +66,15 @@ class SourceDigests:
             if place.is_dir():
                 return set() if parts[-1] == "__version__" else set(place.rglob("*.py"))
         return set()
+
+
+def _statements(tree):
+    """Iterator over the statements of a syntax tree, at any depth, each before those in it."""
+    waiting = [tree]
+    while waiting:
+        yield (node := waiting.pop())
+        for block in ("body", "orelse", "finalbody", "handlers", "cases"):
+            waiting += getattr(node, block, ())
 
 
 def _imported_names(node):

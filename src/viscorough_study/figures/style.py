@@ -81,6 +81,7 @@ def figure(plot):
             raise ValueError(f"{plot.__name__}: the table has no rows; at least one is needed")
         drawn = plot(*arguments, **options)
         for axes in drawn.axes:
+            # Labels of minor ticks are empty, but would be measured one by one.
             axes.tick_params(which="minor", labelbottom=False, labelleft=False)
             for axis in (axes.xaxis, axes.yaxis):
                 if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
@@ -124,25 +125,33 @@ def new_panels(count, columns, height, rest, *, xlabel="", ylabel="", **sharing)
 def save_figure(figure, *paths):
     """Write a figure atomically to each path, in the format of its suffix (.png, .pdf).
 
-    The same figure gives the same bytes. Raises ValueError for a path that cannot be written.
+    The same figure gives the same bytes. Raises ValueError for another suffix, and for a path that cannot be written.
     """
     for path in paths:
-        suffix = Path(path).suffix[1:]
+        if (suffix := Path(path).suffix) not in _WRITERS:
+            raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(_WRITERS)}")
+        figure.set_dpi(DPI)
         with atomic_write(path) as temporary:
-            if suffix == "png":
-                _save_picture(figure, temporary)
-            else:
-                FigureCanvasPdf(figure).print_pdf(temporary, metadata={"CreationDate": None})
+            _WRITERS[suffix](figure, temporary)
         figure.set_layout_engine("none")  # keeps the layout of the first format, which takes as long as drawing
 
 
-def _save_picture(figure, path):
-    """Write a PNG file of at most 256 colours, a third of the size: the page embeds all figures."""
-    figure.set_dpi(DPI)
+# Figure.savefig would draw everything twice.
+
+
+def _write_pdf(figure, path):
+    FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None})
+
+
+def _write_png(figure, path):
+    """Of at most 256 colours, a third of the size: the page embeds all figures."""
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     colours = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3]).quantize(256, dither=Image.Dither.NONE)
     colours.save(path, format="png", dpi=(DPI, DPI), optimize=True)
+
+
+_WRITERS = {".png": _write_png, ".pdf": _write_pdf}
 
 
 def hurst_looks(exponents):

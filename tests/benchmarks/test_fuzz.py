@@ -6,7 +6,7 @@ import pytest
 from file_cases import generators
 
 
-@pytest.fixture(scope="module", autouse=True)
+@pytest.fixture(scope="session", autouse=True)
 def loaded():
     fuzz.load()
 

@@ -67,7 +67,9 @@ def environment(folder):
 
 # Every run is a copy of a process that has loaded Snakemake and what the packages of this project import.
 COPIES = multiprocessing.get_context("forkserver")
-COPIES.set_forkserver_preload(["snakemake.cli", "snakemake.workflow", "netCDF4", "numba", "pandas", "scipy.special"])
+PRELOADED = ["snakemake.cli", "snakemake.workflow", "snakemake.report.html_reporter", "smart_open", "nbformat"]
+PRELOADED += ["jsonschema", "netCDF4", "numba", "pandas", "scipy.special"]
+COPIES.set_forkserver_preload(PRELOADED)
 
 
 def _run_snakemake(arguments, folder, output):

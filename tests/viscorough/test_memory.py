@@ -38,7 +38,7 @@ def demand(compute, monkeypatch):
 
 
 ROW, COLUMN = np.mgrid[:300, :300]
-DISC, STRIP = np.hypot(ROW - 60, COLUMN - 60) < 60, np.ones((1, 10_000), bool)
+DISC, STRIP = np.hypot(ROW - 60, COLUMN - 60) < 60, np.ones((1, 30_000), bool)
 
 
 @pytest.fixture(scope="module")

@@ -8,12 +8,10 @@ import re
 import jinja2
 import pytest
 from matplotlib.colors import to_hex
-from matplotlib.text import Text
 
 from support.study import ROOT
 from support.workflow import FIGURES, read_settings
 from viscorough_study.figures.failure_map import LETTERS
-from viscorough_study.figures.style import SMALL
 
 REPORT = ROOT / "workflow" / "report"
 SYMBOLS = {r"\alpha": "α", r"\beta": "β", r"\zeta": "ζ", r"\kappa": "κ", r"\eta": "η", r"\lambda": "λ", r"\ln": "ln "}
@@ -80,12 +78,6 @@ def test_units_stand_in_parentheses_and_dimensionless_quantities_have_none(drawn
         assert not [label for label in labels if re.search(r" \[\w*\]$", label)]
         units |= {match.group(1) for label in labels if (match := re.search(r" \(([^()]*)\)$", label))}
     assert units - {"b"} == {"s", "m/s", "µm", "darker is higher"}  # region (b)
-
-
-def test_no_text_is_smaller_than_the_smallest_size(drawn):
-    for name, figure in drawn.items():
-        texts = [text for text in figure.findobj(Text) if text.get_text()]
-        assert min(text.get_fontsize() for text in texts) >= SMALL, name
 
 
 def test_a_hurst_exponent_looks_the_same_in_all_figures(drawn):

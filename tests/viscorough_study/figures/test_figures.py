@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.text import Text
 
 from support import figures as tables
 from support.figures import X, dashed, drawn_points, plot, published, whole_on_page, without_region
@@ -12,6 +13,7 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures.collapse import SHIFT
 from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
 from viscorough_study.figures.speed import FLOOR, RING
+from viscorough_study.figures.style import SMALL
 from viscorough_study.fits.conventions import fits
 from viscorough_study.performance.costs import pareto_front
 from viscorough_study.robustness.failure_map import VERDICTS
@@ -23,9 +25,12 @@ def close(line, expected):
     np.testing.assert_allclose(line, expected, rtol=1e-9)
 
 
-def test_figures_are_whole(drawn, scaling):
+def test_figures_are_whole_and_no_text_is_too_small(drawn, scaling):
     figures = drawn | {"no region": plot("conventions", without_region(scaling, 0.4), SHOWN)}
     assert [name for name, figure in figures.items() if not whole_on_page(figure)] == []
+    for name, figure in figures.items():
+        texts = [text for text in figure.findobj(Text) if text.get_text()]
+        assert min(text.get_fontsize() for text in texts) >= SMALL, name
 
 
 @pytest.mark.parametrize("name", tables.FROM_TABLES)

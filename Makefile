@@ -9,7 +9,7 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 # One line of progress; all that is printed is in results/run.log.
 WITH_PROGRESS = $(BIN)/python workflow/run_with_progress.py --
 
-.PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed light stability \
+.PHONY: help environment environment-slurm settings reproduce paper report check lint compiled test docs test-slurm bench speed light stability \
 	sizes law large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
 
 help:
@@ -84,23 +84,24 @@ unexport PYTHONDONTWRITEBYTECODE
 
 # What takes half a minute of `make test`, for the change at hand; COMMIT= compares with another commit than the last.
 COMMIT ?= HEAD
-check: environment
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
-	$(BIN)/snakefmt --check .
-	$(BIN)/lint-imports
-	$(BIN)/mypy
+check: lint
 	@tests=$$($(BIN)/python tests/changed.py $(COMMIT)) && if [ -n "$$tests" ]; then $(BIN)/python -m pytest $$tests; \
 		else echo "no file has changed since $(COMMIT) that has tests of its own"; fi
 
-test: environment docs
+lint: environment
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check .
 	$(BIN)/lint-imports
 	$(BIN)/mypy
+
+# What tests need besides the documentation, which takes as long.
+compiled: lint
 	$(BIN)/snakemake --lint
 	$(BIN)/python -m viscorough_study.run.kernels
+
+test: environment
+	@$(MAKE) --no-print-directory --jobs $(CORES) --output-sync docs compiled
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
 bench: environment

@@ -64,8 +64,14 @@ def test_every_kind_of_file_is_drawn_and_follows_the_cf_conventions(made, here, 
         assert len(picture.convert("L").getcolors()) > 20
 
 
-@pytest.mark.parametrize(("suffix", "start"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")])
-@pytest.mark.parametrize("file", ["march.nc", "heights.npy --spacing 1"])
+@pytest.mark.parametrize(
+    ("file", "suffix", "start"),
+    [
+        ("march.nc", "png", b"\x89PNG"),
+        ("march.nc", "svg", b"<?xml"),
+        ("heights.npy --spacing 1", "pdf", b"%PDF"),
+    ],
+)
 def test_figures_are_reproducible_in_every_format(here, suffix, start, file):
     for name in ("a", "b"):
         assert run(f"plot {file} -o {name}.{suffix}") == 0

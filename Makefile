@@ -9,8 +9,8 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 # One line of progress; all that is printed is in results/run.log.
 WITH_PROGRESS = $(BIN)/python workflow/run_with_progress.py --
 
-.PHONY: help environment environment-slurm settings reproduce paper report check lint compiled test docs test-slurm bench speed light stability \
-	sizes law large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
+.PHONY: help environment environment-slurm settings reproduce paper report check lint ready-to-test test docs test-slurm bench \
+	speed light stability sizes law large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -95,13 +95,13 @@ lint: environment
 	$(BIN)/lint-imports
 	$(BIN)/mypy
 
-# What tests need besides the documentation, which takes as long.
-compiled: lint
+# Takes as long as the documentation, which is made at the same time.
+ready-to-test: lint
 	$(BIN)/snakemake --lint
 	$(BIN)/python -m viscorough_study.run.kernels
 
 test: environment
-	@$(MAKE) --no-print-directory --jobs $(CORES) --output-sync docs compiled
+	@$(MAKE) --no-print-directory --jobs $(CORES) docs ready-to-test
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
 bench: environment

@@ -161,3 +161,7 @@ def test_a_changed_source_reruns_what_uses_it(editable, with_dependents, files, 
     for file in files:
         add_line(editable / file, "CHANGED = True")
     assert set(plan(editable, *TEST)) == with_dependents(directly) | LAST
+
+
+def test_forcing_one_rule(finished_once):
+    assert plan(finished_once, *TEST, "--forcerun", "plot_exponent") == dict.fromkeys(("plot_exponent", *LAST), 1)

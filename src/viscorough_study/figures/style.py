@@ -136,10 +136,8 @@ def save_figure(figure, *paths):
         figure.set_layout_engine("none")  # keeps the layout of the first format, which takes as long as drawing
 
 
-# Figure.savefig would draw everything twice.
-
-
 def _write_pdf(figure, path):
+    # Figure.savefig would draw everything twice.
     FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None})
 
 

@@ -66,11 +66,7 @@ def test_every_kind_of_file_is_drawn_and_follows_the_cf_conventions(made, here, 
 
 @pytest.mark.parametrize(
     ("file", "suffix", "start"),
-    [
-        ("march.nc", "png", b"\x89PNG"),
-        ("march.nc", "svg", b"<?xml"),
-        ("heights.npy --spacing 1", "pdf", b"%PDF"),
-    ],
+    [("march.nc", "png", b"\x89PNG"), ("march.nc", "svg", b"<?xml"), ("heights.npy --spacing 1", "pdf", b"%PDF")],
 )
 def test_figures_are_reproducible_in_every_format(here, suffix, start, file):
     for name in ("a", "b"):

@@ -33,7 +33,13 @@ FILES = {
     "scripts/direct.py": "from viscorough.deep.solver import solve\n\ndef main():\n    return solve(1)\n",
     "scripts/lazy.py": "from viscorough import solve\n",
     "scripts/attribute.py": "import viscorough\n",
-    "scripts/inside.py": "def main():\n    from viscorough_study import handed_on\n    return handed_on.OWN\n",
+    "scripts/inside.py": """
+        def main():
+            try:
+                import nothing
+            except ImportError:
+                from viscorough_study import handed_on
+        """,
     "scripts/again.py": "from viscorough_study.handed_on import other\n",
     "scripts/star.py": "from viscorough_study.everything import first\n",
     "scripts/nothing.py": "import json\n\ndef main():\n    return json.dumps(1)\n",

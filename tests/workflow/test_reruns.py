@@ -74,8 +74,8 @@ OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_
 def test_a_changed_setting_reruns_what_uses_it(finished_once, tmp_path, with_dependents, changed, directly):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
     assert set(planned) == with_dependents(directly) | LAST
-    if "surface" in changed:  # not of the variant that has its own period; two batches each of grids and their control
-        assert planned["generate_discs"] == planned["indent_surfaces"] == 2 + 4
+    if "surface" in changed:  # not of the variant that has its own period; one batch each of grids and their control
+        assert planned["generate_discs"] == planned["indent_surfaces"] == 2 + 2
 
 
 def test_changed_lines_rerun_nothing_of_discs_alone(finished_once, tmp_path, with_dependents):

@@ -7,7 +7,7 @@ from support.workflow import TEST, jobs, plan, snakemake
 
 @pytest.mark.parametrize(
     ("name", "indent_surfaces", "reduce_lines"),
-    [("config", 4 * (2 + 1) + 3, 22), ("paper", 4 * (8 + 8) + 4, 102), ("test", 2 * (1 + 1) + 4, 2 * 2 + 2)],
+    [("config", 4 * (2 + 1) + 3, 22), ("paper", 4 * (8 + 8) + 4, 102), ("test", 2 * (1 + 1) + 2, 2 * 2 + 1)],
 )
 def test_plans_of_every_scale(unmade, name, indent_surfaces, reduce_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")

@@ -51,7 +51,7 @@ if workflow.is_main_process:  # not one of its jobs
     remove_stale_locks()
 
 
-SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1])
+SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1], ".snakemake/sources.json")
 
 
 def read_yaml(path):

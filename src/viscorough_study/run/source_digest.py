@@ -12,22 +12,28 @@ lazily, therefore counts as an import of all modules of the package.
 
 import ast
 import hashlib
+import json
 import re
+import sys
 from pathlib import Path
+
+from viscorough.io.atomic import atomic_write
 
 PACKAGES = ("viscorough", "viscorough_study")
 _WITH_DOCSTRING = (ast.Module, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 
 
 class SourceDigests:
-    """Digests of scripts; modules are read once.
+    """Digests of scripts; modules are read once, and parsed again only if their text has changed.
 
     folder : of the packages
+    kept : file that keeps what was parsed for later runs; nothing depends on whether it is there
     """
 
-    def __init__(self, folder):
-        self.folder = Path(folder)
-        self._modules = {}
+    def __init__(self, folder, kept):
+        self.folder, self._kept, self._modules = Path(folder), Path(kept), {}
+        self._known = json.loads(self._kept.read_text()) if self._kept.is_file() else {}
+        self._used = {}
 
     def digest(self, script, *functions):
         """Sixteen hexadecimal digits for a script and the modules that it uses.
@@ -45,17 +51,21 @@ class SourceDigests:
     def _module(self, path):
         """(digest of the syntax tree, files of the modules that are imported) of a file."""
         if path not in self._modules:
-            text, imported = path.read_text(encoding="utf-8"), set()
-            tree = ast.parse(text)
-            for node in _statements(tree):
-                if isinstance(node, _WITH_DOCSTRING) and ast.get_docstring(node, clean=False) is not None:
-                    del node.body[0]
-                for name in _imported_names(node):
-                    imported |= self._files(name.split("."))
+            text = path.read_text(encoding="utf-8")
+            key = _digest(_PARSED_BY + text)
+            self._used[key] = tree, names = self._known.get(key) or _parsed(text)
             tables = {path.parent / "data" / name for name in re.findall(r"[\"'](\w+\.csv)[\"']", text)}
             contents = [table.read_text(encoding="utf-8") for table in sorted(tables) if table.is_file()]
-            self._modules[path] = _digest("\n".join([ast.dump(tree), *contents])), imported
+            imported = set().union(*(self._files(name.split(".")) for name in names))
+            self._modules[path] = _digest("\n".join([tree, *contents])), imported
         return self._modules[path]
+
+    def keep(self):
+        """Write the file that keeps what was parsed."""
+        if self._used.keys() != self._known.keys():
+            self._kept.parent.mkdir(exist_ok=True)
+            with atomic_write(self._kept) as temporary:
+                temporary.write_text(json.dumps(self._used))
 
     def _files(self, parts):
         """Files behind an imported name, such as ["viscorough", "lines", "SelfAffineLines"]; none if it is not ours."""
@@ -66,6 +76,16 @@ class SourceDigests:
             if place.is_dir():
                 return set() if parts[-1] == "__version__" else set(place.rglob("*.py"))
         return set()
+
+
+def _parsed(text):
+    """(digest of the syntax tree, imported names) of a text."""
+    tree, names = ast.parse(text), set()
+    for node in _statements(tree):
+        if isinstance(node, _WITH_DOCSTRING) and ast.get_docstring(node, clean=False) is not None:
+            del node.body[0]
+        names.update(_imported_names(node))
+    return _digest(ast.dump(tree)), sorted(names)
 
 
 def _statements(tree):
@@ -90,3 +110,6 @@ def _imported_names(node):
 
 def _digest(text):
     return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+_PARSED_BY = f"{sys.version}\n{Path(__file__).read_text(encoding='utf-8')}"

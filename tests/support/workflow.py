@@ -32,6 +32,12 @@ def copy_project(folder):
     return folder
 
 
+def copy_kernels(finished, folder):
+    """Tell a project in which nothing was run yet that the solvers are compiled, as one that is finished found."""
+    (folder / ".snakemake").mkdir()
+    shutil.copy(finished / ".snakemake/kernels", folder / ".snakemake")
+
+
 def copy_sources(folder):
     """Add a copy of the packages, so that tests can edit them."""
     shutil.copytree(ROOT / "src", folder / "src", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))

@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from support.cf import violations
-from support.workflow import FIGURES, TABLES, TEST, jobs, load_script, snakemake
+from support.workflow import FIGURES, TABLES, TEST, copy_kernels, jobs, load_script, snakemake
 from viscorough.surfaces import cut_disc
 
 ALL = [name for name, table in TABLES.items() if "target" not in table]  # tables of the default run
@@ -125,6 +125,7 @@ def test_report(finished):
 
 
 def test_a_failed_comparison_stops_the_workflow_and_is_named(finished, tmp_path):
+    copy_kernels(finished, tmp_path)
     strict = tmp_path / "strict.yaml"
     strict.write_text("validation: {limits: {area: 1.0e-4}}\n")
     text = snakemake(finished, *TEST, strict, "--directory", tmp_path, "--", "validation", fails=True)

@@ -3,7 +3,7 @@
 import os
 
 from support.command_line import python
-from support.workflow import ROOT, jobs, snakemake
+from support.workflow import ROOT, copy_kernels, jobs, snakemake
 
 OTHER = """
 module viscorough:
@@ -14,8 +14,9 @@ use rule * from viscorough as rough_*
 """
 
 
-def test_another_workflow_makes_a_figure_with_settings_of_its_own(tmp_path):
+def test_another_workflow_makes_a_figure_with_settings_of_its_own(finished_once, tmp_path):
     """Settings that it does not give are the default ones; files lie in its folder."""
+    copy_kernels(finished_once, tmp_path)
     (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=ROOT / "workflow/Snakefile"))
     planned = jobs(snakemake(tmp_path, "--dry-run", "--", "rough_figure_4"))
     assert planned["rough_indent_surfaces"] == 2 * 2 + 2

@@ -9,6 +9,7 @@ import xarray as xr
 from support.workflow import (
     TARGETS,
     TEST,
+    copy_kernels,
     copy_project,
     copy_sources,
     jobs,
@@ -111,9 +112,10 @@ def test_another_seed_reruns_the_curves_of_all_random_surfaces(finished_once, tm
     assert planned == dict.fromkeys(("generate_discs", "indent_surfaces", "reduce_lines"), 4)
 
 
-def test_surfaces_that_must_be_made_again_do_not_hide_what_depends_on_them(tmp_path):
+def test_surfaces_that_must_be_made_again_do_not_hide_what_depends_on_them(finished_once, tmp_path):
     """Kept ones after a change of the seed, and ones that a killed run marked as incomplete when they were there."""
     project, surfaces = copy_project(tmp_path), "results/surfaces/discs/h09000/0000-0001.nc"
+    copy_kernels(finished_once, project)
     planned = plan(project, *TEST)
     snakemake(project, *TEST, "--notemp", "--", surfaces)
     assert plan(project, *TEST, "--config", "seed=77") == planned

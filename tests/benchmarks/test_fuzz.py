@@ -6,11 +6,12 @@ import pytest
 from file_cases import generators
 
 
-@pytest.fixture(scope="session", autouse=True)
+@pytest.fixture(scope="session")
 def loaded():
     fuzz.load()
 
 
+@pytest.mark.usefixtures("loaded")
 def test_random_files_and_options_keep_the_contract(monkeypatch):
     """A breach is repeated by `python benchmarks/fuzz.py --seed 2013 --only NUMBER`; one file opens too slowly."""
     monkeypatch.setattr("viscorough.cli.files.LONGEST", 5)
@@ -20,6 +21,7 @@ def test_random_files_and_options_keep_the_contract(monkeypatch):
     assert codes["2"] > 15
 
 
+@pytest.mark.usefixtures("loaded")
 @pytest.mark.parametrize("line", fuzz_cases.COMMAND_LINES)
 def test_every_command_line_can_be_right(line):
     """Otherwise the readers would only be tried with what they refuse."""

@@ -8,12 +8,11 @@ import pytest
 from support.study import HURST, evidence, mdr_tables
 from viscorough_study.verdicts import mdr_criteria
 
-GOOD = evidence()
-
 
 def verdicts(claim, tolerance, **tables):
     """Verdicts on the cases of a claim by tables of `mdr_tables`, or by these."""
-    made = dataclasses.replace(GOOD, tables=GOOD.tables | tables)
+    good = evidence()
+    made = dataclasses.replace(good, tables=good.tables | tables)
     return [case["verdict"] for case in getattr(mdr_criteria, claim)(made, tolerance)]
 
 
@@ -43,7 +42,7 @@ def test_intervals_that_reach_over_the_tolerance_are_undecided():
 
 def test_quantities_are_taken_inside_region_b():
     table = mdr_tables()["reduction"]
-    outside = ~table["x"].between(*GOOD.regions[0.6])
+    outside = ~table["x"].between(*evidence().regions[0.6])
     assert outside.any()
     changed = table.assign(area_ratio=np.where(outside, 50.0, table["area_ratio"]))
     assert set(verdicts("line_area", 0.1, reduction=changed)) == {"reproduced"}

@@ -57,8 +57,14 @@ def test_adapter_solves_the_problem_of_the_request(mode, indenter):
     assert (coarse.residual < 1e-3).all()
     assert fine.iterations == 15  # five at each level, as the stand-in reports
     assert 0 < fine.wall_s < HANGS
-    assert other_solvers.solve(*levels, 1e-12, time_limit=1e-6) is None
     assert 1e7 < fine.memory < 1e9
+
+
+@pytest.mark.usefixtures("aspher")
+def test_a_solver_that_is_late_has_no_answer(indenter):
+    command = [sys.executable, "peers/aspher_adapter.py", "levels"]
+    depth, force = np.array([0.1]), np.array([0.1])
+    assert other_solvers.solve("aspher", command, indenter, depth, force, 1e-12, time_limit=1e-6) is None
 
 
 def test_pressure_outside_the_indenter_is_no_solution(indenter):

@@ -52,12 +52,11 @@ class SourceDigests:
         """(digest of the syntax tree, files of the modules that are imported) of a file."""
         if path not in self._modules:
             text = path.read_text(encoding="utf-8")
-            key = _digest(_PARSED_BY + text)
-            self._used[key] = tree, names = self._known.get(key) or _parsed(text)
             tables = {path.parent / "data" / name for name in re.findall(r"[\"'](\w+\.csv)[\"']", text)}
             contents = [table.read_text(encoding="utf-8") for table in sorted(tables) if table.is_file()]
-            imported = set().union(*(self._files(name.split(".")) for name in names))
-            self._modules[path] = _digest("\n".join([tree, *contents])), imported
+            key = _digest("\n".join([_PARSED_BY, text, *contents]))
+            self._used[key] = digest, names = self._known.get(key) or _parsed(text, contents)
+            self._modules[path] = digest, set().union(*(self._files(name.split(".")) for name in names))
         return self._modules[path]
 
     def keep(self):
@@ -78,14 +77,14 @@ class SourceDigests:
         return set()
 
 
-def _parsed(text):
-    """(digest of the syntax tree, imported names) of a text."""
+def _parsed(text, tables):
+    """(digest of the syntax tree and the tables, imported names) of the text of a module."""
     tree, names = ast.parse(text), set()
     for node in _statements(tree):
         if isinstance(node, _WITH_DOCSTRING) and ast.get_docstring(node, clean=False) is not None:
             del node.body[0]
         names.update(_imported_names(node))
-    return _digest(ast.dump(tree)), sorted(names)
+    return _digest("\n".join([ast.dump(tree), *tables])), sorted(names)
 
 
 def _statements(tree):

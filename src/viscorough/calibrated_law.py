@@ -29,7 +29,6 @@ from functools import cache
 from importlib import resources
 
 import numpy as np
-from scipy.integrate import simpson
 
 from viscorough.reference import one_element_stiffness
 from viscorough.types import Array, Numbers
@@ -77,6 +76,8 @@ def interface_velocity(
 
 def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Array:
     """∫₀^X g dX/X, the interface's part of u/h, by Simpson's rule; constants : as of `interface_velocity`."""
+    from scipy.integrate import simpson  # takes long to import
+
     logarithm = _STEP * np.arange(-_STEPS, 1)
     x = np.multiply.outer(np.asarray(x, dtype=float), np.exp(logarithm))
     return simpson(interface_velocity(x, *constants, across=across), dx=_STEP)

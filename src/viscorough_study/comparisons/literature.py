@@ -2,7 +2,6 @@
 
 import numpy as np
 import pandas as pd
-from scipy.integrate import quad
 from scipy.special import exprel
 
 from viscorough import reference
@@ -80,6 +79,8 @@ def persson_u0(hurst, band):
     hurst : H in (0, 1]; band : ζ, longest over shortest wavelength, above 1
     Source: B. N. J. Persson, Phys. Rev. Lett. 99, 125502 (2007).
     """
+
+    from scipy.integrate import quad  # takes long to import
 
     def integrand(s):  # substituting x = exp(s²): regular at x = 1, and defined at H = 1
         return 2 * np.exp((1 - 2 * hurst) * s**2) / np.sqrt(exprel((2 - 2 * hurst) * s**2))

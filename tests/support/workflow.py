@@ -5,7 +5,9 @@ import importlib.util
 import multiprocessing
 import os
 import re
+import runpy
 import shutil
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -71,23 +73,55 @@ def environment(folder):
     return kept | {"PYTHONPATH": str((folder if (folder / "src").is_dir() else ROOT) / "src")}
 
 
-# Every run is a copy of a process that has loaded Snakemake and what the packages of this project import.
+# Every run is a copy of a process that has loaded Snakemake and what the packages of this project import. So are its
+# jobs, most of which take less time than these imports, but for the first one of each script: it shows that the script
+# works in a new process.
 COPIES = multiprocessing.get_context("forkserver")
 PRELOADED = ["snakemake.cli", "snakemake.workflow", "snakemake.report.html_reporter", "smart_open", "nbformat"]
-PRELOADED += ["jsonschema", "netCDF4", "numba", "pandas", "scipy.special"]
+PRELOADED += ["jsonschema", "netCDF4", "numba", "pandas", "xarray", "scipy.special", "scipy.optimize"]
+PRELOADED += ["matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "support.workflow"]
 COPIES.set_forkserver_preload(PRELOADED)
 
 
-def _run_snakemake(arguments, folder, output):
-    variables = environment(folder)
+def _enter(variables, folder, output):
+    """Take over the variables, the folder and the output of a process that was asked for this copy."""
     os.environ.clear()
     os.environ.update(variables)
     sys.path[:0] = os.environ["PYTHONPATH"].split(os.pathsep)
     os.chdir(folder)
-    with open(output, "w") as file:
+    with open(output, "a") as file:
         os.dup2(file.fileno(), 1)
         os.dup2(file.fileno(), 2)
+
+
+def _run_snakemake(arguments, folder, output):
+    _enter(environment(folder), folder, output)
+    python = importlib.import_module("snakemake.script").PythonScript
+    in_new_process, scripts = python.execute_script, set()
+
+    def execute_script(self, path, edit=False):
+        if (script := self.path.get_filename()) not in scripts:
+            scripts.add(script)
+            in_new_process(self, path, edit)
+            return
+        job = COPIES.Process(target=_run_job, args=(path, dict(os.environ), os.getcwd(), output))
+        job.start()
+        with importlib.import_module("snakemake.benchmark").benchmarked(job.pid, self.bench_record):
+            job.join()
+        if job.exitcode:
+            raise subprocess.CalledProcessError(job.exitcode, path)
+
+    python.execute_script = execute_script
     importlib.import_module("snakemake.cli").main(arguments)
+
+
+def _run_job(path, *surroundings):
+    _enter(*surroundings)
+    try:
+        runpy.run_path(path, run_name="__main__")
+    except BaseException:
+        sys.excepthook(*sys.exc_info())
+        sys.exit(1)
 
 
 def snakemake(folder, *arguments, fails=False, cores=2):

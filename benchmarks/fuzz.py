@@ -162,8 +162,8 @@ def breaches(seed, numbers):
 
 def load():
     """Load modules and compiled code, once for all runs."""
-    for number, random in generators(0, range(len(COMMAND_LINES))):
-        arguments = valid_arguments(random, COMMAND_LINES[number])
+    for line, (_, random) in zip(COMMAND_LINES, generators(0, range(len(COMMAND_LINES))), strict=True):
+        arguments = valid_arguments(random, line)
         files, printed = files_of(random, arguments, faults=0), io.StringIO()
         with new_folder(files), contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
             cli.main(arguments)

@@ -222,7 +222,7 @@ def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
     """A curve on logarithmic axes, where both values are positive."""
     shown = (x > 0) & (y > 0)
     axes.set(xscale="log", yscale="log")
-    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # empty, but would be measured one by one
+    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # are not wanted, but would be measured
     look = {"linewidth": 0.5, "alpha": 0.5} if thin else {"marker": "o" if shown.sum() < _FEW else ""}
     axes.plot(x[shown], y[shown], color=_BLUE, **look)
 

@@ -35,7 +35,7 @@ def copy_project(folder):
 
 
 def copy_kernels(finished, folder):
-    """Tell a project in which nothing was run yet that the solvers are compiled, as one that is finished found."""
+    """Let a project in which nothing has run yet know, from a finished one, that the solvers are compiled."""
     (folder / ".snakemake").mkdir()
     shutil.copy(finished / ".snakemake/kernels", folder / ".snakemake")
 

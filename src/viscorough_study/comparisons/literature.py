@@ -79,7 +79,6 @@ def persson_u0(hurst, band):
     hurst : H in (0, 1]; band : ζ, longest over shortest wavelength, above 1
     Source: B. N. J. Persson, Phys. Rev. Lett. 99, 125502 (2007).
     """
-
     from scipy.integrate import quad  # takes long to import
 
     def integrand(s):  # substituting x = exp(s²): regular at x = 1, and defined at H = 1

@@ -10,6 +10,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
+from multiprocessing.connection import wait
 from pathlib import Path
 
 import yaml
@@ -98,6 +100,9 @@ def _run_snakemake(arguments, folder, output):
     _enter(environment(folder), folder, output)
     python = importlib.import_module("snakemake.script").PythonScript
     in_new_process, scripts = python.execute_script, set()
+    # Snakemake runs each job in a thread. A process can be asked only once for its exit code, and starting one asks all
+    # that have ended: a thread that joined its own at that moment would be told 255.
+    one_thread = threading.Lock()
 
     def execute_script(self, path, edit=False):
         if (script := self.path.get_filename()) not in scripts:
@@ -105,8 +110,11 @@ def _run_snakemake(arguments, folder, output):
             in_new_process(self, path, edit)
             return
         job = COPIES.Process(target=_run_job, args=(path, dict(os.environ), os.getcwd(), output))
-        job.start()
+        with one_thread:
+            job.start()
         with importlib.import_module("snakemake.benchmark").benchmarked(job.pid, self.bench_record):
+            wait([job.sentinel])
+        with one_thread:
             job.join()
         if job.exitcode:
             raise subprocess.CalledProcessError(job.exitcode, path)

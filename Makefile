@@ -121,7 +121,7 @@ light: environment
 
 stability: settings
 	$(SNAKEMAKE) -- stability
-	$(BIN)/python benchmarks/campaign.py --output results/campaign.json
+	$(BIN)/python benchmarks/campaign.py --cores $(CORES) --output results/campaign.json
 	$(BIN)/python benchmarks/sum_rules.py --output results/sum_rules.json
 
 sizes: settings

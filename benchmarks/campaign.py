@@ -4,8 +4,9 @@
 
 Families of cases are checked against the direct integration in time: levels at given depths, also against the dense
 influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels at
-given forces, once more as on large maps. The curves of a last one are checked by the two integrals that linear
-solutions give (viscorough.sum_rules).
+given forces, once more as on large maps. The curves of another one are checked by the two integrals that linear
+solutions give (viscorough.sum_rules), and whole curves of ordinary discs by the depth of complete contact: 257 elements
+across at a tolerance of 1e-2, and 65 or 129 across at random tolerances from 1e-1 to 1e-5.
 `make stability` runs it. A failure is printed with the command that repeats it.
 """
 
@@ -17,7 +18,16 @@ from unittest.mock import patch
 import click
 import numpy as np
 from measuring import save
-from random_curves import audit_failure, curve_failure, levels_failure, random_audit, random_curve, random_levels
+from random_curves import (
+    audit_failure,
+    curve_failure,
+    levels_failure,
+    random_audit,
+    random_curve,
+    random_levels,
+    random_whole_curve,
+    whole_curve_failure,
+)
 from tqdm import tqdm
 
 from viscorough.contact import prescribed_force, ranking
@@ -43,6 +53,12 @@ FAMILIES = {
     "forces": (partial(random_curve, at_forces=True), curve_failure, 1.0),
     "large_maps": (partial(random_curve, at_forces=True), as_on_large_maps, 1.0),
     "audits": (random_audit, audit_failure, 0.1),
+    "whole_discs": (partial(random_whole_curve, across=[257]), whole_curve_failure, 5 / 12),
+    "whole_tolerances": (
+        partial(random_whole_curve, across=[65, 129], largest_tolerance=1e-1, smallest_tolerance=1e-5),
+        whole_curve_failure,
+        5 / 12,
+    ),
 }
 
 

@@ -15,7 +15,8 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
-from viscorough.sum_rules import audit
+from viscorough.sum_rules import audit, complete_contact
+from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.integration.events import march_events
 from viscorough_study.robustness.stress_solutions import GRID_ONLY
@@ -76,6 +77,34 @@ def random_audit(generator):
     case = random_curve(generator)
     arguments = {"options": case.arguments["options"], "tolerance": 10.0 ** -generator.uniform(2, 4)}
     return RandomCurve(case.indenter, arguments)
+
+
+def random_whole_curve(generator, across, largest_tolerance=1e-2, smallest_tolerance=1e-2):
+    """A RandomCurve of an ordinary disc until complete contact, from a numpy Generator.
+
+    across : numbers of elements across, one of which is drawn; the Hurst exponent is drawn from 0 to 1
+    largest_tolerance, smallest_tolerance : limits of the tolerance, whose logarithm is drawn
+    """
+    disc = self_affine_disc(generator.random(), int(generator.choice(across)), seed=int(generator.integers(2**32)))
+    tolerance = largest_tolerance * (smallest_tolerance / largest_tolerance) ** generator.random()
+    return RandomCurve(disc, {"tolerance": tolerance, "until_fraction": 1.0})
+
+
+def whole_curve_failure(case, compute=indent):
+    """Error message on the end of the loading curve of a RandomCurve until complete contact; "" if it is right.
+
+    The last level must lie at the depth of complete contact that linear solutions give, to the tolerance.
+    """
+    curve, end = compute(case.indenter, **case.arguments), complete_contact(case.indenter)
+    tolerance, ratio = case.arguments["tolerance"], curve.depth[-1] / end.depth
+    if curve.contact_count[-1] < curve.elements:
+        return f"stops at a contact fraction of {curve.contact_fraction[-1]:.6g}"
+    if abs(ratio - 1) > tolerance:
+        return f"ends at {ratio:.6g} times the depth of complete contact, tolerance {tolerance:.2g}"
+    expected = end.stiffness * (curve.depth[-1] - end.mean_gap)
+    if abs(curve.force[-1] / expected - 1) > tolerance:
+        return f"force at the end off by {curve.force[-1] / expected - 1:.2g}, tolerance {tolerance:.2g}"
+    return ""
 
 
 def audit_failure(case):

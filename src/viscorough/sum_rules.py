@@ -19,22 +19,17 @@ from typing import Any
 import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays
-from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.complete_contact import joined_surface
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
-from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
 from viscorough.contact.ranking import elements_of
-from viscorough.contact.state import Elements
 from viscorough.contact.step_control import FINEST_ACCURACY
-from viscorough.errors import AccuracyWarning, ConvergenceError
+from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.summaries import unit_power, with_unit
 from viscorough.types import Array, Progress
 
-# Of the linear problems: norm of the residual over that of the right-hand side, and iterations after which
-# ConvergenceError is raised.
-_RESIDUAL, _MAX_ITERATIONS = 1e-12, 500
 # Relative difference of chord and tangent below which the curve is straight between two levels.
 _STRAIGHT = 1e-9
 # Points between two levels at which the interpolated curve is evaluated.
@@ -230,18 +225,16 @@ def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
         gap, stiffness = indenter.initial_gap, 4 * indenter.spacing * indenter.elements
         return CompleteContact(gap.mean(), stiffness / 2 * gap.var(), stiffness, gap.max(), indenter.length_unit)
     elements, units = elements_of(indenter, threads)
-    gap = elements.initial_gap
-    tangent, load = _solutions(elements, [np.ones(gap.size), gap], threads)
-    mean_gap = load.sum() / tangent.sum()
+    joined = joined_surface(elements, threads=threads)
     with np.errstate(over="ignore"):
-        energy = units.stiffness / 2 * load @ (gap - mean_gap) * np.square(units.length)
+        energy = units.stiffness / 2 * joined.load @ (elements.initial_gap - joined.mean_gap) * np.square(units.length)
     if not np.isfinite(energy):
         raise ValueError("the energy of complete contact is too large to represent; a larger unit of length is needed")
     return CompleteContact(
-        mean_gap=mean_gap * units.length,
+        mean_gap=joined.mean_gap * units.length,
         energy=energy,
-        stiffness=units.stiffness * tangent.sum(),
-        depth=(load / tangent).max() * units.length,
+        stiffness=units.stiffness * joined.tangent.sum(),
+        depth=joined.depth * units.length,
         length_unit=indenter.length_unit,
     )
 
@@ -410,37 +403,3 @@ def _merged(curve: LoadingCurve, added: LoadingCurve) -> LoadingCurve:
         for name in ("depth", "force", "stiffness", "contact_count", "residual")
     }
     return replace(curve, operator_applications=curve.operator_applications + added.operator_applications, **levels)
-
-
-def _solutions(elements: Elements, right_sides: list[Array], threads: int) -> list[Array]:
-    """Solutions x of K x = b for several b over the elements, by conjugate gradients in double precision."""
-    from scipy.sparse.linalg import LinearOperator, cg  # takes long to import
-
-    rows, columns = elements.shape
-    height, width = rows + 2 * REACH, columns + 2 * REACH
-    halfspace = Halfspace(rows, columns, aspect=elements.aspect, threads=threads)
-    preconditioner = Preconditioner(height, width, aspect=elements.aspect, precision=np.float64, threads=threads)
-    place = (elements.row + REACH) * width + elements.column + REACH
-    inside, field = np.zeros(height * width, dtype=bool), np.zeros(height * width)
-    inside[place] = True
-    preconditioner.prepare(inside, place.size)
-
-    def deflection(load: Array) -> Array:
-        halfspace.load[elements.row, elements.column] = load
-        return halfspace.apply()[elements.row, elements.column]
-
-    def precondition(residual: Array) -> Array:
-        field[place] = residual
-        return preconditioner.apply(field)[place]
-
-    shape = place.size, place.size
-    influence, inverse = (LinearOperator(shape, function, dtype=float) for function in (deflection, precondition))
-    solutions = []
-    for right in right_sides:
-        solution, failed = cg(influence, right, rtol=_RESIDUAL, maxiter=_MAX_ITERATIONS, M=inverse)
-        if failed:
-            raise ConvergenceError(
-                f"complete contact: the residual does not fall below {_RESIDUAL:.0e} in {_MAX_ITERATIONS} steps"
-            )
-        solutions.append(solution)
-    return solutions

@@ -9,7 +9,16 @@ from click.testing import CliRunner
 
 @pytest.mark.parametrize(
     ("family", "count"),
-    [("levels", 120), ("curves", 300), ("starts", 100), ("forces", 100), ("large_maps", 50), ("audits", 20)],
+    [
+        ("levels", 120),
+        ("curves", 300),
+        ("starts", 100),
+        ("forces", 100),
+        ("large_maps", 50),
+        ("audits", 20),
+        ("whole_discs", 3),
+        ("whole_tolerances", 10),
+    ],
 )
 def test_random_indenters_do_not_fail_silently(family, count):
     """A failure is repeated by `python benchmarks/campaign.py --family FAMILY --case NUMBER --seed 12`."""

@@ -5,7 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from random_curves import RandomCurve, audit_failure, curve_failure, levels_failure, random_audit
+from random_curves import (
+    RandomCurve,
+    audit_failure,
+    curve_failure,
+    levels_failure,
+    random_audit,
+    whole_curve_failure,
+)
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
@@ -60,6 +67,15 @@ def test_a_wrong_curve_is_found():
     assert curve_failure(CASE, thinned).startswith("depth at force")
     short = replace(CASE, arguments=CASE.arguments | {"until_fraction": 1.0})
     assert "stops at" in curve_failure(short, lambda indenter, **_: indent(indenter, until_fraction=0.5))
+
+
+def test_wrong_end_of_a_whole_curve_is_found():
+    whole = replace(CASE, arguments=CASE.arguments | {"until_fraction": 1.0})
+    assert whole_curve_failure(whole) == ""
+    assert "stops at" in whole_curve_failure(whole, lambda indenter, **_: indent(indenter, until_fraction=0.5))
+    beyond = altered(depth=lambda depth: 1.001 * depth)
+    assert "ends at 1.001 times the depth of complete contact" in whole_curve_failure(whole, beyond)
+    assert "force at the end off by" in whole_curve_failure(whole, altered(force=lambda force: 1.001 * force))
 
 
 def test_a_depth_before_the_first_given_one_is_checked():

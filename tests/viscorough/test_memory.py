@@ -13,6 +13,10 @@ import pytest
 
 from support.command_line import python
 from viscorough import Indenter, indent, self_affine_disc, self_affine_line
+from viscorough.contact.complete_contact import joined_surface
+from viscorough.contact.grid.memory_demand import require_for_complete_contact
+from viscorough.contact.ranking import elements_of
+from viscorough.contact.solver import ContactSolver
 
 # What any contact requires, however small.
 CONSTANT = 6e6
@@ -48,6 +52,32 @@ def compiled():
         indent(Indenter(np.random.default_rng(2).random((151, 151)), 1.0), tolerance=tolerance, until_fraction=0.6)
 
 
+def rough(present):
+    return Indenter(np.where(present, np.random.default_rng(1).random(present.shape), np.nan), 1.0)
+
+
+@pytest.mark.parametrize(
+    "present",
+    [np.ones((150, 150), bool), np.ones((500, 500), bool), DISC, STRIP, abs(ROW - COLUMN) < 2],
+    ids=["square", "large square", "disc on a large map", "strip", "diagonal"],
+)
+def test_memory_required_for_complete_contact_follows_what_its_arrays_take(present, monkeypatch):
+    elements = elements_of(rough(present))[0]
+    joined_surface(elements)  # compiles
+    tracemalloc.start()
+    joined_surface(elements)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < demand(partial(require_for_complete_contact, elements), monkeypatch) < 1.5 * peak + CONSTANT
+
+
+def test_complete_contact_too_large_for_the_memory_is_refused(monkeypatch):
+    solver = ContactSolver(rough(np.ones((50, 50), bool)), 1e-3)
+    monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=0))
+    with pytest.raises(MemoryError, match=r"^complete contact of a map of \(50, 50\) heights takes"):
+        solver.complete_contact()
+
+
 @pytest.mark.parametrize(
     ("present", "tolerance"),
     [
@@ -59,8 +89,7 @@ def compiled():
     ],
 )
 def test_memory_required_for_a_contact_follows_what_its_arrays_take(present, tolerance, monkeypatch, compiled):
-    indenter = Indenter(np.where(present, np.random.default_rng(1).random(present.shape), np.nan), 1.0)
-    press = partial(indent, indenter, tolerance=tolerance, until_fraction=0.6)
+    press = partial(indent, rough(present), tolerance=tolerance, until_fraction=0.6)
     tracemalloc.start()
     press()
     peak = tracemalloc.get_traced_memory()[1]

@@ -3,7 +3,9 @@
 One path determines the solution of the viscous problem for every force history (viscorough.viscous.correspondence).
 While few elements are in contact, every contact event (the next element touches) is a level: between events the curve
 is straight, so that interpolation is exact. Later, levels are placed where interpolation between them needs them
-(step_control).
+(step_control). A curve that reaches complete contact ends there, at a depth that two linear problems give
+(complete_contact): elements whose overlap stays within the tolerance need not join the contact, so that a search for
+the last ones could run on without end.
 """
 
 from __future__ import annotations
@@ -85,7 +87,8 @@ def indent(
     Returns
     -------
     LoadingCurve
-        The last level is the first one at or beyond `until_fraction` or `until_force`. An indenter of one height has a
+        The last level is the first one at or beyond `until_fraction` or `until_force`, or the depth from which all
+        elements touch, as in `complete_contact`: beyond it the curve is straight. An indenter of one height has a
         single level, at a depth of one spacing (√(dx dy) for two): its curve is the straight line from the origin
         through it.
 
@@ -167,6 +170,7 @@ class _LoadingPath:
         self._solver, self._progress = solver, progress
         self._control = StepControl(solver.tolerance, solver.threads)
         self._until_count = until_fraction * solver.elements.count
+        self._complete: ContactState | None = None  # computed when the path may have reached it
         # A little more, so that rounding does not leave the last level below the force.
         self._until_pressure_sum = (1 + ROUNDING) * until_force / solver.units.force
         self._contact = solver.first_contact()
@@ -181,7 +185,30 @@ class _LoadingPath:
         return self._levels
 
     def _is_unfinished(self) -> bool:
-        return self._contact.count < self._until_count and self._contact.pressure_sum < self._until_pressure_sum
+        contact, every = self._contact, self._solver.elements.count
+        if contact.pressure_sum >= self._until_pressure_sum or contact is self._complete:
+            return False
+        if contact.count < every or contact.fields is None:
+            return contact.count < self._until_count  # a dense solution is exact
+        # On the grid the last elements may join too early, within the tolerance.
+        return self._until_count > every - 1 and not self._solver.is_flat
+
+    def _advance_to(self, depth: float) -> ContactState:
+        """Return the contact at a larger depth, or the first complete contact if that is reached before.
+
+        The depth of complete contact is computed as soon as a contact may lie beyond it.
+        """
+        if self._complete is None:
+            contact = self._solver.advance_reduced(self._contact, depth)
+            if not self._solver.may_be_complete(contact):
+                return contact
+            self._complete = self._solver.complete_contact()
+            # Rounding and residuals must not decide the order of two levels at nearly the same depth.
+            is_before = depth * self._control.min_ratio < self._complete.reduced_depth
+            return contact if is_before else self._complete
+        if depth >= self._complete.reduced_depth:
+            return self._complete
+        return self._solver.advance_reduced(self._contact, depth)
 
     def _add(self, contact: ContactState) -> None:
         self._contact = contact
@@ -193,7 +220,7 @@ class _LoadingPath:
         """Take long steps towards the contact count from which on the curve is needed, shorter ones close to it."""
         ratio, most = _APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
         while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
-            contact = self._solver.advance_reduced(self._contact, self._contact.reduced_depth * ratio)
+            contact = self._advance_to(self._contact.reduced_depth * ratio)
             # A contact beyond the start is kept for later: the interval that contains the start must be a short one.
             if contact.count >= start_count or contact.pressure_sum > self._until_pressure_sum:
                 self._ahead.keep(contact)
@@ -235,4 +262,6 @@ class _LoadingPath:
         # The curve lies above its tangent: at this depth the force at which to stop is reached or just exceeded.
         sufficient_depth = last_depth + (self._until_pressure_sum - contact.pressure_sum) / contact.tangent_sum
         depth = max(min(last_depth * ratio, sufficient_depth), last_depth * self._control.min_ratio)
-        return self._solver.advance_reduced(contact, depth)
+        if self._complete and depth * self._control.min_ratio >= self._complete.reduced_depth:
+            return self._complete
+        return self._advance_to(depth)

@@ -15,9 +15,11 @@ import numpy as np
 
 from viscorough import units
 from viscorough.contact import dense
+from viscorough.contact.complete_contact import joined_surface
 from viscorough.contact.dense import ContactEvents
+from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
-from viscorough.contact.grid.memory_demand import require_for_box, require_for_contact
+from viscorough.contact.grid.memory_demand import require_for_box, require_for_complete_contact, require_for_contact
 from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.halfspace import tiles
 from viscorough.contact.halfspace.operator import Halfspace
@@ -41,6 +43,8 @@ _GROWTH_OF_BOX = 1.3
 _LOST_CONTACT = 3
 # Largest reduced depth: single precision holds numbers a thousand times as large and more.
 _LARGEST_DEPTH = 1e25
+# A gap is open beyond doubt if it is larger than the residual by this factor.
+_OPEN_GAP = 2.0
 # Ratio of depths up to which a contact is transferred to another grid as the start there.
 _LARGEST_RATIO_OF_START = 2.0
 
@@ -194,6 +198,35 @@ class ContactSolver:
             if last.reduced_depth < self.elements.ranked_depth:
                 return events, last, ends_at_force
             self.elements = self._ranking.up_to(self.elements, _BOX_DEPTH_MARGIN * last.reduced_depth)
+
+    def may_be_complete(self, contact: ContactState) -> bool:
+        """Return whether a contact may lie at or beyond the depth from which the contact is complete.
+
+        An element that overlaps the surface by less than the tolerance need not join the contact, so that the number
+        of elements in contact does not decide. At and beyond that depth no exact gap is open, and none that is computed
+        exceeds the residual.
+        """
+        if contact.fields is None:
+            return contact.count == self.elements.count  # a dense solution is exact
+        if contact.reduced_depth < 1:
+            return False  # the lowest element cannot touch
+        fields, limit = contact.fields, _OPEN_GAP * contact.residual * contact.reduced_depth
+        fixed = limit, fields.gap_change.values, fields.initial_gap
+        return not any(self._loops.each(kernels.has_open_gap, fixed, fields.place))
+
+    def complete_contact(self) -> ContactState:
+        """Return the contact at the depth from which all elements touch, from two linear problems.
+
+        Raises ConvergenceError if these cannot be solved.
+        """
+        self.elements = self._ranking.up_to(self.elements, np.inf)
+        require_for_complete_contact(self.elements, self.threads)
+        joined = joined_surface(self.elements, padding=self.options.padding, threads=self.threads)
+        contact = joined.first_complete_contact(self.units)
+        if self._grid is None:
+            return contact
+        grid = self._grid_up_to(contact.count, contact.reduced_depth)
+        return replace(contact, loads=None, fields=grid.fields(contact))
 
     def gap_map(self, contact: ContactState) -> Array:
         """Gap e between the deformed surfaces [length], of the shape of the heights; nan outside the indenter.

@@ -276,6 +276,16 @@ def add_penetrating_elements(limit, gap_change, initial_gap, inside):
 
 
 @njit(nogil=True)
+def has_open_gap(limit, gap_change, initial_gap, places):
+    """Return whether the gap at any of the places is larger than `limit`; the last places are searched first."""
+    for t in range(places.size - 1, -1, -1):
+        i = places[t]
+        if gap_change[i] + initial_gap[i] > limit:
+            return True
+    return False
+
+
+@njit(nogil=True)
 def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, pressure, tangent):
     """Sums over elements that join the contact in a step of the depth, of functions of where in it they touch.
 

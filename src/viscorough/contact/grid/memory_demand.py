@@ -6,6 +6,7 @@ from viscorough import memory
 from viscorough.contact.halfspace.operator import convolution_lengths
 from viscorough.contact.parallel import BLOCK
 from viscorough.contact.preconditioner.multilevel import REACH
+from viscorough.contact.state import Elements
 from viscorough.types import Array
 
 # Bytes of the rank, place, gap and temporary arrays of an element; of a map's entry, while its elements are found.
@@ -15,6 +16,9 @@ _PER_ELEMENT, _PER_HEIGHT = 60, 10
 _FIELDS_OF_CONTACTS, _FIELDS_OF_CONTACTS_IF_EXACT, _OTHER_FIELDS = 16, 24, 4
 # Bytes of other arrays of a place of the grid: contact sets, and the preconditioner with its fourteen entries.
 _PER_PLACE = 12 + 25
+# Bytes of the linear problems of complete contact: vectors of the iteration, and two indices, of an element; contact
+# set, residual and preconditioner of a place of the grid.
+_PER_JOINED_ELEMENT, _PER_JOINED_PLACE = 104, 50
 # Arrays in double precision of the size of the spectrum of the half-space: kept, and while the operator is prepared.
 _SPECTRA = 2
 # Numbers in a row of the two blocks of columns that each thread convolves, and columns of a block.
@@ -46,20 +50,35 @@ def require_for_box(heights: Array, box: tuple[int, ...], *, exact: bool, thread
     memory.require(_of_grid(*box[2:], exact=exact, threads=threads), f"contact of a map of {heights.shape} heights")
 
 
+def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
+    """Raise MemoryError unless the linear problems of complete contact fit into the memory that is left."""
+    rows, columns = elements.shape
+    flat = (rows + 2 * REACH) * (columns + 2 * REACH)
+    needed = _PER_JOINED_ELEMENT * elements.count + _PER_JOINED_PLACE * flat + _CONSTANT
+    needed += _of_operators(rows, columns, (8,), threads)
+    memory.require(needed, f"complete contact of a map of {elements.shape} heights")
+
+
 def _of_grid(rows: int, columns: int, *, exact: bool, threads: int) -> float:
     """Bytes of a grid solver, its operators, and the contacts on its grid."""
+    flat = (int(rows) + 2 * REACH) * (int(columns) + 2 * REACH)
+    fields = 8 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS)
+    operators = _of_operators(rows, columns, (4, 8) if exact else (4,), threads)
+    return 8 * int(rows) * int(columns) + operators + (fields + _PER_PLACE) * flat + _CONSTANT
+
+
+def _of_operators(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], threads: int) -> float:
+    """Bytes of half-space operators on a grid, one for each precision, and of their spectrum in double precision."""
     rows, columns = sorted((int(rows), int(columns)))
     along_columns, along_rows = convolution_lengths(rows, columns)
     spectrum = (along_columns // 2 + 1) * (along_rows // 2 + 1)
-    flat = (rows + 2 * REACH) * (columns + 2 * REACH)
     operators = 8 * _SPECTRA * spectrum
     buffers = min(threads, -(-along_rows // (2 * _COLUMNS_OF_BLOCK))) * _BLOCK_OF_COLUMNS * along_columns
     if rows * columns > BLOCK:
         # Two blocks of rows, which have a multiple of 16 of them.
         buffers += min(threads, -(-rows // 16)) * 2 * along_rows * (BLOCK // columns + 16)
-    for bytes_of_number in (4, 8) if exact else (4,):
+    for bytes_of_number in bytes_of_numbers:
         # Load and deflection, padded on small grids only, and transformed rows; the spectrum by blocks of columns.
         width = along_rows if rows * columns <= BLOCK else columns
         operators += bytes_of_number * (rows * (2 * width + along_rows) + 1.2 * spectrum + buffers)
-    fields = 8 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS)
-    return 8 * rows * columns + operators + (fields + _PER_PLACE) * flat + _CONSTANT
+    return operators

@@ -1,0 +1,107 @@
+"""Complete contact, in which all elements touch, from two linear problems without a contact problem.
+
+Let all elements be joined to the surface, under tension as well. With the symbols of contact.state, their pressures are
+
+    P = u q − s,    K q = 1,    K s = g
+
+with g the initial gap. The frictionless contact is complete from the depth at which the last tension vanishes,
+u = max(s/q). Beyond it the loading curve is straight: ΣP = Σq (u − ⟨g⟩_q), with ⟨g⟩_q = Σs/Σq the mean of g with the
+weights q.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
+from viscorough.contact.state import ContactState, Elements, MemberLoads, Units
+from viscorough.errors import ConvergenceError
+from viscorough.types import Array
+
+# Norm of the residual over the norm of the right-hand side at which the linear problems count as solved, and the number
+# of iterations after which ConvergenceError is raised.
+_RESIDUAL, _MAX_ITERATIONS = 1e-12, 500
+
+
+class JoinedSurface(NamedTuple):
+    """The linear problem of an indenter whose elements are all joined to the surface; reduced.
+
+    tangent, load : q and s, by rank, shape (elements,)
+    initial_gap : g, by rank, shape (elements,)
+    """
+
+    tangent: Array
+    load: Array
+    initial_gap: Array
+
+    @property
+    def depth(self) -> float:
+        """Depth u from which the contact is complete."""
+        return float((self.load / self.tangent).max())
+
+    @property
+    def mean_gap(self) -> float:
+        """Mean ⟨g⟩_q of the initial gap with the weights q."""
+        return float(self.load.sum() / self.tangent.sum())
+
+    def first_complete_contact(self, units: Units) -> ContactState:
+        """Return the contact at the depth from which it is complete."""
+        depth, stiffness = self.depth, float(self.tangent.sum())
+        # Rounding can make the pressure of the last element to touch negative.
+        pressure = np.maximum(depth * self.tangent - self.load, 0.0)
+        # The largest residual of an element does not exceed the norm of all residuals.
+        size = depth * self.tangent.size**0.5 + float(np.linalg.norm(self.initial_gap))
+        return ContactState(
+            units,
+            depth,
+            self.tangent.size,
+            pressure_sum=stiffness * (depth - self.mean_gap),
+            tangent_sum=stiffness,
+            residual=_RESIDUAL * size / depth,
+            loads=MemberLoads(np.arange(self.tangent.size), pressure, self.tangent),
+        )
+
+
+def joined_surface(elements: Elements, *, padding: bool = True, threads: int = 1) -> JoinedSurface:
+    """Solve K q = 1 and K s = g over all elements by preconditioned conjugate gradients, in double precision.
+
+    elements : Elements, all ranked; padding : see SolverOptions; threads : on which it computes
+
+    Raises ConvergenceError if the residuals do not fall below 1e-12.
+    """
+    from scipy.sparse.linalg import LinearOperator, cg  # takes long to import
+
+    rows, columns = elements.shape
+    height, width = rows + 2 * REACH, columns + 2 * REACH
+    halfspace = Halfspace(rows, columns, aspect=elements.aspect, padding=padding, threads=threads)
+    preconditioner = Preconditioner(height, width, aspect=elements.aspect, threads=threads)
+    on_map, stride = halfspace.load.ravel(), halfspace.load.shape[1]
+    slot = elements.row.astype(np.int64) * stride + elements.column
+    place = (elements.row.astype(np.int64) + REACH) * width + elements.column + REACH
+    inside, field = np.zeros(height * width, dtype=bool), np.zeros(height * width, dtype=np.float32)
+    inside[place] = True
+    preconditioner.prepare(inside, place.size)
+
+    def deflection(load: Array) -> Array:
+        on_map[slot] = load
+        return halfspace.apply().ravel()[slot]
+
+    def precondition(residual: Array) -> Array:
+        # The smallest residuals must not underflow in single precision.
+        scale = np.abs(residual).max() or 1.0
+        field[place] = residual / scale
+        return scale * preconditioner.apply(field)[place].astype(float)
+
+    shape = place.size, place.size
+    influence, inverse = (LinearOperator(shape, function, dtype=float) for function in (deflection, precondition))
+    solutions = []
+    for right in (np.ones(place.size), elements.initial_gap):
+        solution, failed = cg(influence, right, rtol=_RESIDUAL, maxiter=_MAX_ITERATIONS, M=inverse)
+        if failed:
+            raise ConvergenceError(
+                f"complete contact: the residual does not fall below {_RESIDUAL:.0e} in {_MAX_ITERATIONS} steps"
+            )
+        solutions.append(solution)
+    tangent, load = solutions
+    return JoinedSurface(tangent, load, elements.initial_gap)

@@ -12,14 +12,10 @@ import numpy as np
 from viscorough.arrays import ForceHistory, jumps_and_slopes
 from viscorough.compilation import njit
 from viscorough.types import Array, Integers
+from viscorough.viscous.first_decrease import ROUNDING, Terms, first_decrease
 from viscorough.viscous.medium import Medium, RetardationSpectrum
 
-_ROUNDING = 1e-12  # relative to the terms of dΦ/dt, which may be negative by as much
-_HALVINGS = 60  # of an interval in which dΦ/dt may change its sign
 _CHUNK = 2**20  # pairs of samples at a time
-# Function of intervals between samples, times after their starts, and whether J has its rate before a kink (`left`):
-# the terms of dΦ/dt that rise and those that fall within an interval, and the size of all.
-_Terms = Callable[..., tuple[Array, Array, Array]]
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12  # the series of (exp(−x) − 1 + x)/x, and its number of terms
 
 
@@ -40,7 +36,7 @@ def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]
     # Of a downward step to which the medium responds instantaneously.
     with np.errstate(over="ignore"):
         responds = medium.creep_compliance(0.0) > 0 or np.isinf(medium.creep_rate(0.0))
-    down = times[responds & (jumps_and_slopes(times, force)[0] < -_ROUNDING * force)]
+    down = times[responds & (jumps_and_slopes(times, force)[0] < -ROUNDING * force)]
     time = first_decrease(times, terms, down.min(initial=np.inf))
     if np.isfinite(time):
         raise ValueError(
@@ -51,34 +47,7 @@ def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]
     return creep, rate_at_samples(times, terms)
 
 
-def first_decrease(times: Array, terms: _Terms, limit: float = np.inf) -> float:
-    """The first time at which Φ decreases, if it is before the limit; else the limit.
-
-    dΦ/dt is a sum of terms that rise and terms that fall within an interval, so that it is nowhere below the sum of the
-    former at the start and the latter at the end. Intervals whose bound is negative are halved.
-    """
-    interval = np.flatnonzero(np.diff(times))
-    start, end = np.zeros(interval.size), np.diff(times)[interval]
-    for _ in range(_HALVINGS):
-        rising, falling, size = terms(interval, start, left=False)
-        rising_at_end, falling_at_end, size_at_end = terms(interval, end, left=True)
-        begins = times[interval]
-        negative = rising + falling < -_ROUNDING * size
-        negative_at_end = rising_at_end + falling_at_end < -_ROUNDING * size_at_end
-        for which, offset in ((negative, start), (negative_at_end, end)):
-            limit = min(limit, (begins + offset)[which].min(initial=np.inf))
-        doubtful = ~negative & (rising + falling_at_end < -_ROUNDING * np.minimum(size, size_at_end))
-        doubtful &= begins + start < limit
-        if not doubtful.any():
-            break
-        interval, start, end = interval[doubtful], start[doubtful], end[doubtful]
-        middle = start + 0.5 * (end - start)
-        interval = np.concatenate([interval, interval])
-        start, end = np.concatenate([start, middle]), np.concatenate([middle, end])
-    return limit
-
-
-def rate_at_samples(times: Array, terms: _Terms) -> Array:
+def rate_at_samples(times: Array, terms: Terms) -> Array:
     """dΦ/dt just after every sample; just before it at the last one and before a step."""
     lengths, rate = np.diff(times), np.zeros(times.size)
     after = np.flatnonzero(lengths)
@@ -89,7 +58,7 @@ def rate_at_samples(times: Array, terms: _Terms) -> Array:
     return rate
 
 
-def by_states(retardation: RetardationSpectrum, history: ForceHistory) -> tuple[Array, _Terms]:
+def by_states(retardation: RetardationSpectrum, history: ForceHistory) -> tuple[Array, Terms]:
     """Φ at the samples, and the terms of dΦ/dt, of springs and dashpots.
 
     Its states are the delayed response y of every retardation time θ, θ y' + y = F, and the remainder z = F − y; both
@@ -112,7 +81,7 @@ def by_states(retardation: RetardationSpectrum, history: ForceHistory) -> tuple[
     return instantaneous * history.force + fluidity * history.impulse + delayed @ compliances, terms
 
 
-def by_sums(medium: Medium, history: ForceHistory) -> tuple[Array, _Terms]:
+def by_sums(medium: Medium, history: ForceHistory) -> tuple[Array, Terms]:
     """Φ at the samples, and the terms of dΦ/dt, of media without a discrete spectrum: sums over the past.
 
     J is concave, so that positive contributions of the past decrease with time.

@@ -7,22 +7,35 @@ elements (internal_variables), the force is
 
     F = G∞ Z + Σ G_i W_i + η Z',    W_i' = Z' − W_i/τ_i,
 
-a linear differential equation with constant coefficients, whose solution is a matrix exponential. Nothing here uses the
-correspondence with the elastic problem, nor retardation times: this module checks both.
+a linear system with constant coefficients. Its modes r_j decay by themselves while the force is constant:
+
+    Z' = J₀ F' + φ F + Σ κ_j r_j,    r_j' = F' − λ_j r_j.
+
+With a dashpot η there is one mode, r = η Z' with λ = G∞/η. Without one, the forces G∞ Z and G_i W_i of the spring and
+the branches, with the rates R = diag(0, 1/τ_i) and sum F, are the components of √G₀ s·(a vector), where s_i = √(G_i/G₀)
+is a unit vector. Their components perpendicular to s are free to relax. With a basis B of these, BᵀB = 1 and Bᵀs = 0,
+and √R B = U Σ Vᵀ, the rates are λ_j = Σ_j², and κ_j = (U_j·√R s)²/G₀. One-sided Jacobi rotations find them to rounding,
+however far the relaxation times are apart.
+
+Contact grows as long as Z does. Nothing here uses the correspondence with the elastic problem, nor the creep compliance
+of the medium: this module checks both.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.linalg import expm
+from scipy.linalg import lapack
+from scipy.special import exprel, hyp1f1
 
+from viscorough.arrays import jumps_and_slopes
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
-from viscorough.types import Array
+from viscorough.types import Array, Integers
+from viscorough.viscous.first_decrease import ROUNDING, Terms, first_decrease
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.internal_variables import MediumMotion, checked_input
 from viscorough.viscous.medium import Medium, RelaxationSpectrum
-
-_ROUNDING = 1e-12  # of the motion in a step in which nothing moves
 
 
 def march_medium_events(
@@ -50,7 +63,8 @@ def march_medium_events(
     Raises
     ------
     ValueError
-        For arguments out of range, and with the time from which on the contact recedes (march_medium goes on there).
+        For arguments out of range, and where the indenter moves back at or between the times, so that the contact
+        recedes; with the time from which on it does (march_medium goes on there).
     ConvergenceError
         If that many elements touch before the last time.
     MemoryError
@@ -66,45 +80,90 @@ def march_medium_events(
     True
     """
     relaxation, area, times, load = checked_input("march_medium_events", indenter, medium, times, force)
-    events = march_events(indenter, until_fraction=until_fraction)
-    motion = _total_motion(relaxation, times, load)
-    if (recedes := np.diff(motion, prepend=0) < -_ROUNDING * motion).any():
-        k = int(np.argmax(recedes))
+    modes = _modes(relaxation)
+    motion, terms = _total_motion(modes, times, load)
+    steps_down = jumps_and_slopes(times, load)[0] < -ROUNDING * load
+    at_once = times[steps_down & (modes.instantaneous_compliance > 0)]
+    if np.isfinite(receding_from := first_decrease(times, terms, at_once.min(initial=np.inf))):
         raise ValueError(
-            f"march_medium_events: from a time between {times[k - 1]:.6g} and {times[k]:.6g} on the contact recedes; "
-            "allowed: contact that grows (march_medium goes on there)"
+            f"march_medium_events: from time {receding_from:.6g} on the contact recedes; allowed: contact that grows "
+            "(march_medium goes on there)"
         )
+    events = march_events(indenter, until_fraction=until_fraction)
     if motion[-1] > events.impulse[-1] and events.contact_count[-1] < events.elements:
         raise ConvergenceError(
             f"march_medium_events: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; "
             "a larger until_fraction is needed"
         )
-    count = events.contact_count[events.event_at(motion)]
+    count = np.where(motion > 0, events.contact_count[events.event_at(motion)], 0)
     return MediumMotion(times, events.depth_at(motion), load * area, count, indenter.length_unit)
 
 
-def _total_motion(relaxation: RelaxationSpectrum, times: Array, force: Array) -> Array:
-    """Z under a force that is linear between its samples, shape (times,)."""
-    viscosity, relaxed, moduli, relaxation_times = relaxation
-    # The state is Z, the W_i, F over η or G₀, and its change within an interval, whose length is the unit of time.
-    size = 1 + moduli.size
-    unit = viscosity or relaxation.instantaneous_modulus
-    state, motion = np.zeros(size + 2), np.empty(times.size)
-    for k in range(times.size):
-        length, change = (times[k] - times[k - 1], force[k] - force[k - 1]) if k else (0.0, force[0])
-        state[-1] = change / unit
-        if length > 0:
-            matrix = np.zeros((size + 2, size + 2))
-            if viscosity:
-                matrix[:size, : size + 1] = length * np.concatenate([[-relaxed], -moduli, [viscosity]]) / viscosity
-            else:  # from the derivative of F: G₀ Z' = F' + Σ G_i W_i/τ_i
-                matrix[:size, 1:size] = length * moduli / relaxation_times / unit
-                matrix[:size, -1] = 1.0
-            matrix[1:size, 1:size] -= np.diag(length / relaxation_times)
-            matrix[size, -1] = 1.0
-            state = expm(matrix) @ state
-        elif not viscosity:  # all springs respond elastically; with a dashpot in parallel, none does
-            state[:size] += state[-1]
-        state[size] = force[k] / unit
-        motion[k] = state[0]
-    return motion
+class _Modes(NamedTuple):
+    """Z' = J₀ F' + φ F + Σ κ_j r_j with r_j' = F' − λ_j r_j.
+
+    instantaneous_compliance : J₀; fluidity : φ; weights, rates : κ_j and λ_j, arrays of shape (modes,)
+    """
+
+    instantaneous_compliance: float
+    fluidity: float
+    weights: Array
+    rates: Array
+
+
+def _modes(relaxation: RelaxationSpectrum) -> _Modes:
+    """Modes of a medium: a dashpot with or without a spring, or branches with or without one."""
+    viscosity, relaxed, moduli, times = relaxation
+    if viscosity:
+        return _Modes(0.0, 0.0, np.array([1 / viscosity]), np.array([relaxed / viscosity]))
+    fluidity = 0.0 if relaxed else float(1 / (moduli @ times))
+    if relaxed:
+        moduli, rates = np.append(relaxed, moduli), np.append(0.0, 1 / times)
+    else:
+        rates = 1 / times
+    total = moduli.sum()
+    unit = np.sqrt(moduli / total)
+    # A reflection that turns the unit vector to the first axis: its other columns are perpendicular to it.
+    mirror = unit + (np.arange(unit.size) == 0)
+    basis = (np.eye(unit.size) - np.outer(mirror, mirror) / mirror[0])[:, 1:]
+    if not basis.size:
+        return _Modes(1 / total, fluidity, np.array([]), np.array([]))
+    order = np.argsort(-rates)
+    scaled = np.sqrt(rates)[order]
+    singular, left, _, scale, _, info = lapack.dgejsv(scaled[:, None] * basis[order], joba=2, jobu=0, jobv=0)
+    if info:
+        raise ConvergenceError("march_medium_events: the modes of the medium were not found")
+    singular = singular * (scale[0] / scale[1])
+    weights = (left[:, : singular.size].T @ (scaled * unit[order])) ** 2 / total
+    return _Modes(1 / total, fluidity, weights, singular**2)
+
+
+def _total_motion(modes: _Modes, times: Array, force: Array) -> tuple[Array, Terms]:
+    """Z under a force that is linear between its samples, shape (times,), and the terms of Z' between them."""
+    instantaneous, fluidity, weights, rates = modes
+    jumps, slopes = jumps_and_slopes(times, force)
+    motion, states = np.empty(times.size), np.empty((times.size, rates.size))
+    motion[0], states[0] = instantaneous * force[0], force[0]
+    for k, (length, slope) in enumerate(zip(np.diff(times), slopes, strict=True)):
+        x = rates * length
+        gain = length * exprel(-x)  # ∫exp(−λt) dt
+        # ∫(1 − exp(−λt))/λ dt, without cancellation for small x and without overflow for large x.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            gains = np.where(x > 1, (length - gain) / rates, 0.5 * length**2 * hyp1f1(1, 3, -np.minimum(x, 1)))
+        at_once = instantaneous * (force[k + 1] - force[k])
+        flow = fluidity * length * 0.5 * (force[k] + force[k + 1])
+        motion[k + 1] = motion[k] + at_once + flow + weights @ (states[k] * gain + slope * gains)
+        states[k + 1] = states[k] * np.exp(-x) + slope * gain + jumps[k + 1]
+
+    def terms(interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
+        slope, x = slopes[interval], offset[:, None] * rates
+        decaying = weights * states[interval] * np.exp(-x)
+        growing = weights * slope[:, None] * offset[:, None] * exprel(-x)
+        steady, drift = instantaneous * slope + fluidity * force[interval], fluidity * slope * offset
+        size = abs(instantaneous * slope) + fluidity * force[interval] + abs(drift)
+        size += (abs(decaying) + abs(growing)).sum(axis=1)
+        rising = np.maximum(drift, 0) + (np.minimum(decaying, 0) + np.maximum(growing, 0)).sum(axis=1)
+        falling = np.minimum(drift, 0) + (np.maximum(decaying, 0) + np.minimum(growing, 0)).sum(axis=1)
+        return steady + rising, falling, size
+
+    return motion, terms

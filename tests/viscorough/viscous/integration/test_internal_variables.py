@@ -1,5 +1,8 @@
 """Direct integration with internal variables, against the correspondence, which it never uses, and closed forms."""
 
+import re
+from functools import partial
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -10,7 +13,7 @@ from viscorough import Indenter, force_under_depth, impulses, indent, kinetics, 
 from viscorough.errors import ConvergenceError
 from viscorough.viscous.integration.internal_variable_events import march_medium_events
 from viscorough.viscous.integration.internal_variables import march_medium
-from viscorough.viscous.media import Maxwell, Newtonian, Springpot
+from viscorough.viscous.media import Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
 SPRINGY = ["maxwell", "solid", "prony"]
@@ -43,12 +46,64 @@ def test_events_under_a_ramp_a_step_and_a_hold(curve, name):
 
 
 def test_events_end_where_contact_recedes(curve):
+    """Maxwell: Z' = F'/G + F/η, which is zero at F = η |F'|/G."""
     medium = MEDIA["maxwell"]
     force = largest_force(curve, medium) * np.array([0.5, 0.1])
-    with pytest.raises(ValueError, match="between 0 and 1 on the contact recedes"):
+    with refused("from time 0 on the contact recedes; allowed: contact that grows .march_medium goes on there."):
         march_medium_events(DISC, medium, [0.0, 1.0], force=force, until_fraction=0.1)
+    with refused("from time 1.5 on the contact recedes"):
+        march_medium_events(DISC, medium, [0.0, 4.0], force=4 * force[[0, 1]] * [1, 0] / force[0], until_fraction=0.1)
     with pytest.raises(ConvergenceError, match="4 elements touch before time 1"):
         march_medium_events(DISC, medium, [0.0, 1.0], force=force[[0, 0]], until_fraction=1e-3)
+
+
+def test_events_find_contact_that_recedes_between_the_times():
+    """The depth at the last time is above the first one, and the contact has receded in between.
+
+    J' F₀ + J F' = 0 with J = (1 − 0.99 exp(−t/5)) is at exp(t/5) = (0.198 F₀/|F'| + 0.99).
+    """
+    disc = self_affine_disc(0.7, 9, rms=0.05, seed=2)
+    medium, times, force = StandardLinearSolid(100, 1, 0.05), [0, 10], np.array([0.1, 0.003])
+    first = 5 * np.log(0.198 * force[0] / 0.0097 + 0.99)
+    with refused(f"from time {first:.6g} on the contact recedes"):
+        march_medium_events(disc, medium, times, force=force)
+    before = np.array([0.0, first * (1 - 1e-9)])
+    motion = march_medium_events(disc, medium, before, force=np.interp(before, times, force))
+    assert motion.contact_count[-1] > motion.contact_count[0]
+
+
+def test_events_recede_at_the_time_that_kinetics_reports():
+    """Random forces in random media, under most of which the contact recedes, and under some of which between times."""
+    random, disc = np.random.default_rng(4), self_affine_disc(0.7, 5, rms=1.0, seed=2)
+    curve, within = indent(disc), 0
+    for _ in range(60):
+        medium = Prony(random.choice([0.0, 1.0]), 10 ** random.uniform(-1, 1, 3), 10 ** random.uniform(-2, 2, 3))
+        times = np.append(0, np.cumsum(10 ** random.uniform(-1, 1, 4)))
+        force = 1e-3 * (1 + 0.05 * random.standard_normal(5) + np.array([0, 0.1, 0, 0, 0.1]))
+        found = []
+        calls = (
+            partial(kinetics, curve, force, medium, times),
+            partial(march_medium_events, disc, medium, times, force=force),
+        )
+        for call in calls:
+            try:
+                call()
+                found.append(np.inf)
+            except ValueError as error:
+                found.append(float(re.search(r"from time (\S+) on", str(error))[1]))
+        assert found[1] == found[0]
+        within += np.isfinite(found[1]) and abs(times - found[1]).min() > 1e-3
+    assert within > 3
+
+
+@pytest.mark.parametrize("decades", [3, 7])
+def test_events_with_relaxation_times_many_decades_apart(curve, decades):
+    times = np.append(0, np.geomspace(10.0**-decades, 10.0**decades, 9))
+    for relaxed in (0.0, 1e-3, 1.0):
+        medium = Prony(relaxed, [1.0, 3.0, 0.3, 1.0], 10.0 ** np.array([-decades, -1.0, 2.0, decades]))
+        force = np.linspace(0.5, 1, 10) * 0.8 * curve.force[-1] / medium.creep_compliance(times[-1])
+        result = march_medium_events(DISC, medium, times, force=force, until_fraction=0.1)
+        np.testing.assert_allclose(result.depth, kinetics(curve, force, medium, times).depth, rtol=1e-10, atol=0)
 
 
 # ---- steps
@@ -150,7 +205,10 @@ def test_sphere_in_and_out_follows_lee_and_radok_and_ting():
         ({"force": [1.0, 1.0]}, r"force: samples of shape \(2,\); allowed: one per time"),
         ({"depth": [0.0, 0.1, 0.2]}, "one of force and depth"),
         ({"indenter": Indenter(np.zeros(5), 1.0)}, "must be two-dimensional"),
-        ({"medium": Newtonian(1.0), "force": None, "depth": [0.1, 0.1, 0.1]}, "infinite force"),
+        (
+            {"medium": Newtonian(1.0), "force": None, "depth": [0.1, 0.1, 0.1]},
+            "infinite force",
+        ),
     ],
 )
 def test_refusals(arguments, message):

@@ -1,0 +1,40 @@
+"""The first time at which a response decreases, from bounds of its rate between the samples of a load."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from viscorough.types import Array
+
+ROUNDING = 1e-12  # relative to the terms of a rate, which may be negative by as much
+# Function of intervals between samples, times after their starts, and whether a kink counts as before it (`left`): the
+# terms of the rate that rise and those that fall within an interval, and the size of all.
+Terms = Callable[..., tuple[Array, Array, Array]]
+_HALVINGS = 60  # of an interval in which a rate may change its sign
+
+
+def first_decrease(times: Array, terms: Terms, limit: float = np.inf) -> float:
+    """Return the first time at which a response decreases, if it is before the limit; else the limit.
+
+    Its rate is a sum of terms that rise and terms that fall within an interval, so that it is nowhere below the sum of
+    the former at the start and the latter at the end. Intervals whose bound is negative are halved.
+    """
+    interval = np.flatnonzero(np.diff(times))
+    start, end = np.zeros(interval.size), np.diff(times)[interval]
+    for _ in range(_HALVINGS):
+        rising, falling, size = terms(interval, start, left=False)
+        rising_at_end, falling_at_end, size_at_end = terms(interval, end, left=True)
+        begins = times[interval]
+        negative = rising + falling < -ROUNDING * size
+        negative_at_end = rising_at_end + falling_at_end < -ROUNDING * size_at_end
+        for which, offset in ((negative, start), (negative_at_end, end)):
+            limit = min(limit, (begins + offset)[which].min(initial=np.inf))
+        doubtful = ~negative & (rising + falling_at_end < -ROUNDING * np.minimum(size, size_at_end))
+        doubtful &= begins + start < limit
+        if not doubtful.any():
+            break
+        interval, start, end = interval[doubtful], start[doubtful], end[doubtful]
+        middle = start + 0.5 * (end - start)
+        interval = np.concatenate([interval, interval])
+        start, end = np.concatenate([start, middle]), np.concatenate([middle, end])
+    return limit

@@ -7,18 +7,21 @@ import numpy as np
 from scipy.optimize import brentq, nnls
 
 
-def influence_matrix(rows, columns):
-    """Influence matrix K of w = d/(πE*) K p (Love 1929) for a grid of square elements of side d.
+def influence_matrix(rows, columns, aspect=1.0):
+    """Influence matrix K of w = d/(πE*) K p (Love 1929) for a grid of elements of sides dx and dy, with d = √(dx dy).
+
+    aspect : dy/dx
 
     Elements are numbered row by row; shape (n, n) with n = rows · columns.
     """
+    sides = np.sqrt(aspect), 1 / np.sqrt(aspect)
     y, x = (i.ravel() for i in np.mgrid[:rows, :columns])
     total = 0.0
     for sign_y in (-0.5, 0.5):
         for sign_x in (-0.5, 0.5):
-            b, a = (np.abs(i[:, None] - i) + sign for i, sign in ((y, sign_y), (x, sign_x)))
-            rho = np.hypot(a, b)
-            total = total + 4 * sign_y * sign_x * (a * np.log(b + rho) + b * np.log(a + rho))
+            b = sides[0] * (np.abs(y[:, None] - y) + sign_y)
+            a = sides[1] * (np.abs(x[:, None] - x) + sign_x)
+            total = total + 4 * sign_y * sign_x * (a * np.arcsinh(b / abs(a)) + b * np.arcsinh(a / abs(b)))
     return total
 
 

@@ -1,4 +1,4 @@
-"""The first time at which a response decreases, from bounds of its rate between the samples of a load."""
+"""Find the first decrease of a response, from bounds of its rate between the samples of a load."""
 
 from collections.abc import Callable
 
@@ -6,15 +6,15 @@ import numpy as np
 
 from viscorough.types import Array
 
-ROUNDING = 1e-12  # relative to the terms of a rate, which may be negative by as much
+ROUNDING = 1e-12  # of a rate, relative to its terms
 # Function of intervals between samples, times after their starts, and whether a kink counts as before it (`left`): the
 # terms of the rate that rise and those that fall within an interval, and the size of all.
 Terms = Callable[..., tuple[Array, Array, Array]]
-_HALVINGS = 60  # of an interval in which a rate may change its sign
+_HALVINGS = 60  # of an interval, enough to separate neighbouring numbers
 
 
 def first_decrease(times: Array, terms: Terms, limit: float = np.inf) -> float:
-    """Return the first time at which a response decreases, if it is before the limit; else the limit.
+    """Return the first time when a response decreases, or the limit if that is earlier.
 
     Its rate is a sum of terms that rise and terms that fall within an interval, so that it is nowhere below the sum of
     the former at the start and the latter at the end. Intervals whose bound is negative are halved.

@@ -1,9 +1,9 @@
 """Direct integration of growing viscoelastic contact, exact from contact event to contact event.
 
-While the contact set does not change, its elements move with the indenter: y' = q u' with K q = 1 on the set, whatever
-the medium. Contact events therefore depend on the motion alone, and those of march_events, in which the impulse over
-the viscosity is 4πd Σy, are those of any medium. With Z = 4πd Σy and the sums W_i of the internal variables over all
-elements (internal_variables), the force is
+While the contact set does not change, its elements move with the indenter: y' = q u' with K q = 1 on the set, in every
+medium. Contact events therefore depend on the motion alone. They are the events of march_events, in which the impulse
+over the viscosity is Z = 4πd Σy. With the sums W_i of the internal variables over all elements (internal_variables),
+the force is
 
     F = G∞ Z + Σ G_i W_i + η Z',    W_i' = Z' − W_i/τ_i,
 
@@ -11,11 +11,12 @@ a linear system with constant coefficients. Its modes r_j decay by themselves wh
 
     Z' = J₀ F' + φ F + Σ κ_j r_j,    r_j' = F' − λ_j r_j.
 
-With a dashpot η there is one mode, r = η Z' with λ = G∞/η. Without one, the forces G∞ Z and G_i W_i of the spring and
-the branches, with the rates R = diag(0, 1/τ_i) and sum F, are the components of √G₀ s·(a vector), where s_i = √(G_i/G₀)
-is a unit vector. Their components perpendicular to s are free to relax. With a basis B of these, BᵀB = 1 and Bᵀs = 0,
-and √R B = U Σ Vᵀ, the rates are λ_j = Σ_j², and κ_j = (U_j·√R s)²/G₀. One-sided Jacobi rotations find them to rounding,
-however far the relaxation times are apart.
+With a dashpot η there is one mode, r = η Z' with λ = G∞/η. Without a dashpot, let s be the unit vector with the
+components √(G_i/G₀), the relaxed spring included, and R the diagonal matrix of the rates 1/τ_i, 0 for this spring. The
+forces in the spring and the branches, each divided by √G_i, are a vector with the component F/√G₀ along s. Its other
+components relax by themselves. With an orthonormal basis B of the space perpendicular to s, and √R B = U Σ Vᵀ, the
+rates are λ_j = Σ_j², and κ_j = (U_j · √R s)²/G₀. One-sided Jacobi rotations find this decomposition to rounding, also
+for relaxation times that are many decades apart. Matrix exponentials do not.
 
 Contact grows as long as Z does. Nothing here uses the correspondence with the elastic problem, nor the creep compliance
 of the medium: this module checks both.
@@ -63,8 +64,8 @@ def march_medium_events(
     Raises
     ------
     ValueError
-        For arguments out of range, and where the indenter moves back at or between the times, so that the contact
-        recedes; with the time from which on it does (march_medium goes on there).
+        For arguments out of range. Also if the indenter moves back at or between the times, so that the contact
+        recedes; the message has the first such time (march_medium continues from there).
     ConvergenceError
         If that many elements touch before the last time.
     MemoryError

@@ -22,13 +22,14 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
-from viscorough.types import Array, Integers, Progress
+from viscorough.types import Array, Integers, Mask, Progress
 from viscorough.viscous.integration.elements import MapElements, elements_of_map
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium, RelaxationSpectrum
 
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
-_ROUNDING = 1e-12  # of gaps, relative to the depth
+# Rounding of gaps, relative to the initial gap, the depth, and the largest displacement of the surface so far.
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -42,16 +43,19 @@ class MediumMotion(ReadOnlyArrays):
     depth : array
         u [length].
     force : array
-        Force F.
+        Force F. In a medium with a parallel dashpot (Newtonian, Kelvin-Voigt) it jumps at kinks of a prescribed depth;
+        it is then the force just before each time.
     contact_count : array
-        Elements in contact.
+        Elements in contact. An element is in contact after it was pressed, until its gap opens. Under no force the
+        indenter rests on the surface. The contact then stays if all its elements still touch, as in a Newtonian medium;
+        otherwise the number is 0.
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
     pressure : array or None
         p at the last time, after a step of the force there, on the grid of the heights, nan outside the indenter.
     receding_from : float
-        The first time at which an element had left the contact, so that the correspondence with the elastic
-        problem holds no more; nan if none has.
+        The first of these times at which an element has left the contact, so that the correspondence with the elastic
+        problem no longer holds; nan if no element has.
     """
 
     time: np.ndarray
@@ -88,8 +92,9 @@ def march_medium(
         Ends of the steps, increasing; a time given twice is a step of the load.
     force, depth : array_like, optional
         One of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0] there is
-        none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes. Forces
-        are in N and moduli in Pa if the unit of length is known.
+        none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes. With a
+        parallel dashpot a step of the depth must not press on the surface. Forces are in N and moduli in Pa if the unit
+        of length is known.
     progress : Progress, optional
         Function that is called at each of the times with the share of them that is done.
 
@@ -121,21 +126,21 @@ def march_medium(
     for k in range(times.size):
         length = times[k] - times[k - 1] if k else 0.0
         rate = (load[k] - load[k - 1]) / length if length else rate
-        before = state.members
+        before = state.touching
         if length > 0 or relaxation.viscosity == 0:
             at_end = by_depth or relaxation.viscosity == 0
-            value = load[k] if at_end else 0.5 * (load[k - 1] + load[k])
-            state.advance(length, value)
-            if np.isnan(receding) and not np.isin(before, state.members).all():
-                receding = times[k]
-        elif by_depth and load[k] != state.depth:
+            state.advance(length, load[k] if at_end else 0.5 * (load[k - 1] + load[k]))
+        elif by_depth and not state.lift_to(load[k]):
             raise ValueError(
-                f"march_medium: depth steps at time {times[k]:g}, which takes an infinite force; allowed: ramps"
+                f"march_medium: depth steps into the surface at time {times[k]:g}, which takes an infinite force; "
+                "allowed: ramps"
             )
+        if np.isnan(receding) and (before & ~state.touching).any():
+            receding = times[k]
         if by_depth or k == times.size - 1:
             pressure = state.pressure_now(rate if by_depth else load[k])
         force_now = elements.units.force * pressure.sum() if by_depth else load[k]
-        rows.append((state.depth, force_now, state.members.size))
+        rows.append((state.depth, force_now, np.count_nonzero(state.touching)))
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
@@ -166,19 +171,19 @@ def checked_input(
 class _State:
     """Motion y, pressures Q and internal variables w of all elements under forces, or depths if `by_depth`.
 
-    With a parallel dashpot Q is that which a step assumes, its mean over the step. The contact problem of a step is
-    solved by an active-set method, which releases elements under tension and adds elements that overlap until there are
-    neither. `members` is the contact set, the first guess of the next problem.
+    With a parallel dashpot Q is its mean over a step, which the step assumes. `touching`, shape (elements,), is the
+    contact set. A step that presses an element adds it to the set; it leaves when its gap opens.
     """
 
     def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum, *, by_depth: bool) -> None:
         self._elements, self._relaxation, self._by_depth = elements, relaxation, by_depth
         self.depth = 0.0
         self.motion: Array = np.zeros(elements.count)
+        self._largest = 0.0  # displacement of the surface so far
         self.pressure: Array = np.zeros(elements.count)
         self._branches: Array = np.zeros((relaxation.moduli.size, elements.count))
-        self.members: Integers = np.array([], int)
-        self._of_factor = self.members  # the members that the Cholesky factor is of
+        self.touching: Mask = np.zeros(elements.count, bool)
+        self._of_factor = np.array([], int)  # the members that the Cholesky factor is of
 
     def advance(self, length: float, load: float) -> None:
         """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
@@ -190,66 +195,96 @@ class _State:
         spring = viscosity / (length * exprel(-length * relaxed / viscosity)) if viscosity else relaxed
         stiffness = spring + moduli @ gain
         kept = relaxed * self.motion + (moduli * decay) @ self._branches
-        # c times the gap is e + K Q − c u, with e that of a surface which nothing presses from now on.
-        free = self._elements.deflection(stiffness * self.motion - kept)
-        free += stiffness * self._elements.initial_gap
-        wanted = stiffness * load if self._by_depth else load / self._elements.units.force
-        self.pressure, depth = self._solve(free, wanted)
+        # c times the gap is e + K Q − c u. If nothing pressed on the surface in this step, it would be e − c u.
+        surface = self._elements.deflection(stiffness * self.motion - kept)
+        initial_gap = stiffness * self._elements.initial_gap
+        target = stiffness * load if self._by_depth else load / self._elements.units.force
+        size = stiffness * self._largest + initial_gap
+        self.pressure, depth, gap = self._solve(surface + initial_gap, size, target, self.touching)
         self.depth = load if self._by_depth else depth / stiffness
+        rounding = _ROUNDING * (size + abs(depth))
+        closed = gap <= rounding
+        if self._by_depth or target > 0:
+            pressed = self._elements.influence[0, 0] * self.pressure > rounding
+            self.touching = closed & (self.touching | pressed)
+        elif not closed[self.touching].all():
+            self.touching = np.zeros_like(closed)
         change = (self.pressure - kept) / stiffness
         self._branches = decay[:, None] * self._branches + np.outer(gain, change)
         self.motion = self.motion + change
+        self._largest = max(self._largest, abs(self._elements.deflection(self.motion)).max())
+
+    def lift_to(self, depth: float) -> bool:
+        """Change the depth at once while the surface stays. Return False, without a change, if it were pressed."""
+        surface = self._elements.deflection(self.motion)
+        gap = surface + self._elements.initial_gap - depth
+        rounding = _ROUNDING * (self._largest + self._elements.initial_gap + depth)
+        if depth > self.depth and (gap < -rounding).any():
+            return False
+        if depth != self.depth:
+            self.touching = self.touching & (gap <= rounding)
+        self.depth = depth
+        return True
 
     def pressure_now(self, load: float) -> Array:
-        """Q at this time: with a parallel dashpot, K y' = u' on the contact set, and Q = 0 elsewhere.
+        """Q at this time.
 
         load : the force F, or u' if `by_depth`
+
+        With a parallel dashpot this is a contact problem for the rates of the elements that touch: Q ≥ 0 and
+        K y' − u' ≥ 0, and one of them zero. All other elements have Q = 0.
         """
         viscosity, relaxed, moduli, _ = self._relaxation
         if viscosity == 0:
             return self.pressure
+        touching = self.touching
+        if not (self._by_depth or touching.any()):
+            height = self._elements.deflection(self.motion) + self._elements.initial_gap
+            touching = height - height.min() <= _ROUNDING * (self._largest + self._elements.initial_gap)
+        if not touching.any():
+            return np.zeros_like(self.motion)
         kept = relaxed * self.motion + moduli @ self._branches
-        wanted = viscosity * load if self._by_depth else load / self._elements.units.force
-        members = self.members
-        if members.size == 0:
-            height = self._elements.initial_gap + self._elements.deflection(self.motion)
-            members = np.flatnonzero(height == height.min())
-        return self._solve_among(members, -self._elements.deflection(kept), wanted)[0]
+        target = viscosity * load if self._by_depth else load / self._elements.units.force
+        recovery = -self._elements.deflection(kept)
+        size = np.where(touching, abs(recovery).max(), np.inf)  # a gap that is open may close at any rate
+        return self._solve(recovery, size, target, touching)[0]
 
-    def _solve(self, free: Array, wanted: float) -> tuple[Array, float]:
-        """Q ≥ 0 of all elements with e + K Q − c u ≥ 0, one of them zero, and c u.
+    def _solve(self, free: Array, size: Array, target: float, start: Mask) -> tuple[Array, float, Array]:
+        """Q ≥ 0 of all elements with e + K Q − c u ≥ 0, one of them zero; c u; and e + K Q − c u.
 
-        free : e; wanted : c u if `by_depth`, else ΣQ. Without a force the indenter is placed at first contact.
+        free : e; target : c u if `by_depth`, else ΣQ; start : first guess of the contact set
+        size : of the terms of e, for the rounding of the gap
+
+        Active-set method, which releases elements under tension and adds elements that overlap until there are neither.
+        Without a force the indenter is placed at first contact.
         """
-        members = self.members if self.members.size else np.array([np.argmin(free)])
+        members = np.flatnonzero(start) if start.any() else np.array([np.argmin(free)])
         for _ in range(_MAX_ITERATIONS):
-            pressure, depth, members = self._solve_among(members, free, wanted)
-            deflection = self._elements.deflection(pressure)
-            gap = free + deflection - depth
+            pressure, depth, members = self._solve_among(members, free, target)
+            gap = free + self._elements.deflection(pressure) - depth
             gap[members] = 0
-            overlaps = gap < -_ROUNDING * max(abs(depth), deflection.max(initial=0))
+            overlaps = gap < -_ROUNDING * (size + abs(depth))
             if not overlaps.any():
-                self.members = members
-                return pressure, depth
+                return pressure, depth, gap
             # The deepest first: under a force on too few elements, most others would overlap.
-            deepest = np.argsort(gap)[: min(np.count_nonzero(overlaps), members.size + _ADDED_AT_ONCE)]
-            members = np.union1d(members, deepest)
+            deepest = np.argsort(np.where(overlaps, gap, np.inf))
+            members = np.union1d(members, deepest[: min(np.count_nonzero(overlaps), members.size + _ADDED_AT_ONCE)])
         raise ConvergenceError(f"march_medium: no contact set found in {_MAX_ITERATIONS} iterations")
 
-    def _solve_among(self, members: Integers, free: Array, wanted: float) -> tuple[Array, float, Integers]:
-        """Q, c u and the contact set where only some elements may touch, those of them under tension released."""
+    def _solve_among(self, members: Integers, free: Array, target: float) -> tuple[Array, float, Integers]:
+        """Solve for Q, c u and the contact set if only these members may touch; release members under tension."""
         pressure = np.zeros(free.size)
-        if not self._by_depth and wanted <= 0:
+        if not self._by_depth and target <= 0:
             return pressure, free.min(), members[:0]
         while members.size:
             if not np.array_equal(members, self._of_factor):
                 self._factor, self._of_factor = cho_factor(self._elements.influence_among(members)), members
             solved = cho_solve(self._factor, np.column_stack([np.ones(members.size), free[members]]))
             punch, rest = solved.T
-            depth = wanted if self._by_depth else (wanted + rest.sum()) / punch.sum()
+            depth = target if self._by_depth else (target + rest.sum()) / punch.sum()
             load = depth * punch - rest
             if not (load < 0).any():
                 pressure[members] = load
                 return pressure, depth, members
             members = members[load >= 0]
-        return pressure, wanted, members
+        return pressure, target, members

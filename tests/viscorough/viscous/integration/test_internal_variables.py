@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 from support.contract import refused
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
@@ -13,7 +14,7 @@ from viscorough import Indenter, force_under_depth, impulses, indent, kinetics, 
 from viscorough.errors import ConvergenceError
 from viscorough.viscous.integration.internal_variable_events import march_medium_events
 from viscorough.viscous.integration.internal_variables import march_medium
-from viscorough.viscous.media import Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
 SPRINGY = ["maxwell", "solid", "prony"]
@@ -73,7 +74,7 @@ def test_events_find_contact_that_recedes_between_the_times():
 
 
 def test_events_recede_at_the_time_that_kinetics_reports():
-    """Random forces in random media, under most of which the contact recedes, and under some of which between times."""
+    """Random forces in random media. Under most of them the contact recedes, under some between the times."""
     random, disc = np.random.default_rng(4), self_affine_disc(0.7, 5, rms=1.0, seed=2)
     curve, within = indent(disc), 0
     for _ in range(60):
@@ -165,6 +166,65 @@ def test_unloading_recedes_and_recovers():
     assert np.nanmin(long_after.pressure) >= 0
 
 
+# ---- dashpots side by side with the rest: the surface stays, or recovers, without the indenter
+
+FLAT = Indenter(np.zeros((3, 3)), 1.0)
+PUNCH = indent(FLAT).stiffness[-1]
+
+
+@pytest.mark.parametrize(("medium", "last"), [(Newtonian(1.0), 0.05), (KelvinVoigt(1.0, 1.0), 0.01)])
+def test_an_indenter_above_the_surface_has_no_force(medium, last):
+    """Pressed in, moved out, and back to a depth above the surface: e⁻¹ and e⁻² of 0.1 in a Kelvin-Voigt medium."""
+    motion = march_medium(FLAT, medium, [0, 1, 2, 3], depth=[0, 0.1, 0, last])
+    np.testing.assert_array_equal(motion.force[2:], 0)
+    np.testing.assert_array_equal(motion.contact_count, [0, 9, 0, 0])
+    np.testing.assert_array_equal(motion.pressure, 0)
+    assert motion.force[1] == pytest.approx(PUNCH * (0.1 + getattr(medium, "shear_modulus", 0) * 0.1), rel=1e-12)
+    assert motion.receding_from == 2
+
+
+def test_an_indenter_touches_again_where_it_meets_the_recovering_surface():
+    """Kelvin-Voigt, θ = 1: after 0.1 at time 1 the free surface is at 0.1 exp(1 − t); the indenter comes at 0.01 t.
+
+    They meet at 2.23; from there on F = k (G u + η u').
+    """
+    times = np.append([0, 1, 1], np.linspace(1.5, 4, 26))
+    depth = np.append([0, 0.1, 0], 0.01 * times[3:])
+    motion = march_medium(FLAT, KelvinVoigt(1.0, 1.0), times, depth=depth)
+    meets = brentq(lambda t: 0.01 * t - 0.1 * np.exp(1 - t), 1, 4)
+    after = (times > 1) & (times > meets)
+    np.testing.assert_array_equal(motion.contact_count, np.where(after | (np.arange(29) == 1), 9, 0))
+    np.testing.assert_allclose(motion.force[after], PUNCH * (0.01 * times[after] + 0.01), rtol=1e-12)
+    np.testing.assert_array_equal(motion.force[2:][~after[2:]], 0)
+
+
+def test_a_step_of_the_depth_lifts_the_indenter_off_a_dashpot_and_no_more():
+    times, depth = [0, 1, 1, 2, 2], np.array([0, 0.1, 0.05, 0.05, 0.08])
+    motion = march_medium(FLAT, Newtonian(1.0), times, depth=depth)
+    np.testing.assert_array_equal(motion.contact_count, [0, 9, 0, 0, 0])
+    np.testing.assert_array_equal(motion.force[2:], 0)
+    assert motion.receding_from == 1
+    with refused("depth steps into the surface at time 2, which takes an infinite force; allowed: ramps"):
+        march_medium(FLAT, Newtonian(1.0), times, depth=np.append(depth[:-1], 0.11))
+
+
+def test_a_newtonian_indenter_rests_in_its_imprint():
+    """Without a force, or at a constant depth, its contact stays as it is: march_medium_events says the same."""
+    disc = self_affine_disc(0.7, 9, rms=0.05, seed=2)
+    times, force = [0, 1, 2, 3, 4], np.array([1.0, 1, 0, 0, 0])
+    motion, exact = march_medium(disc, 1.0, times, force=force), march_medium_events(disc, 1.0, times, force=force)
+    np.testing.assert_allclose(motion.depth, exact.depth, rtol=1e-12)
+    np.testing.assert_array_equal(motion.contact_count, exact.contact_count)
+    assert np.isnan(motion.receding_from)
+    held = march_medium(disc, 1.0, times, depth=[0, 0.1, 0.1, 0.1, 0.1])
+    np.testing.assert_array_equal(held.contact_count[1:], held.contact_count[1])
+    np.testing.assert_allclose(held.force[2:], 0, atol=1e-12 * held.force[1])
+    assert np.isnan(held.receding_from)
+    # A step of the force after the rest presses all of them again.
+    again = march_medium(disc, 1.0, [*times, 4], force=[*force, 2.0])
+    assert np.count_nonzero(np.nan_to_num(again.pressure)) == motion.contact_count[-1]
+
+
 # ---- the sphere
 
 
@@ -207,7 +267,7 @@ def test_sphere_in_and_out_follows_lee_and_radok_and_ting():
         ({"indenter": Indenter(np.zeros(5), 1.0)}, "must be two-dimensional"),
         (
             {"medium": Newtonian(1.0), "force": None, "depth": [0.1, 0.1, 0.1]},
-            "infinite force",
+            "time 0, which takes an infinite force",
         ),
     ],
 )

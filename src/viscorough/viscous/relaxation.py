@@ -56,7 +56,7 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
         Exact for steps and holds, and where the curve is exact between its levels (it is linear there as long as every
         level adds one element); elsewhere of second order in the distance between levels. At a step the force is its
         limit from either side, in a Springpot infinite. In a dashpot the force is that just after each time, and just
-        before the last one.
+        before the last one and before a time that is given again.
 
     Raises
     ------
@@ -104,7 +104,9 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
             raise ValueError(
                 f"depth: steps at time {node_times[where]:g}, which takes an infinite force here; allowed: ramps"
             )
-        force = force + viscosity * stiffness * np.append(speed, speed[-1:] if speed.size else 0.0)
+        before, after = np.append(0.0, speed), np.append(speed, 0.0)
+        last = np.append(np.diff(node_times) == 0, True)  # before a time that is given again, and at the end
+        force = force + viscosity * stiffness * np.where(last, before, after)
     return DepthHistory(*map(read_only, (times, depth, force[place] * area)))
 
 

@@ -2,13 +2,17 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.special import gamma
 
 from support.contract import refused
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
 from viscorough import (
     CreepTable,
     Maxwell,
+    Medium,
     Springpot,
+    contact_at,
     force_under_depth,
     impulses,
     indent,
@@ -83,12 +87,97 @@ def test_pressures_of_a_receding_contact_are_not_tensile(name):
     assert np.nansum(moved.pressure) * DISC.spacing**2 == pytest.approx(force[-1], rel=1e-12)
 
 
-def test_a_step_and_its_hold_are_exact_in_the_sum():
-    """The sum of the pressures is the force, in a springpot too, whose elastic part has no share in it at first."""
-    for medium in (MEDIA["solid"], Springpot(2.0, 0.4)):
-        pressure = pressure_at(DISC, medium, 0.5, 3.0, contacts=200)
-        assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(0.5, rel=2e-2)
+STEPS = impulses([0.1, 0.5, 0.8, 1.0], [0, 0.5, 0.5, 2.0])
+ALL = MEDIA | {f"springpot {exponent}": Springpot(2.0, exponent) for exponent in (0.1, 0.4, 0.9)}
+
+
+@pytest.mark.parametrize("contacts", [1, 5, 64])
+@pytest.mark.parametrize("name", ALL)
+def test_sum_of_the_pressures_is_the_force(name, contacts):
+    """At a step, shortly after it and later; in a springpot the depth does not follow a step at once."""
+    for time, force in ((0.25, 0.3), (0.5, 0.8), (0.5001, 0.8 + 0.2 * 1e-4 / 1.5), (2.0, 1.0)):
+        pressure = pressure_at(DISC, ALL[name], STEPS, time, contacts=contacts)
+        assert (np.isnan(pressure) == np.isnan(DISC.heights)).all()
+        assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(force, rel=1e-9)
         assert np.nanmin(pressure) >= 0
+
+
+@pytest.mark.parametrize("exponent", [0.2, 0.5, 0.8])
+def test_pressures_at_a_step_in_a_springpot_are_the_limit_from_later_times(exponent):
+    medium = Springpot(2.0, exponent)
+    at_step, later = (pressure_at(DISC, medium, STEPS, time, tolerance=1e-8) for time in (0.5, 0.5 + 1e-13))
+    assert np.nansum(abs(later - at_step)) < 5e-3 * np.nansum(at_step)
+
+
+def test_first_step_in_a_springpot_is_carried_by_the_highest_element():
+    pressure = pressure_at(DISC, Springpot(2.0, 0.4), impulses([0.0, 0.0, 1.0], [0.0, 2.0, 2.0]), 2.0)
+    assert np.nanargmax(pressure) == np.nanargmax(DISC.heights)
+    assert np.count_nonzero(np.nan_to_num(pressure)) == 1
+    assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(1.0)
+
+
+def held_in_a_springpot(disc, medium, force, time):
+    """p of a constant force, to rounding: p_el is linear in Φ between contact events, and ∫ψ dΦ is by quadrature."""
+    a, last = medium.exponent, force * float(medium.creep_compliance(time))
+    events = indent(disc, tolerance=1e-11, until_fraction=1.0).force
+    levels = np.append(events[events < last], last)
+    ends = time * np.append(0.0, (levels / last) ** (1 / a))
+    factor = force / (gamma(1 + a) * gamma(1 - a)) * a
+    pressure, before = np.where(np.isnan(disc.heights), np.nan, 0.0), 0.0
+    for level, start, end, fall in zip(levels, ends[:-1], ends[1:], np.diff(levels, prepend=0.0), strict=True):
+        middle = 0.5 * (start + end)
+        if start == 0:
+            first = quad(lambda s: (time - s) ** -a, 0, middle, weight="alg", wvar=(a - 1, 0), epsrel=1e-12)[0]
+        else:
+            first = quad(lambda s: s ** (a - 1) * (time - s) ** -a, start, middle, epsrel=1e-12)[0]
+        if level == last:
+            second = quad(lambda s: s ** (a - 1), middle, time, weight="alg", wvar=(0, -a), epsrel=1e-12)[0]
+        else:
+            second = quad(lambda s: s ** (a - 1) * (time - s) ** -a, middle, end, epsrel=1e-12)[0]
+        after = np.nan_to_num(contact_at(disc, force=level, tolerance=1e-11).pressure)
+        pressure += factor * (first + second) * (after - before) / fall
+        before = after
+    return pressure
+
+
+def test_pressures_in_a_springpot_converge_at_second_order():
+    """To exact pressures; the error is the mean over the elements, several times and exponents."""
+    disc, errors = self_affine_disc(0.7, 9, seed=3), []
+    for exponent in (0.2, 0.5, 0.8):
+        medium = Springpot(2.0, exponent)
+        for time in (1e-3, 0.1, 1.0, 2.0, 4.0):
+            exact = held_in_a_springpot(disc, medium, 0.5, time)
+            found = (pressure_at(disc, medium, 0.5, time, contacts=n, tolerance=1e-9) for n in (8, 64))
+            errors.append([np.nansum(abs(pressure - exact)) / np.nansum(exact) for pressure in found])
+    coarse, fine = np.mean(errors, axis=0)
+    assert fine < 2e-4
+    assert np.log(coarse / fine) / np.log(8) > 1.8
+
+
+def test_media_of_users_are_integrated_numerically():
+    """A medium whose ψ is known only as a function has the pressures of the springpot that it is."""
+
+    class Wrapped(Medium):
+        inner = Springpot(2.0, 0.4)
+
+        def creep_compliance(self, time):
+            return self.inner.creep_compliance(time)
+
+        def creep_rate(self, time, *, left=False):
+            return self.inner.creep_rate(time)
+
+        def creep_integral(self, start, end):
+            return self.inner.creep_integral(start, end)
+
+        def relaxation_modulus(self, time):
+            return self.inner.relaxation_modulus(time)
+
+        def relaxation_integral(self, start, end):
+            return self.inner.relaxation_integral(start, end)
+
+    for time in (0.5, 0.51, 2.0):
+        exact, found = (pressure_at(DISC, medium, STEPS, time) for medium in (Wrapped.inner, Wrapped()))
+        assert np.nansum(abs(found - exact)) < 1e-3 * np.nansum(exact)
 
 
 def test_refusals():

@@ -4,6 +4,7 @@
 
 Each file is made from a known map, spacing and unit (text_files.py), and read with viscorough.read_heights. It must be
 read exactly, with nan where points are missing, or be refused by a ValueError of one line that names the file.
+A profile must be read exactly by viscorough.read_line, or be refused, and viscorough.read_heights must refuse it.
 Everything else is wrong: another number, spacing or unit, a missing point that is dropped, another error, a warning
 other than AccuracyWarning, printed text. Files that do not hold a single map, or are contradictory, must be refused.
 
@@ -34,7 +35,8 @@ import viscorough
 from viscorough.errors import AccuracyWarning
 from viscorough.units import metres
 
-KINDS, SHARES = (text_files.matrix, text_files.points, text_files.esri), (0.7, 0.2, 0.1)
+KINDS = (text_files.matrix, text_files.points, text_files.esri, text_files.profile)
+SHARES = (0.6, 0.2, 0.05, 0.15)
 READ, REFUSED, UNREAD, WRONG = "read", "refused", "refused though unambiguous", "wrong"
 
 
@@ -55,7 +57,10 @@ def outcome(case, folder):
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", AccuracyWarning)
         try:
-            fault, refusal = difference(case, viscorough.read_heights(path, **case.options)), ""
+            if case.is_line and read_as_map(path, case.options):
+                return WRONG, "a profile, read as a map"
+            read = viscorough.read_line if case.is_line else viscorough.read_heights
+            fault, refusal = difference(case, read(path, **case.options)), ""
         except ValueError as error:
             fault, refusal = "", str(error)
         except Exception as error:
@@ -67,6 +72,15 @@ def outcome(case, folder):
     if "\n" in refusal or not refusal.startswith(str(path)):
         return WRONG, f"a refusal of more than one line, or without the file: {refusal[:200]!r}"
     return (UNREAD if case.draft.clear else REFUSED), refusal.removeprefix(f"{path}: ")
+
+
+def read_as_map(path, options):
+    """Whether read_heights reads a file."""
+    try:
+        viscorough.read_heights(path, **options)
+    except ValueError:
+        return False
+    return True
 
 
 def difference(case, indenter):

@@ -60,6 +60,7 @@ class Case:
     unit : of the heights, in metres; None if neither file nor arguments state it
     spacing : (dx, dy) in metres, or plain numbers where the unit is not known
     accuracy : relative, of the spacing that the file states
+    is_line : whether the file holds a profile, which read_line reads and read_heights must refuse
     """
 
     draft: Draft
@@ -71,6 +72,7 @@ class Case:
     spacing: tuple
     options: dict
     accuracy: float = 1e-12
+    is_line: bool = False
 
 
 def distances(draft, square=False):

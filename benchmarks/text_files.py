@@ -1,8 +1,9 @@
 """Random text files of known maps, as instruments and programs write them; for file_campaign.py.
 
-A matrix of heights, the points x, y, z of a grid, or an ESRI ASCII grid. What is drawn are the notation of numbers,
-delimiters, decimal marks, marks of missing points, header, comments, encoding and ends of lines. The headers of
-text_files.yaml that are "clear" are unambiguous, "unclear" ones may be refused, "bad" ones must be.
+A matrix of heights, the points x, y, z of a grid, an ESRI ASCII grid, or a profile, which is a line and no map. What is
+drawn are the notation of numbers, delimiters, decimal marks, marks of missing points, header, comments, encoding and
+ends of lines. The headers of text_files.yaml that are "clear" are unambiguous, "unclear" ones may be refused, and "bad"
+ones must be.
 """
 
 import re
@@ -226,6 +227,8 @@ def matrix(random):
     else:
         lines, heights, delimiter, decimal_comma, preparation = matrix_rows(draft, shape)
     header, unit, spacing, options = header_lines(draft, heights.shape, decimal_comma)
+    if min(heights.shape) <= 2:  # may be a profile, unless distances in both directions are given
+        draft.note("few rows or columns", bad="spacing" not in options)
     lines = with_header(draft, header, lines, delimiter, columns)
     name = "map" + draft.one_of([".txt", ".txt", ".csv", ".dat", ".asc", ".TXT", ".tsv"])
     return Case(draft, "matrix", name, encoded(draft, lines), heights, unit, spacing, options | preparation)
@@ -303,7 +306,13 @@ def _points_file(draft, table, heights, spacing, delimiter, accuracy):
     u, z = draft.one_of(["um", "mm", "nm", "µm", "m"]), draft.one_of(["nm", "um", "m", "µm"])
     titles = draft.pick(HEADINGS, ODD_HEADINGS, BAD_HEADINGS, odd=0.3).format(u=u, z=z)
     name, suffix, mark = draft.traits[-1], draft.one_of([".txt", ".csv", ".xyz", ".dat"]), draft.one_of(["", "", "# "])
-    unit, factor = (None, 1.0) if name in ("no heading", "x,y,z") else (UNITS[z], UNITS[u])
+    unit, factor, options = UNITS[z], UNITS[u], {}
+    if name in ("no heading", "x,y,z"):
+        if draft.chance(0.5):
+            draft.note("two units given")
+            options = {"unit": z, "lateral_unit": u}
+        else:
+            unit, factor = None, 1.0
     between = delimiter if delimiter.strip(" ") or " " not in titles else "  "
     lines = [mark + titles.replace("|", between)] if titles else []
     if name == "Gwyddion":
@@ -314,7 +323,7 @@ def _points_file(draft, table, heights, spacing, delimiter, accuracy):
         draft.note(f"in {suffix}", clear=False)
     lines += [delimiter.join(row[column] for column in ORDERS.get(name, (0, 1, 2))) for row in table]
     metres = tuple(distance * factor for distance in spacing)
-    return Case(draft, "points", f"points{suffix}", encoded(draft, lines), heights, unit, metres, {}, accuracy)
+    return Case(draft, "points", f"points{suffix}", encoded(draft, lines), heights, unit, metres, options, accuracy)
 
 
 def esri(random):
@@ -343,3 +352,81 @@ def esri(random):
     draft.note("unit given" if options else "", clear=not options)  # that of the coordinates is not stated
     lines = [*(f"{letters(name)}{gap}{value}" for name, value in head), *body]
     return Case(draft, "ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)
+
+
+# Headings of positions and heights
+PROFILE_HEADINGS = {
+    "no heading": "",
+    "x,z": "x|z",
+    "x [u]": "x [{u}]|z [{z}]",
+    "X (u)": "X ({u})|Z ({z})",
+    "x/u": "x/{u}|z/{z}",
+    "Position": "Position [{u}]|Height [{z}]",
+}
+ODD_PROFILE_HEADINGS = {"x_u": "x_{u}|z_{z}", "x and y": "x [{u}]|y [{z}]", "Weg": "Weg ({u})|Höhe ({z})"}
+BAD_PROFILE_HEADINGS = {"z in volts": "x [{u}]|z [V]", "time": "time|depth", "x in u": "x in {u}|z in {z}"}
+
+
+def profile(random):
+    """Heights along a line, alone or below their positions, as a column or a row: no map, but a line."""
+    draft = Draft(random)
+    points = int(draft.random.integers(3, 30))
+    (cells,), (heights,) = printed(draft, (1, points), odd=0)
+    heights = np.array(heights)
+    spacing, positions, accuracy = _positions(draft, points)
+    delimiter = draft.pick({"space": " ", "tab": "\t", "comma": ",", "semicolon": ";", "comma and space": ", "})
+    if draft.chance(0.2) and "," not in delimiter:
+        draft.note("decimal commas", clear=bool(delimiter.strip(" ")) and positions is not None)
+        cells, positions = ([cell.replace(".", ",") for cell in texts or []] for texts in (cells, positions))
+    elif "," in delimiter:
+        draft.note("", clear=positions is not None or "integers" not in draft.traits)  # may be one number
+    if draft.chance(0.06):
+        draft.note("a height is missing", bad=True)  # a line has no gaps
+        cells[draft.random.integers(points)] = "nan"
+    columns, titles = ([positions] if positions else []) + [cells], ""
+    u, z = draft.one_of(["um", "mm", "nm", "µm", "m"]), draft.one_of(["nm", "um", "m", "µm"])
+    options, unit, factor = {}, None, 1.0
+    if positions:
+        titles = draft.pick(PROFILE_HEADINGS, ODD_PROFILE_HEADINGS, BAD_PROFILE_HEADINGS, odd=0.3)
+        if titles and draft.chance(0.2):
+            draft.note("a column of numbers")
+            titles, columns = f"{titles}|n", [*columns, [str(number) for number in range(points)]]
+        elif draft.chance(0.04):
+            draft.note("an unnamed column of numbers", bad=True)
+            titles, columns = "", [*columns, [str(number) for number in range(points)]]
+        if "{" in titles:
+            unit, factor = UNITS[z], UNITS[u]
+    if unit is None and draft.chance(0.5):
+        draft.note("two units given")
+        options, unit, factor = {"unit": z, "lateral_unit": u}, UNITS[z], UNITS[u]
+    if positions is None:
+        options["spacing"] = spacing
+    in_rows = len(columns) < 3 and not titles and draft.chance(0.2)
+    draft.note("in rows" if in_rows else "")
+    rows = columns if in_rows else zip(*columns, strict=True)
+    between = delimiter if delimiter.strip(" ") or " " not in titles else "  "
+    lines = [draft.one_of(["", "", "# "]) + titles.format(u=u, z=z).replace("|", between)] if titles else []
+    lines += [delimiter.join(row) for row in rows]
+    name, metres = "profile" + draft.one_of([".txt", ".csv", ".dat"]), (factor * spacing,) * 2
+    heights = heights[::-1] if "falling" in draft.traits else heights  # in increasing order of x
+    case = Case(draft, "profile", name, encoded(draft, lines), heights, unit, metres, options, accuracy)
+    case.is_line = True
+    return case
+
+
+def _positions(draft, points):
+    """(spacing, texts of the positions or None, relative accuracy of the spacing that they state)."""
+    form, (spacing, _) = (
+        draft.pick(["alone", "", "", "rounded", "falling", "far"], bad=["uneven"], odd=0.6),
+        distances(draft),
+    )
+    if form == "alone":
+        return spacing, None, 1e-9
+    spacing = spacing / 3 if form == "rounded" else spacing
+    x = {"far": 500000.5}.get(form, draft.one_of([0, -7.5])) + spacing * np.arange(points)
+    if form == "uneven":
+        x = draft.pick({"one off": x + 0.4 * spacing * (np.arange(points) == 1), "quadratic": x * abs(x) + 3 * x})
+    x = x[::-1] if form == "falling" else x
+    digits = 5 if form != "rounded" or draft.chance(0.5) else int(np.ceil(-np.log10(0.04 * spacing)))
+    texts = [f"{value:.{digits}f}" for value in x]
+    return spacing, texts, 1e-9 + (10.0**-digits / np.ptp(x) if form == "rounded" else 0)

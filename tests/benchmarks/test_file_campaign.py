@@ -62,6 +62,13 @@ def test_another_map_spacing_or_unit_is_noticed(case, tmp_path, monkeypatch, cha
     assert what in why
 
 
+def test_profile_read_as_a_map_is_noticed(some_cases, tmp_path, monkeypatch):
+    profile = next(case for case in some_cases if case.is_line and case.draft.clear)
+    assert campaign.outcome(profile, tmp_path) == (campaign.READ, "")
+    monkeypatch.setattr("viscorough.read_heights", lambda path, **_: Indenter(np.eye(3), 1.0))
+    assert campaign.outcome(profile, tmp_path) == (campaign.WRONG, "a profile, read as a map")
+
+
 def test_what_must_be_refused_is_noticed(case, tmp_path, monkeypatch):
     monkeypatch.setattr("viscorough.read_heights", reader(case))
     monkeypatch.setattr(case.draft, "bad", True)

@@ -30,8 +30,9 @@ def reduce(
 ) -> None:
     """Loading curve of a line by the method of dimensionality reduction (MDR), in a fraction of a second.
 
-    LINE_OR_MAP is a .npy or NetCDF file with the heights of a line, as viscorough generate --points makes it:
-    independent springs stand in for the half-space. Or it is a map, as for viscorough indent: then lines are made with
+    LINE_OR_MAP is a file with the heights of a line: .npy or NetCDF, as viscorough generate --points makes it, or a
+    measured profile, a text with a column of heights, or with columns x and z. Independent springs stand in for the
+    half-space. Or it is a map, as for viscorough indent: then lines are made with
     its radially averaged power spectrum, random phases, and the rms height of the map.
 
     Limits: a line made from a map represents random surfaces with its spectrum, not the map itself. The mean stiffness
@@ -52,11 +53,12 @@ def reduce(
 
     line_or_map = surface.path
     files.check_output(output, heights=line_or_map)
-    if dimensions_of_heights(line_or_map) == 1:
+    states_map = "," in surface.options.get("spacing", "")  # by distances in both directions
+    if not states_map and dimensions_of_heights(line_or_map) == 1:
         of_maps = "--realizations and --seed are for maps, of which lines are made; this is a line"
         options.require(not realizations and seed is None, of_maps)
         of_scans = "--channel and preparation are for maps; this is a line"
-        options.require(surface.options.keys() <= {"spacing", "unit"}, of_scans)
+        options.require(surface.options.keys() <= {"spacing", "unit", "lateral_unit"}, of_scans)
         about = {"heights": files.printable_name(line_or_map)}
         lines = [read_line(line_or_map, **surface.options)]
     else:

@@ -16,7 +16,7 @@ from viscorough import units
 from viscorough.cli import files, messages, options
 from viscorough.units import Quantity
 
-_OF_READING = ("spacing", "unit", "channel")
+_OF_READING = ("spacing", "unit", "lateral_unit", "channel")
 _OF_PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
 _STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful, so that users are warned
 
@@ -76,6 +76,7 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
             "plain numbers are in the unit of the heights. Needed where the file states none.",
         )
         @click.option("--unit", metavar="UNIT", help="Unit of heights, such as um, if the file has none.")
+        @click.option("--lateral-unit", metavar="UNIT", help="Unit of x, y and plain spacings, if it is another one.")
         @click.option("--scale", metavar="QUANTITY", help="Factor of the heights, such as 0.053 nm per count.")
         @click.option("--channel", help="Name or number of the map to read from a file that holds several.")
         @click.option("--nodata", metavar="VALUE", help="Values, such as -9999, of points not measured.")

@@ -1,5 +1,7 @@
 """Points x, y, z, in any order, as a map of heights where x and y form a grid."""
 
+from decimal import Decimal
+
 import numpy as np
 
 from viscorough.types import Array, Integers
@@ -29,6 +31,8 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
             raise ValueError("some points stand twice")
         if not required and len(points) < max(_LEAST_POINTS, _LEAST_SHARE * columns * rows):
             raise ValueError("few of its points")
+        if not required and min(np.bincount(column).max(), np.bincount(row).max()) == 1:
+            raise ValueError("no two points in a row or column")  # as x, z and a number of a profile
     except ValueError as fault:
         if required:
             raise ValueError(f"points x, y, z form no grid of equal spacing ({fault}); a grid is needed") from None
@@ -36,6 +40,28 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
     heights = np.full((rows, columns), np.nan)
     heights[row, column] = points[:, 2]
     return heights, (dx, dy)
+
+
+def even_spacing(positions: Array) -> float | None:
+    """Return the distance between positions that rise, or fall, in equal steps; None for other positions.
+
+    Each may be off its place as far as it was rounded, by a unit of the last digit, but not by more than a twentieth of
+    the distance.
+    """
+    with np.errstate(invalid="ignore", over="ignore"):
+        step = abs(positions[-1] - positions[0]) / max(positions.size - 1, 1)
+        off = np.abs(positions - np.linspace(positions[0], positions[-1], positions.size)).max()
+    if not (0 < step < np.inf and off <= _OFF_GRID * step and off <= _last_digit(positions) + _MERGED * step):
+        return None
+    return float(f"{step:.12g}")
+
+
+def _last_digit(numbers: Array) -> float:
+    """Return the unit of the last digit of printed numbers, all with as many decimals, or else as many digits."""
+    decimals = [Decimal(repr(number)).normalize() for number in numbers.tolist()]
+    digits, places = zip(*(number.as_tuple()[1:] for number in decimals), strict=True)
+    largest = max(number.adjusted() for number in decimals)
+    return float(10.0 ** max(min(places), largest - max(map(len, digits)) + 1))
 
 
 def _axis(positions: Array) -> tuple[Integers, int, float]:

@@ -21,6 +21,11 @@ _NUMBER = r"[+-]?(?:\d+(?:[.,]\d+|\.)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _LENGTH = re.compile(rf"[(\[]?({_NUMBER})\s*[(\[]?([^\d\s,;()\[\]/]*)(?:/(?:px|pixel|point))?[)\]]?", re.IGNORECASE)
 _STATEMENT = re.compile(r"[\s#%/;!*\"'|]*([^\W\d_][^:=()\[\]\"]*?)\s*(?:[(\[]([^)\]]*)[)\]])?\"?\s*[:=](.*)")
 _COLUMN = re.compile(r"([xyz])(?:[\[(/_]([^\])]*)[\])]?)?", re.IGNORECASE)
+_PROFILE_COLUMN = re.compile(
+    r"(?:(?P<x>x|position|pos\.?|distance|lateral|length|abstand|weg|strecke|länge|abscisse)|(?P<y>y)"
+    r"|(?P<z>z|heights?|profile?|topography|elevation|höhe|hoehe|hauteur))(?:[\[(/_](?P<unit>[^\])]*)[\])]?)?",
+    re.IGNORECASE,
+)
 _FACTOR = re.compile(
     r"(?:height|z|data|value)\W*(?:conversion|scal(?:e|ing))?\W*factor|(?:(?:height|z|data|value)\W*)?"
     r"(?:scal(?:e|ing)|multiplier)(?:\W*factor)?$",
@@ -55,18 +60,21 @@ def states(line: str) -> bool:
 
 
 def read_header(
-    lines: Sequence[str], shape: tuple[int, ...], decimal: str
+    lines: Sequence[str], shape: tuple[int, ...], decimal: str, profile_columns: int = 0
 ) -> tuple[str, Spacing | None, str, tuple[str, ...] | None]:
     """(unit, spacing, lateral unit, columns) in lines of text above, below and beside a table of that shape.
 
     decimal : mark of the table; a decimal comma there makes "1,234" a number below two
+    profile_columns : number of columns of the table if it holds a profile, whose points lie along x; 0 for a map
 
     unit : of the heights; "1" if it is not stated
     spacing : (dx, dy); None if it is not stated, nan for a direction in which it is not
     lateral unit : of the spacing, or of positions x and y; "1" if it is not stated
-    columns : names of the columns of points in their order, such as ("x", "y", "z"); None if they are not stated
+    columns : names of the columns of points in their order, such as ("x", "y", "z"), or ("x", "z") of a profile; None
+        if they are not stated
 
-    Raises ValueError for statements that contradict each other or can be read in two ways.
+    Raises ValueError for statements that contradict each other or can be read in two ways, and above a map for the
+    heading of a profile.
     """
     stated: Stated = {role: [] for role in _ROLES}
     others = []
@@ -84,7 +92,7 @@ def read_header(
         elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and units.is_length(_unit_text(value)):
             text = "of which lengths is not stated; 'XY units', 'Z units' are allowed"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")
-    columns, of_columns = _columns(others, shape[1])
+    columns, of_columns = _columns(others, profile_columns or shape[1], of_profile=profile_columns > 0)
 
     def unit_among(role: str, *axes: str) -> str:
         return _agreed([*(_unit_text(value) for _, _, value in stated[role]), *(of_columns.get(a, "") for a in axes)])
@@ -175,23 +183,39 @@ def _agreed_step(axis: int, steps: Sequence[float], extents: Sequence[float], co
     return float(f"{step:.14g}")
 
 
-def _columns(lines: Sequence[str], count: int) -> tuple[tuple[str, ...] | None, dict[str, str]]:
-    """(names of the columns in their order or None, {name: unit}) of a line that heads columns x, y and z.
+def names_profile(lines: Iterable[str], count: int) -> bool:
+    """Return True if a line heads a table of `count` columns as positions x and heights z of a profile."""
+    return any(len(cells) == count and _profile_columns(cells) for cells in (_cells(_heading(line)) for line in lines))
+
+
+def _heading(line: str) -> str:
+    """The text of a line that may head columns, with units attached to the names."""
+    return re.sub(r"\s+(?=[\[(/])|(?<=/)\s+", "", line.strip("#%/;,!| \t").replace('"', ""))
+
+
+def _cells(heading: str) -> list[str]:
+    """The names in a heading, separated by commas, semicolons and tabs, or else by spaces."""
+    return [cell.strip() for cell in re.split(r"[,;\t]" if re.search(r"[,;\t]", heading) else r"\s+", heading)]
+
+
+def _columns(lines: Sequence[str], count: int, of_profile: bool) -> tuple[tuple[str, ...] | None, dict[str, str]]:
+    """(names of the columns in their order or None, {name: unit}) of a line that heads columns x, y, z, or x and z.
 
     Other columns have the name "". Raises ValueError for positions in degrees, for what may be a heading or its units
-    in another form, and for two headings.
+    in another form, for two headings, and for the heading of a profile above a map.
     """
     names: tuple[str, ...] | None = None
     found: dict[str, str] = {}
     for line in lines:
-        text = re.sub(r"\s+(?=[\[(/])|(?<=/)\s+", "", line.strip("#%/;,!| \t").replace('"', ""))
-        cells = [cell.strip() for cell in re.split(r"[,;\t]" if re.search(r"[,;\t]", text) else r"\s+", text)]
-        matches = [_COLUMN.fullmatch(cell) for cell in cells]
-        if len(cells) == count == 3 and [m and m[1].lower() for m in matches] == ["x", "y", None]:  # z has another name
-            matches[2] = _COLUMN.fullmatch(re.sub(r"^[^\W\d_][^\[(/_]*", "z", cells[2]))
-        axes = tuple(match[1].lower() if match else "" for match in matches)
-        if names is None and len(cells) == count and sorted(filter(None, axes)) == ["x", "y", "z"]:
-            names, found = axes, {match[1].lower(): match[2] for match in matches if match and match[2] is not None}
+        text = _heading(line)
+        cells = _cells(text)
+        profile = _profile_columns(cells) if len(cells) == count else None
+        if profile and not of_profile:
+            text = f"heading {text[:60]!r}: positions and heights of a profile"
+            raise ValueError(f"{text}; viscorough reduce and read_line read it, a map has columns x, y, z")
+        heading = profile if of_profile else _map_columns(cells) if len(cells) == count else None
+        if names is None and heading:
+            names, found = heading
             if wrong := next((unit for unit in found.values() if not units.is_length(unit)), None):
                 raise ValueError(f"heading {text[:60]!r}: {wrong!r} is no unit of length, such as um, nm or m")
             continue
@@ -200,7 +224,31 @@ def _columns(lines: Sequence[str], count: int) -> tuple[tuple[str, ...] | None, 
             raise ValueError(f"heading {text[:60]!r}: positions in degrees; lengths x and y are needed")
         of_units = len(cells) == count > 1 and all(map(units.is_length, cells))
         in_brackets = map(units.is_length, re.findall(r"[\[(]([^\W\d]\w*)[\])]", text))
-        if of_units or words >= {"x", "y", "z"} or any(in_brackets):
-            needed = "one heading, such as 'x [um], y [um], z [nm]', is allowed"
-            raise ValueError(f"header {text[:60]!r}: which columns and units these are is not stated; {needed}")
+        if of_units or words >= ({"x", "z"} if of_profile else {"x", "y", "z"}) or any(in_brackets):
+            example = "x [um], z [nm]" if of_profile else "x [um], y [um], z [nm]"
+            text = f"header {text[:60]!r}: which columns and units these are is not stated"
+            raise ValueError(f"{text}; one heading, such as {example!r}, is allowed")
     return names, found
+
+
+def _map_columns(cells: Sequence[str]) -> tuple[tuple[str, ...], dict[str, str]] | None:
+    """(names, {name: unit}) of cells that head columns x, y and z, in any order, and others; None for other cells."""
+    matches = [_COLUMN.fullmatch(cell) for cell in cells]
+    if [m and m[1].lower() for m in matches] == ["x", "y", None]:  # z has another name
+        matches[2] = _COLUMN.fullmatch(re.sub(r"^[^\W\d_][^\[(/_]*", "z", cells[2]))
+    names = tuple(match[1].lower() if match else "" for match in matches)
+    if sorted(filter(None, names)) != ["x", "y", "z"]:
+        return None
+    return names, {match[1].lower(): match[2] for match in matches if match and match[2] is not None}
+
+
+def _profile_columns(cells: Sequence[str]) -> tuple[tuple[str, ...], dict[str, str]] | None:
+    """The same of cells that head the positions x and heights z of a profile, one of which may be named y."""
+    matches = [_PROFILE_COLUMN.fullmatch(cell) for cell in cells]
+    names = [next(name for name in "xyz" if match[name]) if match else "" for match in matches]
+    if sorted(names) == ["y", "z"] or sorted(names) == ["x", "y"]:
+        names[names.index("y")] = "x" if "z" in names else "z"
+    if sorted(filter(None, names)) != ["x", "z"]:
+        return None
+    pairs = zip(names, matches, strict=True)
+    return tuple(names), {name: match["unit"] for name, match in pairs if match and match["unit"] is not None}

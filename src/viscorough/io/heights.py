@@ -13,6 +13,7 @@ from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter, positive
 from viscorough.io import netcdf
 from viscorough.io.atomic import path_named, reading
+from viscorough.io.profiles import holds_profile, read_profile
 from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
@@ -27,6 +28,7 @@ def read_heights(
     spacing: Distance | str | tuple[Distance | str, Distance | str] | None = None,
     *,
     unit: str | None = None,
+    lateral_unit: str | None = None,
     channel: str | None = None,
     scale: float | str | units.Quantity | None = None,
     **preparation: Any,
@@ -47,7 +49,9 @@ def read_heights(
         Distance between neighbouring points, or (dx, dy): from column to column, from row to row; numbers in the unit
         of the heights, or texts as "0.2 um". Needed where the file states none.
     unit : str, optional
-        Unit of length of the heights, where the file states none, such as "um".
+        Unit of length of the heights, where the file states none, such as "um"; also of positions x and y without one.
+    lateral_unit : str, optional
+        Unit of positions x and y, and of a spacing in plain numbers, if it is another one, such as "mm".
     channel : str, optional
         Name or number (from 0) of the map to read, where a file holds several; by default the variable `heights` of a
         NetCDF file, and the first channel of heights of an instrument's file.
@@ -73,26 +77,36 @@ def read_heights(
     ((8, 8), 0.5, 'um')
     """
     with path_named(path):
-        scan = _read_scan(path, channel)
-        indenter = to_indenter(scan if scale is None else _scaled(scan, scale), spacing, unit)
+        scan = _read_scan(path, channel, is_map=isinstance(spacing, tuple | list | np.ndarray))
+        indenter = to_indenter(scan if scale is None else _scaled(scan, scale), spacing, unit, lateral_unit)
         indenter = prepare(indenter, **preparation)
     for text in doubts(indenter):
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     return indenter
 
 
-def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str | None = None) -> Indenter:
+def read_line(
+    path: FilePath,
+    spacing: Distance | str | None = None,
+    unit: str | None = None,
+    lateral_unit: str | None = None,
+) -> Indenter:
     """Read the heights of a line as an Indenter, for the method of dimensionality reduction (mdr.reduce).
 
     Parameters
     ----------
     path : path
-        .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable.
+        .npy of shape (points,), .nc with a variable `heights` of one dimension or only one such variable, or text
+        (.txt, .csv, .asc, .dat, .tsv, .xyz): a single column or row of heights, or two of them, positions x and heights
+        z. Under a heading that names x and z, such as "x [um], z [nm]", other columns are left out.
     spacing : number or text, optional
-        Distance between neighbouring points, in the unit of the heights, or a text as "0.2 um"; by default that of the
-        coordinate in a NetCDF file.
+        Distance between neighbouring points, in the unit of the heights, or a text as "0.2 um"; needed where the file
+        states none. Positions must be equally spaced, to the last digit. If they are 0, 1, 2, … or
+        1, 2, 3, … without a heading, they number the points and state no distance.
     unit : str, optional
-        Unit of length of the heights, where the file states none, such as "um".
+        Unit of length of the heights, where the file states none, such as "um"; also of positions x without one.
+    lateral_unit : str, optional
+        Unit of positions x, and of a spacing in plain numbers, if it is another one, such as "mm".
 
     Raises
     ------
@@ -111,8 +125,15 @@ def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str |
     (64,)
     """
     with path_named(path):
-        scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else netcdf_scan(path, None, dimensions=1)
-        return to_indenter(scan, None if spacing is None else (spacing, spacing), unit, dimensions=1)
+        suffix = Path(path).suffix.lower()
+        if suffix not in (".npy", ".nc", *TEXT):
+            raise ValueError(f"unknown kind of file; a line is read from .npy, .nc, {', '.join(TEXT)}")
+        if suffix == ".npy":
+            scan = Scan(npy_array(path))
+        else:
+            scan = netcdf_scan(path, None, dimensions=1) if suffix == ".nc" else read_profile(path)
+        spacings = None if spacing is None else (spacing, spacing)
+        return to_indenter(scan, spacings, unit, lateral_unit, dimensions=1)
 
 
 def surface_to_content(indenter: Indenter) -> netcdf.Content:
@@ -128,10 +149,14 @@ def surface_to_content(indenter: Indenter) -> netcdf.Content:
 
 
 def dimensions_of_heights(path: FilePath) -> int:
-    """Number of dimensions of the heights in a .npy or NetCDF file: 1 for a line; 2 where there are no such heights."""
-    if Path(path).suffix == ".npy":
+    """Number of dimensions of the heights in a file: 1 for a line in a .npy, NetCDF or text file, 2 for all others."""
+    suffix = Path(path).suffix.lower()
+    if suffix == ".npy":
         return npy_array(path).ndim
-    if Path(path).suffix != ".nc":
+    if suffix in TEXT and not is_binary(path):
+        with path_named(path):
+            return 1 if holds_profile(path) else 2
+    if suffix != ".nc":
         return 2
     with netcdf.opened(path) as file:
         maps = [name for name, each in file.variables.items() if each.ndim == 2]
@@ -150,8 +175,11 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
-def _read_scan(path: FilePath, channel: str | None) -> Scan:
-    """The Scan in a file, by the reader for its suffix."""
+def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
+    """The Scan in a file, by the reader for its suffix.
+
+    is_map : whether the distances of both columns and rows are given, so that a text of few rows or columns is a map
+    """
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
         return netcdf_scan(path, channel)
@@ -162,7 +190,7 @@ def _read_scan(path: FilePath, channel: str | None) -> Scan:
     if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):  # some instruments use the suffixes of texts
         if channel is not None:
             raise ValueError(f"--channel {channel}: a file of this kind holds one map; leave it out")
-        return Scan(npy_array(path)) if suffix == ".npy" else read_text(path)
+        return Scan(npy_array(path)) if suffix == ".npy" else read_text(path, is_map=is_map)
     from viscorough.io.instruments import read_instrument
 
     return read_instrument(path, channel)

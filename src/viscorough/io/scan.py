@@ -29,12 +29,21 @@ class Scan(NamedTuple):
     spacing_unit: str = units.UNKNOWN
 
 
-def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, *, dimensions: int = 2) -> Indenter:
+def to_indenter(
+    scan: Scan,
+    spacing: Any = None,
+    unit: str | None = None,
+    lateral_unit: str | None = None,
+    *,
+    dimensions: int = 2,
+) -> Indenter:
     """The Indenter of a Scan: heights in their unit, spacings converted to it.
 
     spacing : one distance, or (dx, dy), each a number in the unit of the heights, or what viscorough.units.with_unit
         takes; needed where the file states none, must agree with the file's
     unit : of the heights, and of a spacing without one, needed where the file states none; must agree with the file's
+    lateral_unit : of the file's spacing, and of a spacing without one, where it is not the unit of the heights; must
+        agree with the file's
     dimensions : of the heights, 2 of a map or 1 of a line
 
     Raises ValueError where file and arguments contradict each other, where something is missing, for a unit that is
@@ -43,13 +52,21 @@ def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, *, dim
     if scan.heights.ndim != dimensions:
         needed = "a line" if dimensions == 1 else "a two-dimensional map"
         raise ValueError(f"heights have the shape {scan.heights.shape}; {needed} is needed")
-    length_unit = _length_unit(scan, unit)
+    length_unit = _agreed_unit("--unit", "heights", scan.unit, unit)
+    if lateral_unit is not None:
+        if length_unit == units.UNKNOWN:
+            raise ValueError(f"--lateral-unit {lateral_unit}: heights are in no stated unit; --unit is needed")
+        lateral_unit = units.length_unit(lateral_unit)
+        scan = scan._replace(
+            spacing_unit=_agreed_unit("--lateral-unit", "positions x and y", scan.spacing_unit, lateral_unit)
+        )
     in_file = _stated_spacing(scan, length_unit, is_given=spacing is not None)
-    own = in_file if spacing is None else _given_spacing(scan, length_unit, spacing)
+    own = in_file if spacing is None else _given_spacing(scan, length_unit, spacing, lateral_unit)
     if not np.isfinite(own).all():
         which = "neighbouring points" if np.isnan(own).all() else "columns" if np.isnan(own[0]) else "rows"
         raise ValueError(f"the distance between {which} is not stated; --spacing is needed")
-    for name, distance, stated in zip(("columns", "rows"), own, in_file, strict=True):
+    names = ("points", "points") if dimensions == 1 else ("columns", "rows")
+    for name, distance, stated in zip(names, own, in_file, strict=True):
         if abs(distance - stated) > _AGREEMENT * abs(stated):
             unit = "" if length_unit == units.UNKNOWN else f" {length_unit}"
             text = f"--spacing {distance:g}{unit} contradicts the file, in which {name} are {stated:g}{unit} apart"
@@ -58,12 +75,17 @@ def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, *, dim
     return Indenter(scan.heights, dx, dy, length_unit=length_unit)
 
 
-def _given_spacing(scan: Scan, length_unit: str, spacing: Any) -> tuple[float, ...]:
-    """A given spacing as (dx, dy), in the unit of the heights."""
+def _given_spacing(scan: Scan, length_unit: str, spacing: Any, plain_unit: str | None) -> tuple[float, ...]:
+    """A given spacing as (dx, dy), in the unit of the heights.
+
+    plain_unit : of numbers without a unit; None for the unit of the heights
+    """
     pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
     if len(pair) != 2:
         raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
     pair = [units.with_unit(distance) for distance in pair]
+    if plain_unit is not None:
+        pair = [_in_unit(distance, plain_unit) for distance in pair]
     have_units = all(isinstance(distance, units.Quantity) and distance.unit for distance in pair)
     if not have_units and scan.spacing is None and scan.spacing_unit not in (units.UNKNOWN, scan.unit):
         text = f"heights are in {scan.unit}, x and y in {scan.spacing_unit}; a spacing with a unit is needed"
@@ -71,12 +93,19 @@ def _given_spacing(scan: Scan, length_unit: str, spacing: Any) -> tuple[float, .
     return tuple(positive("spacing", number) for number in units.numbers(pair, length_unit, length_unit, "--spacing"))
 
 
-def _length_unit(scan: Scan, given: str | None) -> str:
-    """The unit of the heights, stated by the file or given."""
-    stated = None if scan.unit.strip() in ("", units.UNKNOWN) else units.length_unit(scan.unit)
+def _in_unit(distance: Any, unit: str) -> units.Quantity:
+    """A distance, which has this unit if it is a plain number."""
+    if isinstance(distance, units.Quantity):
+        return distance if distance.unit else units.Quantity(distance.number, unit)
+    return units.Quantity(positive("spacing", distance), unit)
+
+
+def _agreed_unit(option: str, lengths: str, in_file: str, given: str | None) -> str:
+    """The unit of lengths, stated by the file or given by an option, which must agree; "1" if it is not known."""
+    stated = None if in_file.strip() in ("", units.UNKNOWN) else units.length_unit(in_file)
     given = None if given is None or given == units.UNKNOWN else units.length_unit(given)
     if stated and given and units.metres(stated) != units.metres(given):
-        raise ValueError(f"--unit {given} contradicts the file, in which heights are in {stated}; leave it out")
+        raise ValueError(f"{option} {given} contradicts the file, in which {lengths} are in {stated}; leave it out")
     return stated or given or units.UNKNOWN
 
 
@@ -92,7 +121,8 @@ def _stated_spacing(scan: Scan, length_unit: str, is_given: bool) -> tuple[float
             return scan.spacing
         if is_given:
             return np.nan, np.nan
-        raise ValueError(f"heights are in {length_unit}, coordinates in no stated unit; --spacing is needed")
+        text = f"heights are in {length_unit}, coordinates in no stated unit"
+        raise ValueError(f"{text}; --spacing or --lateral-unit is needed")
     unit = units.length_unit(scan.spacing_unit)
     if length_unit == units.UNKNOWN:
         raise ValueError(f"coordinates are in {unit}, heights in no stated unit; --unit is needed")

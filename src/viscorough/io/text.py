@@ -1,5 +1,8 @@
 """Maps of heights in text files: matrices, ESRI ASCII grids, and columns x, y, z of the points of a grid.
 
+A table of one or two rows or columns may be a profile (io.profiles). It is a map only if the user gives the distances
+in both directions.
+
 Lines before the first row of numbers are a header, and lines that start with #, %, //, ! or ; are comments; ; starts a
 row where semicolons delimit the table. What they state about spacing and units is used (io.headers). A file is refused
 where its delimiter, its decimal mark or the number of its cells is not certain: every row has the same number of cells,
@@ -9,12 +12,12 @@ and nothing is left out but comments.
 import io
 import re
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscorough.io.atomic import reading, reason
-from viscorough.io.grids import gridded
+from viscorough.io.grids import even_spacing, gridded
 from viscorough.io.headers import Spacing, read_header, states
 from viscorough.io.scan import Scan
 from viscorough.io.zygo import zygo_scan
@@ -37,15 +40,63 @@ _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", r
 _PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
 _ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
 _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
+_LEAST_POSITIONS = 10  # the same for numbers that rise, or fall, in any steps
 
 
-def read_text(path: FilePath) -> Scan:
-    """The Scan in a text file. Raises a one-line ValueError if it holds no map of heights, or none for certain."""
-    lines = _decoded(path).split("\n")
+class Table(NamedTuple):
+    """The numbers in a text file, and the lines that are no rows of numbers.
+
+    values : shape (rows, columns); missing values are nan
+    header : lines above the first row
+    comments : lines between and below the rows
+    delimiter, decimal : of the rows; the delimiter is None for white space
+    separated : number of the first line that empty lines separate from the rows above; 0 if there is none
+    esri : keys of an ESRI grid and their numbers; empty for other files
+    """
+
+    values: Array
+    header: list[str]
+    comments: list[str]
+    delimiter: str | None
+    decimal: str
+    separated: int
+    esri: dict[str, float]
+
+
+def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
+    """The Scan in a text file.
+
+    is_map : whether the user stated that the table is a map; else one of at most two rows or columns is refused as a
+        profile, unless it is an ESRI grid
+
+    Raises a one-line ValueError if the file holds no map of heights, or none for certain.
+    """
+    lines = decoded_lines(path)
     if lines[0].startswith("Zygo XYZ Data File"):
         return zygo_scan(lines)
-    if any(line.startswith('# source: "viscorough') for line in lines[:100]):
+    if is_own_table(lines):
         raise ValueError("a table that viscorough wrote holds no map of heights; one is needed")
+    table = parsed(lines)
+    if table.esri:
+        return _esri_scan(table.values, table.esri)
+    unit, spacing, lateral_unit, columns = read_header(
+        [*table.header, *table.comments], table.values.shape, table.decimal
+    )
+    points = table.values if columns is None else table.values[:, [columns.index(name) for name in "xyz"]]
+    grid = _grid(points, spacing, required=columns is not None or str(path).lower().endswith(".xyz"))
+    if grid is not None:
+        heights, spacing = grid
+        return Scan(heights, unit, spacing, lateral_unit)
+    if not is_map:
+        _check_not_profile(table.values.shape)
+    if table.separated:
+        raise ValueError(f"line {table.separated}: empty lines separate it from the rows above; one map is needed")
+    _check_positions(table.values)
+    return Scan(table.values, unit, spacing, lateral_unit)
+
+
+def parsed(lines: Sequence[str]) -> Table:
+    """The Table in the lines of a file. Raises a one-line ValueError if there is none, or none for certain."""
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
         almost = [f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)]
@@ -53,21 +104,16 @@ def read_text(path: FilePath) -> Scan:
     rows, comments, separated = _rows(lines, first)
     delimiter, decimal = _punctuation(rows)
     cells = next(iter(rows.values())).split(delimiter)
-    table = _table(rows, delimiter, decimal)
-    esri = _esri(lines[:first])
-    _check_above(lines[:first], delimiter, {table.shape[1], len(cells)}, esri)
-    if esri:
-        return _esri_scan(table, esri)
-    unit, spacing, lateral_unit, columns = read_header([*lines[:first], *comments], table.shape, decimal)
-    points = table if columns is None else table[:, [columns.index(name) for name in "xyz"]]
-    grid = _grid(points, spacing, required=columns is not None or str(path).lower().endswith(".xyz"))
-    if grid is not None:
-        heights, spacing = grid
-        return Scan(heights, unit, spacing, lateral_unit)
-    if separated:
-        raise ValueError(f"line {separated}: empty lines separate it from the rows above; one map is needed")
-    _check_labels(table)
-    return Scan(table, unit, spacing, lateral_unit)
+    values = _values(rows, delimiter, decimal)
+    header = list(lines[:first])
+    esri = _esri(header)
+    _check_above(header, delimiter, {values.shape[1], len(cells)}, esri)
+    return Table(values, header, comments, delimiter, decimal, separated, esri)
+
+
+def is_own_table(lines: Sequence[str]) -> bool:
+    """Return True for the lines of a table that viscorough wrote."""
+    return any(line.startswith('# source: "viscorough') for line in lines[:100])
 
 
 def is_binary(path: FilePath) -> bool:
@@ -92,8 +138,8 @@ def _content(path: FilePath, size: int = -1) -> bytes:
         return file.read(size)
 
 
-def _decoded(path: FilePath) -> str:
-    """The text of a file, in the encodings that instruments use, with \\n at the end of lines and ASCII minus signs."""
+def decoded_lines(path: FilePath) -> list[str]:
+    """The lines of a text file, in the encodings that instruments use, with ASCII minus signs."""
     content = _content(path)
     if encoding := _utf16(content[:4096]):
         text = content.decode(encoding, errors="replace")
@@ -102,7 +148,7 @@ def _decoded(path: FilePath) -> str:
             text = content.decode("utf-8-sig")
         except UnicodeDecodeError:
             text = content.decode("cp1252", errors="replace")
-    return text.replace("\r\n", "\n").replace("\r", "\n").replace("\N{MINUS SIGN}", "-")
+    return text.replace("\r\n", "\n").replace("\r", "\n").replace("\N{MINUS SIGN}", "-").split("\n")
 
 
 def _is_row(line: str) -> bool:
@@ -167,7 +213,7 @@ def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
     return delimiter or ",", "," if delimiter else "."
 
 
-def _table(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
+def _values(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
     """The rows as an array of two dimensions; missing values are nan. Raises ValueError that names the line."""
     text = "\n".join(rows.values())
     if decimal == ",":
@@ -241,21 +287,45 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
             raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; numbers or a comment are needed")
 
 
-def _check_labels(table: Array) -> None:
-    """Raise ValueError if the first column or row counts up evenly, unlike the others, so that it holds no heights."""
+def _check_not_profile(shape: tuple[int, ...]) -> None:
+    """Raise ValueError for a table of at most two rows or columns, which may hold a profile and its positions."""
+    count, name = min(zip(shape, ("row", "column"), strict=True))
+    if count <= 2:
+        text = f"a single {name}, as of a profile" if count == 1 else f"two {name}s, as x and z of a profile"
+        way = "viscorough reduce and read_line read profiles; a map of this shape needs both distances, --spacing DX,DY"
+        raise ValueError(f"{text}; {way}")
+
+
+def _check_positions(table: Array) -> None:
+    """Raise ValueError if the first or last column, or row, holds positions or numbers of points, unlike the others.
+
+    These rise, or fall, in equal steps; or in any steps, while no other column, or row, rises or falls throughout.
+    """
     # Positions along both axes may have any number in the corner where they meet.
     has_corner = min(table.shape) >= _LEAST_LABELS and _is_even(table[1:, 0]) and _is_even(table[0, 1:])
-    for name, first, others in (("column", table[:, 0], table[:, 1:].T), ("row", table[0], table[1:])):
-        even = first.size >= _LEAST_LABELS and _is_even(first[1:] if has_corner or np.isnan(first[0]) else first)
-        if even and len(others) and not any(map(_is_even, others)):
-            text = "counts up evenly, unlike the others, as positions do"
-            raise ValueError(f"the first {name} {text}; heights alone, or columns x, y, z, are needed")
+    for name, vectors in (("column", table.T), ("row", table)):
+        for place, vector, others in (("first", vectors[0], vectors[1:]), ("last", vectors[-1], vectors[:-1])):
+            labels = vector[1:] if place == "first" and (has_corner or np.isnan(vector[0])) else vector
+            if not len(others) or vector.size < _LEAST_LABELS or not _is_monotonic(labels):
+                continue
+            # All columns of a tilted plane rise evenly. Beside x, the numbers of the points may do so.
+            even = _is_even(labels) and sum(map(_is_even, others)) <= min(1, len(others) - 1)
+            if even or (labels.size >= _LEAST_POSITIONS and not any(map(_is_monotonic, others))):
+                text = f"the {place} {name} counts up {'evenly' if even else 'throughout'}, unlike the others"
+                needed = "heights alone, columns x, y, z, or a .npy array, are needed; read_line reads profiles"
+                raise ValueError(f"{text}, as positions do; {needed}")
+
+
+def _is_monotonic(values: Any) -> bool:
+    """Return True if values rise, or fall, from each to the next."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        steps = np.diff(values)
+    return bool((steps > 0).all() or (steps < 0).all())
 
 
 def _is_even(values: Any) -> bool:
-    """Whether values rise, or fall, in equal steps."""
-    steps = np.diff(values)
-    return bool(np.isfinite(steps).all() and steps[0] != 0 and np.ptp(steps) <= 1e-6 * abs(steps[0]))
+    """Return True if values rise, or fall, in equal steps."""
+    return even_spacing(values) is not None
 
 
 def _grid(table: Array, stated: Spacing | None, required: bool) -> tuple[Array, Spacing] | None:

@@ -38,6 +38,15 @@ def test_a_doubt_is_told_with_what_removes_it(capsys):
     assert "--detrend plane removes it" in attributes["warnings"]
 
 
+def test_points_in_two_units(capsys):
+    x, y = np.broadcast_arrays(X, Y)
+    np.savetxt("points.xyz", np.transpose([1e-3 * x.ravel(), 1e-3 * y.ravel(), ROUGH.ravel()]))
+    curve, attributes = curve_of(capsys, f"points.xyz --unit um --lateral-unit mm {DEPTHS}")
+    wanted = indent(Indenter(ROUGH, DX, DY, length_unit="um"), depths=[0.05, 0.2])
+    np.testing.assert_allclose([curve.force, curve.stiffness], [wanted.force, wanted.stiffness], rtol=1e-9)
+    assert (attributes["spacing"], attributes["row_spacing"], attributes["length_unit"]) == (DX, DY, "um")
+
+
 def test_channel_and_preparation_are_passed_on_and_recorded(capsys):
     marked = -ROUGH - 3 * X + 2 * Y
     marked[0, :3], marked[8, 8] = -9999, np.nan

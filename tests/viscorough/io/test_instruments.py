@@ -108,6 +108,6 @@ def test_without_the_extra_the_message_names_the_remedy(tmp_path, monkeypatch):
 def test_contents_decide_where_a_suffix_is_shared(tmp_path):
     """Some instruments write binary files under .dat, which is read as text otherwise."""
     (tmp_path / "a.dat").write_text("1 2\n3 4\n")
-    assert read_heights(tmp_path / "a.dat", 1.0).heights.tolist() == [[1, 2], [3, 4]]
+    assert read_heights(tmp_path / "a.dat", (1.0, 1.0)).heights.tolist() == [[1, 2], [3, 4]]
     (tmp_path / "b.dat").write_bytes((FILES / "unnamed.ibw").read_bytes())
     assert read_heights(tmp_path / "b.dat").heights.shape == (10, 10)

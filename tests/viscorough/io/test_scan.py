@@ -43,7 +43,7 @@ def test_coordinates_of_netcdf_give_the_spacings(tmp_path, content, arguments, s
 
 
 def test_a_plain_spacing_is_not_taken_in_another_unit_than_that_of_x_and_y(tmp_path):
-    (tmp_path / "a.txt").write_text("# XY units: mm\n# Z units: um\n1 2\n3 4\n")
+    (tmp_path / "a.txt").write_text("# XY units: mm\n# Z units: um\n1 2 3\n3 4 9\n2 5 7\n")
     with refused("heights are in um, x and y in mm; a spacing with a unit"):
         read_heights(tmp_path / "a.txt", 0.5)
     assert read_heights(tmp_path / "a.txt", [units.quantity("0.5 mm")] * 2).spacing == 500

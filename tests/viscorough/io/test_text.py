@@ -8,6 +8,7 @@ import pytest
 
 from support.contract import refused
 from viscorough.io.heights import read_heights
+from viscorough.io.scan import to_indenter
 from viscorough.io.text import read_text
 
 NAN = np.nan
@@ -34,7 +35,7 @@ TABLES = [
 @pytest.mark.parametrize(("text", "heights"), TABLES)
 def test_tables_of_any_punctuation_with_gaps(tmp_path, text, heights):
     (tmp_path / "a.txt").write_text(text, encoding="utf-8", newline="")
-    scan = read_text(tmp_path / "a.txt")
+    scan = read_text(tmp_path / "a.txt", is_map=True)
     np.testing.assert_array_equal(scan.heights, heights)
     assert (scan.unit, scan.spacing) == ("1", None)
 
@@ -54,7 +55,7 @@ def test_tables_of_any_punctuation_with_gaps(tmp_path, text, heights):
 )
 def test_headers(tmp_path, header, unit, spacing):
     (tmp_path / "a.txt").write_text(f"{header}1 2\n3 4\n", encoding="utf-8")
-    indenter = read_heights(tmp_path / "a.txt")
+    indenter = to_indenter(read_text(tmp_path / "a.txt", is_map=True))
     np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx(spacing, rel=1e-12)
     assert indenter.length_unit == unit
@@ -63,7 +64,7 @@ def test_headers(tmp_path, header, unit, spacing):
 @pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
 def test_utf_16_without_a_mark(tmp_path, encoding):
     (tmp_path / "a.txt").write_text("1\t2\t3\n4\t5\t6\n", encoding=encoding)
-    np.testing.assert_array_equal(read_text(tmp_path / "a.txt").heights, MATRIX)
+    np.testing.assert_array_equal(read_text(tmp_path / "a.txt", is_map=True).heights, MATRIX)
 
 
 def test_points_in_any_order_with_gaps(tmp_path):
@@ -96,6 +97,27 @@ def test_points_with_units_of_their_columns_or_below_a_header_that_agrees(tmp_pa
     indenter = read_heights(tmp_path / "a.xyz")
     np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (500, 250, "nm")
+
+
+def test_points_whose_lateral_unit_is_given(tmp_path):
+    (tmp_path / "a.xyz").write_text(POINTS)
+    indenter = read_heights(tmp_path / "a.xyz", unit="um", lateral_unit="mm")
+    np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
+    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (500, 250, "um")
+    (tmp_path / "b.xyz").write_text(f"# Value units: um\n{POINTS}")
+    assert read_heights(tmp_path / "b.xyz", lateral_unit="mm").spacing == 500
+    (tmp_path / "c.xyz").write_text(f"x [um] y [um] z [nm]\n{POINTS}")
+    with refused("--lateral-unit mm contradicts the file, in which positions x and y are in um"):
+        read_heights(tmp_path / "c.xyz", lateral_unit="mm")
+    with refused("heights are in no stated unit; --unit is needed"):
+        read_heights(tmp_path / "a.xyz", lateral_unit="mm")
+
+
+@pytest.mark.parametrize("spacing", [0.5, (0.5, 0.5), "0.5", "500 um", (0.5, "500 um")])
+def test_plain_spacing_is_in_the_given_lateral_unit(tmp_path, spacing):
+    np.savetxt(tmp_path / "a.txt", np.eye(3))
+    indenter = read_heights(tmp_path / "a.txt", spacing, unit="um", lateral_unit="mm")
+    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (500, 500, "um")
 
 
 ZYGO = """Zygo XYZ Data File - Format 1
@@ -139,7 +161,7 @@ SQUARE = "1 2\n3 4\n"
 CORNERS = "0 0 1\n1 0 2\n0 1 3\n1 1 4\n"
 BAD = [
     ("1 2_\n3 4\n", "line 1 .* is not a row of numbers"),
-    (f"# pixel size = 1\n1e999 2\n{SQUARE}", "finite"),
+    ("# pixel size = 1\n1e999 2 3\n4 5 6\n7 8 9\n", "finite"),
     ("ncols 1e400\nnrows 2\n1 2\n", "inf columns"),
     (f"ncols 3\nnrows 2\ncellsize 1\n{SQUARE}5 6\n", "3 lines of 2 numbers contradict"),
     ("1 2\n3\n", "line 2: 1 cells, 2 in line 1"),
@@ -150,11 +172,16 @@ BAD = [
     ('"1";"2"\n"3.234,5";"4"\n', "line 2 .*one decimal mark is needed"),
     ("1,234.5;2\n3;4\n", "line 1 .*commas may be decimal marks or not"),
     ("1\u202f234 5\n6 7\n", "line 1 holds"),
-    ("1 2\n\n3 4\n\n\n5 6\n\n7 8\n", "line 6: empty lines separate it"),
+    ("1 2 3\n\n3 4 5\n\n\n5 6 9\n\n7 8 1\n", "line 6: empty lines separate it"),
     (";\n4;5\n6;7\n", "line 1: a row of empty cells"),
     (".\t.\t.\t\n1\t2\t3\t\n4\t5\t6\t\n", "line 1 .* is not a row of numbers"),
     ("# Channel: A\n1 2\n# Channel: B\n3 4\n", "line 3 .* stands between rows"),
     ("1 7 2\n2 3 9\n3 1 4\n4 8 8\n5 2 7\n6 9 1\n", "the first column counts up evenly"),
+    (".33 7 2\n.67 3 9\n1.00 1 4\n1.33 8 8\n1.67 2 7\n2.00 9 1\n", "the first column counts up evenly"),
+    ("7 2 0\n3 9 1\n1 4 2\n8 8 3\n2 7 4\n9 1 5\n", "the last column counts up evenly"),
+    (".5 7 0\n1 3 1\n1.5 1 2\n2 8 3\n2.5 2 4\n3 9 5\n", "the first column counts up evenly"),
+    ("".join(f"{i**1.5} {i % 3} {i % 4}\n" for i in range(10)), "the first column counts up throughout"),
+    ("".join(f"{i} {i % 2} {i % 5}\n" for i in range(18)), "the first column counts up evenly"),
     (f"lon lat z\n{CORNERS}", "degrees"),
     (f"x [um] y [um] z [V]\n{CORNERS}", "'V' is no unit of length"),
     (f"# x [um] y [nm] z [um]\n{CORNERS}", "units um and nm"),
@@ -177,7 +204,7 @@ BAD = [
     ("x,y,height\n0,0,1\n1.1,0.3,2\n2.7,1.9,3\n", "form no grid"),
     (f"# dx=1 m, dy=1 m\n{SQUARE}", "not a length"),
     (f"# pixel size: 1,234 nm\n# unit: nm\n{SQUARE}", "1,234 is 1234 or 1.234"),
-    (f"# dx: 1 nm\n# unit: nm\n{SQUARE}", "between rows is not stated"),
+    ("# dx: 1 nm\n# unit: nm\n1 2 3\n4 5 6\n7 8 9\n", "between rows is not stated"),
     (f"# Width: 3 px\n# Height: 2 px\n{SQUARE}", "the table has 2 points there"),
     (f"# Width: 9 um\n# Height: 2 um\n# dx=1 um\n# unit: um\n{SQUARE}", "extend over 9e-06"),
 ]

@@ -1,0 +1,112 @@
+"""Heights of a profile, along a line, in text files: heights alone, or positions x and heights z in columns or rows.
+
+Delimiters, decimal marks, marks of missing values, comments and headers are those of maps (io.text, io.headers).
+"""
+
+import re
+
+import numpy as np
+
+from viscorough import units
+from viscorough.io.grids import even_spacing
+from viscorough.io.headers import names_profile, read_header
+from viscorough.io.scan import Scan
+from viscorough.io.text import Table, decoded_lines, is_own_table, parsed
+from viscorough.types import Array, FilePath
+
+_LEAST_POINTS = 3  # two rows of two numbers may be x and z in rows or in columns
+_STEPS_AGREE = 1e-3  # relative difference up to which positions agree with the spacing in a header
+
+
+def read_profile(path: FilePath) -> Scan:
+    """Read the Scan, with heights of shape (points,), in a text file; points are in increasing order of x.
+
+    A table of one column or row holds heights, a table of two columns or rows x and z. Under a heading that names x
+    and z, columns may have another order, and others are left out. Positions without a unit and a name that count from
+    0 or 1 are numbers of the points, and state no spacing.
+
+    Raises a one-line ValueError if the file holds no profile, or none for certain.
+    """
+    lines = decoded_lines(path)
+    table = parsed(lines)
+    texts = [*table.header, *table.comments]
+    rows, count = table.values.shape
+    points = count if rows <= 2 else rows
+    unit, stated, lateral_unit, columns = read_header(texts, (1, points), table.decimal, profile_columns=count)
+    if table.esri or (is_own_table(lines) and columns is None):
+        raise ValueError("the file holds no heights along a line; one column, or columns x and z, are needed")
+    if table.separated:
+        raise ValueError(f"line {table.separated}: empty lines separate it from the rows above; one line is needed")
+    x, heights = _positions_and_heights(table, columns)
+    if missing := np.count_nonzero(np.isnan(heights)):
+        text = f"{missing} of {heights.size} heights are missing"
+        raise ValueError(f"{text}; every point of a line needs a height, so cut it or fill the gaps first")
+    step = float("nan") if stated is None else stated[0]
+    if x is not None and not (columns is None and lateral_unit == units.UNKNOWN and _counts_points(x)):
+        spacing = _spacing(x)
+        if abs(step - spacing) > _STEPS_AGREE * spacing:
+            text = f"spacing {step:g} in the header, {spacing:g} between positions x"
+            raise ValueError(f"{text}; statements that agree are needed")
+        step, heights = spacing, heights if x[0] < x[-1] else heights[::-1]
+    return Scan(heights, unit, None if np.isnan(step) else (step, step), lateral_unit)
+
+
+def holds_profile(path: FilePath) -> bool:
+    """Return True if a text file holds a profile rather than a map: one or two rows or columns, or headed x and z.
+
+    Raises a one-line ValueError if it holds no table, or none for certain.
+    """
+    lines = decoded_lines(path)
+    if lines[0].startswith("Zygo XYZ Data File") or str(path).lower().endswith(".xyz"):
+        return False
+    table = parsed(lines)
+    if table.esri or min(table.values.shape) <= 2:
+        return not table.esri
+    return names_profile([*table.header, *table.comments], table.values.shape[1])
+
+
+def _positions_and_heights(table: Table, columns: tuple[str, ...] | None) -> tuple[Array | None, Array]:
+    """(x, or None if the table has none; heights) of a table whose columns may be named.
+
+    Raises ValueError for a table of another shape, and for columns whose meaning is not certain.
+    """
+    values = table.values
+    if columns is not None:
+        x, heights = (values[:, columns.index(name)] for name in "xz")
+    elif min(values.shape) > 2:
+        text = f"{len(values)} rows of {values.shape[1]} numbers; a line is a single column or row, two of x and z"
+        raise ValueError(f"{text}, or columns under a heading such as 'x [um], z [nm], n'; read_heights reads maps")
+    else:
+        _check_not_named(table)
+        ordered = values.T if values.shape[0] > values.shape[1] else values
+        x, heights = (ordered[0], ordered[1]) if len(ordered) == 2 else (None, ordered[0])
+    if heights.size < _LEAST_POINTS:
+        raise ValueError(f"{values.size} numbers; a line of at least {_LEAST_POINTS} points is needed")
+    return x, heights
+
+
+def _check_not_named(table: Table) -> None:
+    """Raise ValueError if the line above the first row names two columns that are not known as x and z."""
+    line = table.header[-1].strip("#%/;!| \t") if table.header else ""
+    names = [name.strip(' "') for name in line.split(table.delimiter)]
+    if len(names) == table.values.shape[1] == 2 and all(re.match(r"[^\W\d_]", name) for name in names):
+        raise ValueError(f"{line[:60]!r} names two columns; a heading such as 'x [um], z [nm]' is needed for x and z")
+
+
+def _counts_points(x: Array) -> bool:
+    """Return True if positions are the numbers of the points, from 0 or 1."""
+    return any(np.array_equal(x, np.arange(first, first + x.size)) for first in (0, 1))
+
+
+def _spacing(x: Array) -> float:
+    """Return the distance between positions. Raises ValueError if they are not equally spaced."""
+    spacing = even_spacing(x)
+    if spacing is None:
+        if np.isfinite(x).all():
+            steps = np.diff(x)
+            text = f"positions x are not equally spaced: their steps lie between {steps.min():g} and {steps.max():g}"
+        else:
+            text = "positions x are not finite everywhere"
+        way = "heights at equal steps, interpolated for instance by numpy.interp, are needed"
+        raise ValueError(f"{text}; {way}")
+    return spacing

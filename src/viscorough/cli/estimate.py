@@ -18,7 +18,12 @@ from viscorough.units import Quantity
 @options.medium
 @click.option("--times", type=options.Increasing(), required=True, help="Times at which depth and velocity are wanted.")
 @click.option(
-    "-o", "--output", type=options.FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]"
+    "-o",
+    "--output",
+    type=options.FILE,
+    metavar="FILE",
+    callback=options.check_suffix,
+    help="NetCDF file (.nc) or table (.csv) to write  [default: none]",
 )
 def estimate(
     *,

@@ -74,14 +74,26 @@ class Increasing(click.ParamType):
 FILE = click.Path(path_type=Path)
 
 
+def check_suffix(context: click.Context, parameter: click.Parameter, path: Path | None) -> Path | None:
+    """Return the path of an output that is NetCDF or a table, or None. Raises BadParameter for other suffixes."""
+    from viscorough.io import saving
+
+    try:
+        if path is not None:
+            saving.check_suffix(path)
+    except ValueError as error:
+        raise click.BadParameter(str(error), context, parameter) from error
+    return path
+
+
 def output(metavar: str, table: bool | None = True) -> Callable[..., Any]:
     """Decorator that adds -o/--output to a command; `table`: whether .csv is allowed; None: the command checks it."""
     text = "File to write or replace" + ("; as a table if it ends in .csv." if table else ".")
 
-    def check(context: click.Context, parameter: click.Parameter, path: Path) -> Path:
+    def check(context: click.Context, parameter: click.Parameter, path: Path) -> Path | None:
         if path.suffix.lower() == ".csv" and table is False:
             raise click.BadParameter(f"{path}: maps are no table; a NetCDF file (.nc) is needed", context, parameter)
-        return path
+        return path if table is None else check_suffix(context, parameter, path)
 
     return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help=text, callback=check)
 

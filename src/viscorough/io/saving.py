@@ -16,6 +16,8 @@ from viscorough.types import FilePath
 from viscorough.viscous.correspondence import Kinetics
 from viscorough.viscous.identification import IdentifiedMedium
 
+WRITERS = {".nc": netcdf.write, ".csv": tables.write}
+
 
 def save(result: Indenter | LoadingCurve | Contact | Kinetics | IdentifiedMedium, path: FilePath) -> None:
     """Write a result as the file that the command line writes and reads; atomically. The same as `result.save(path)`.
@@ -25,8 +27,8 @@ def save(result: Indenter | LoadingCurve | Contact | Kinetics | IdentifiedMedium
     result : Indenter, LoadingCurve, Contact, Kinetics or IdentifiedMedium
         Heights are read by `read_heights`, a curve by `load_curve`, a medium by `read_medium`.
     path : path
-        File to write or replace: NetCDF, or a table of a curve or motion if the name ends in .csv. A medium is YAML;
-        a creep table beside it has the suffix .csv.
+        File to write or replace: NetCDF (.nc), or a table (.csv) of a curve, motion or line. A medium is YAML (.yaml);
+        a creep table beside it has the suffix .csv. Other suffixes are refused.
 
     Raises
     ------
@@ -98,6 +100,13 @@ def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> netcdf.C
     raise TypeError(f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact or Kinetics is needed")
 
 
+def check_suffix(path: FilePath) -> None:
+    """Raise ValueError unless the name of a file ends as results are written: .nc or .csv."""
+    if Path(path).suffix.lower() not in WRITERS:
+        raise ValueError(f"{path}: unknown kind of file; results are written as .nc (NetCDF) or .csv (a table)")
+
+
 def write_content(content: netcdf.Content, path: FilePath) -> None:
-    """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as of `save`."""
-    (tables if Path(path).suffix.lower() == ".csv" else netcdf).write(content, path)
+    """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as `save`."""
+    check_suffix(path)
+    WRITERS[Path(path).suffix.lower()](content, path)

@@ -26,13 +26,17 @@ OF_PIPES = ["kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "plot pipe.nc 
 OF_PIPES += [f"{command} -o out.nc" for command in ("indent pipe.nc", "indent pipe.npy", "reduce pipe.npy")]
 OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe{suffix}" for suffix in (".csv", ".npy")]
 OF_PIPES += [f"{KINETICS} --force 1 --medium {name}.yaml" for name in ("pipe", "of_pipe.csv")]
+KIND = "unknown kind of file; results are written as .nc (NetCDF) or .csv (a table)"
+WRITERS = ["indent heights.npy --spacing 1", "contact heights.npy --spacing 1 --depth 1", "reduce line.npy --spacing 1"]
+WRITERS += ["kinetics curve.nc --force 1 --viscosity 1", f"{ESTIMATE} --rms 1 --force 1 --viscosity 1"]
+WRITERS += ["march heights.npy --spacing 1 --method events", GENERATE.removesuffix(" -o made.nc") + " --elements 5"]
 MISTAKES = [
     ("", "Missing command"),
     ("indent heights.npy --spacing 1", "--output"),
     (f"{INDENT} --tolerance 0", "'--tolerance': 0.0 is not in the range 0<x<=0.1"),
     (f"{INDENT} --until-fraction nan", "'--until-fraction': 'nan' is not a finite number"),
     *[(f"{INDENT} --depths {depths}", text) for depths, text in (("1,,2", QUANTITY), ("2,1", INCREASING))],
-    ("indent heights.npy --spacing 1 -o heights.npy", "replace the heights"),
+    ("indent um.nc -o um.nc", "replace the heights"),
     ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
     *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
     *[(f"{INDENT} --audit {name} 1", f"{name} and --audit {EXCLUDE}") for name in ("--depths", "--until-fraction")],
@@ -54,13 +58,13 @@ MISTAKES = [
     (f"{CONTACT.replace('out.nc', 'out.csv')} --force 1", "maps are no table"),
     (f"{KINETICS} --viscosity 1", "one of --force and --force-history is needed"),
     (f"{KINETICS} --force 1", "one of --viscosity and --medium is needed"),
-    ("kinetics curve.nc --force 1 --viscosity 1 -o pipe", "pipe"),
+    ("kinetics curve.nc --force 1 --viscosity 1 -o pipe.nc", "pipe"),
     ("kinetics map.nc --force 1 --viscosity 1 -o out.nc", "map.nc: no numbers depth(level)"),
     (f"{KINETICS} --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
     (f"{KINETICS} --force 1 --viscosity '1 Pa s'", f"--viscosity 1 Pa s: {NO_UNIT}"),
     (f"{KINETICS} --force 1e-320 --viscosity 1", "beside the curve"),
     (f"{KINETICS} --force 1 --medium none.yaml", "none.yaml: not readable (No such file or directory)"),
-    (f"{KINETICS} --force 1 --medium medium.yaml -o medium.yaml", "would replace the medium"),
+    (f"{KINETICS} --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
     (f"{KINETICS} --force 1 --viscosity 1 -o curve.nc", "would replace the curve"),
     (f"{KINETICS} --force 1 --medium table.yaml -o table.csv", "would replace the table of the medium"),
@@ -72,7 +76,7 @@ MISTAKES = [
     (f"{ESTIMATE} --rms 1 --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
     (f"{ESTIMATE} --rms 1 --force 1", "one of --viscosity and --medium is needed"),
     (f"{ESTIMATE} --rms 1 --force 1 --medium table.yaml", "allowed: up to the last time of the table"),
-    (f"{ESTIMATE} --rms 1 --force 1 --medium medium.yaml -o medium.yaml", "would replace the medium"),
+    (f"{ESTIMATE} --rms 1 --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (GENERATE, "either --elements (a disc) or --points (a line) is needed"),
     (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),
     (f"{GENERATE} --elements 5 --unit 1 --rms '2 um'", f"--rms 2 um: {NO_UNIT}"),
@@ -90,7 +94,7 @@ MISTAKES = [
     ("reduce text.npy --spacing 1 -o out.nc", "text.npy: indenter heights: must be real numbers"),
     ("reduce line.npy --spacing 1 --realizations 2 -o out.nc", "--realizations and --seed are for maps"),
     ("reduce line.npy --spacing 1 --flip -o out.nc", "--channel and preparation are for maps"),
-    ("reduce line.npy --spacing 1 -o line.npy", "would replace the heights"),
+    ("reduce map.nc -o map.nc", "would replace the heights"),
     ("reduce heights.npy --spacing 1 --realizations 2 -o a.csv", "several curves are no table"),
     ("plot curve.nc -o figure.jpg", "unknown kind of figure; allowed: .png, .pdf, .svg"),
     ("plot heights.npy -o out.png", "heights.npy: the distance between neighbouring points is not stated"),
@@ -105,6 +109,9 @@ MISTAKES = [
     ("indent um.nc --channel y -o out.nc", "heights have the shape (9,)"),
     (f"{INDENT} --scale much", "--scale much"),
     *[(line, "not readable (it is a pipe); ") for line in OF_PIPES],
+    *[(f"{line} -o {name}", f"{name}: {KIND}") for line in WRITERS for name in ("out.xlsx", "out.txt", "out", "-")],
+    *[(f"{CREEP} {name}", f"{name}: unknown kind of file") for name in ("out.xlsx", "-")],
+    *[(f"plot curve.nc -o {name}", f"{name}: unknown kind of figure") for name in ("out.xlsx", "-")],
 ]
 
 
@@ -124,6 +131,7 @@ def test_mistakes_are_one_line(here, complaint, line, what):
         (here / name).write_text("0,0\n1,0.2\n2,0.4\n")
     (here / "nothing.csv").write_text("0,0\n1,0\n")
     (here / "link.csv").symlink_to("force.csv")
+    (here / "link.nc").symlink_to("medium.yaml")
     (here / "of_pipe.csv.yaml").write_text("{kind: creep_table, file: pipe.csv}")
     for suffix in ("", ".nc", ".csv", ".npy", ".yaml"):
         os.mkfifo(f"pipe{suffix}")

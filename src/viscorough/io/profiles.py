@@ -103,7 +103,8 @@ def _spacing(x: Array) -> float:
     spacing = even_spacing(x)
     if spacing is None:
         if np.isfinite(x).all():
-            steps = np.diff(x)
+            with np.errstate(over="ignore"):
+                steps = np.diff(x)
             text = f"positions x are not equally spaced: their steps lie between {steps.min():g} and {steps.max():g}"
         else:
             text = "positions x are not finite everywhere"

@@ -41,6 +41,7 @@ _PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of 
 _ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
 _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
 _LEAST_POSITIONS = 10  # the same for numbers that rise, or fall, in any steps
+_MOST_OF_PROFILES = 4  # columns of a table that may be x, z, a second quantity, and a number
 
 
 class Table(NamedTuple):
@@ -297,20 +298,24 @@ def _check_not_profile(shape: tuple[int, ...]) -> None:
 
 
 def _check_positions(table: Array) -> None:
-    """Raise ValueError if the first or last column, or row, holds positions or numbers of points, unlike the others.
+    """Raise ValueError if a column or row at an edge holds positions or numbers of points, unlike the others.
 
-    These rise, or fall, in equal steps; or in any steps, while no other column, or row, rises or falls throughout.
+    The first one does if it rises, or falls, in equal steps. A table of few columns may be a profile. There, so does
+    the last one, and one more column may be even (x and a number); steps may be unequal if no other column rises, or
+    falls, throughout. On a wide map, heights along an edge may do the same.
     """
     # Positions along both axes may have any number in the corner where they meet.
     has_corner = min(table.shape) >= _LEAST_LABELS and _is_even(table[1:, 0]) and _is_even(table[0, 1:])
     for name, vectors in (("column", table.T), ("row", table)):
-        for place, vector, others in (("first", vectors[0], vectors[1:]), ("last", vectors[-1], vectors[:-1])):
+        are_few = len(vectors) <= _MOST_OF_PROFILES
+        edges = [("first", vectors[0], vectors[1:]), ("last", vectors[-1], vectors[:-1])]
+        for place, vector, others in edges if are_few else edges[:1]:
             labels = vector[1:] if place == "first" and (has_corner or np.isnan(vector[0])) else vector
             if not len(others) or vector.size < _LEAST_LABELS or not _is_monotonic(labels):
                 continue
-            # All columns of a tilted plane rise evenly. Beside x, the numbers of the points may do so.
-            even = _is_even(labels) and sum(map(_is_even, others)) <= min(1, len(others) - 1)
-            if even or (labels.size >= _LEAST_POSITIONS and not any(map(_is_monotonic, others))):
+            most = min(1, len(others) - 1) if are_few else 0  # all columns of a tilted plane are even
+            even = _is_even(labels) and sum(map(_is_even, others)) <= most
+            if even or (are_few and labels.size >= _LEAST_POSITIONS and not any(map(_is_monotonic, others))):
                 text = f"the {place} {name} counts up {'evenly' if even else 'throughout'}, unlike the others"
                 needed = "heights alone, columns x, y, z, or a .npy array, are needed; read_line reads profiles"
                 raise ValueError(f"{text}, as positions do; {needed}")

@@ -122,6 +122,7 @@ def test_saved_line_is_read_again(tmp_path):
         ("time;depth\n0;1\n1;2\n2;4\n", "names two columns"),
         ("x [s], z [nm]\n0, 1\n1, 2\n2, 4\n", "'s' is no unit of length"),
         ("spacing: 0.2\n0 1\n.5 2\n1 4\n", "0.2 in the header, 0.5 between"),
+        ("1e308 1\n-1e308 2\n-1.7e308 4\n", "not equally spaced"),
         ("0.5 1\nnan 2\n1.5 4\n", "not finite"),
         ("1\n2\n4\n\n5\n6\n", "line 5: empty lines separate it"),
         ("ncols 1\nnrows 3\ncellsize 1\n1\n2\n4\n", "no heights along a line"),

@@ -80,6 +80,21 @@ def test_points_in_any_order_with_gaps(tmp_path):
     assert (indenter.spacing, indenter.row_spacing) == (pytest.approx(0.0996, rel=1e-3), pytest.approx(0.25))
 
 
+Y, X = np.indices((12, 12)) - 5.0
+MAPS = {
+    "tilted plane": X + 2 * Y,
+    "diagonal groove": -abs(X - Y),
+    "edge of a step": np.where(X < -4, Y + 0.01 * Y**2, np.cos(7 * X + 5 * Y)).round(3),
+    "rough and tilted": (3 * Y + np.random.default_rng(1).normal(size=(12, 12))).round(3),
+}
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_maps_whose_edges_rise_are_read(tmp_path, name):
+    np.savetxt(tmp_path / "a.txt", MAPS[name])
+    np.testing.assert_array_equal(read_text(tmp_path / "a.txt").heights, MAPS[name])
+
+
 POINTS = "0 0 1\n0.5 0 2\n0 0.25 3\n0.5 .25 4\n"
 
 

@@ -165,7 +165,7 @@ test-slurm: environment-slurm
 include peers/targets.mk
 
 lock:
-	$(UV) pip compile pyproject.toml --extra build --extra formats --extra study --extra test --extra docs \
+	$(UV) pip compile pyproject.toml --extra build --extra formats --extra geo --extra study --extra test --extra docs \
 		--universal --python-version 3.11 --generate-hashes --no-header --no-annotate --output-file requirements.lock
 
 # Only packages that are not in requirements.lock, in versions that are compatible with it.

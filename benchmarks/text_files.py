@@ -343,13 +343,18 @@ def esri(random):
     bad_bodies |= {"a row lacks a number": [" ".join(cells[0][1:]), *body[1:]]}
     body = draft.pick(bodies, odd_bodies, bad_bodies, odd=0.3)
     dx, dy = distances(draft, square=draft.chance(0.7))
-    head = [("ncols", columns), ("nrows", rows), ("xllcorner", "500000.5"), ("yllcenter", "5400000")]
+    options = draft.one_of([{}, {}, {}, {}, {"unit": "m"}])
+    draft.note("unit given" if options else "", clear=not options)  # that of the coordinates is not stated
+    x, y = "500000.5", "5400000"
+    if draft.chance(0.15):
+        x, y = "9.5", "47.25"
+        may_be_degrees = 9.5 + dx * (columns - 0.5) < 180 and 47.25 + dy * (rows - 1) < 90
+        draft.note("coordinates like degrees", clear=not may_be_degrees, bad=may_be_degrees and not options)
+    head = [("ncols", columns), ("nrows", rows), ("xllcorner", x), ("yllcenter", y)]
     head += [("cellsize", f"{dx:g}")] if dx == dy else [("dx", f"{dx:g}"), ("dy", f"{dy:g}")]
     head += [("NODATA_value", "-3.4028234663852886e+38" if mark == "-3.402823e+38" else mark)]
     head = head[:-1] if "no mark" in draft.traits else head
     letters, gap = draft.one_of([str, str.upper, str.lower]), draft.one_of([" ", "         ", "\t"])
-    options = draft.one_of([{}, {}, {}, {}, {"unit": "m"}])
-    draft.note("unit given" if options else "", clear=not options)  # that of the coordinates is not stated
     lines = [*(f"{letters(name)}{gap}{value}" for name, value in head), *body]
     return Case(draft, "ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from viscorough import units
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter, positive
-from viscorough.io import netcdf
+from viscorough.io import elevation, netcdf
 from viscorough.io.atomic import path_named, reading
 from viscorough.io.profiles import holds_profile, read_profile
 from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
@@ -43,8 +43,8 @@ def read_heights(
     ----------
     path : path
         .npy, NetCDF (.nc), text (.txt, .csv, .asc, .dat, .tsv, .xyz: a matrix, an ESRI grid, or columns x, y, z),
-        (Geo)TIFF, or a format of an instrument, for which SurfaceTopography must be installed (pip install
-        'viscorough[formats]').
+        TIFF, an elevation model such as GeoTIFF (pip install 'viscorough[geo]'), or a format of an instrument (pip
+        install 'viscorough[formats]').
     spacing : number or text or pair of them, optional
         Distance between neighbouring points, or (dx, dy): from column to column, from row to row; numbers in the unit
         of the heights, or texts as "0.2 um". Needed where the file states none.
@@ -187,13 +187,23 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
         from viscorough.io.tiff import read_tiff
 
         return read_tiff(path, channel)
+    if suffix in elevation.FORMATS:
+        return elevation.read_elevation(path, elevation.FORMATS[suffix], channel)
     if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):  # some instruments use the suffixes of texts
         if channel is not None:
             raise ValueError(f"--channel {channel}: a file of this kind holds one map; leave it out")
-        return Scan(npy_array(path)) if suffix == ".npy" else read_text(path, is_map=is_map)
+        return Scan(npy_array(path)) if suffix == ".npy" else _with_units_of_prj(read_text(path, is_map=is_map), path)
     from viscorough.io.instruments import read_instrument
 
     return read_instrument(path, channel)
+
+
+def _with_units_of_prj(scan: Scan, path: FilePath) -> Scan:
+    """Return the Scan of a text file; an ESRI grid that has a .prj file gets the units in it."""
+    if scan.corners is None or not any(Path(path).with_suffix(end).exists() for end in (".prj", ".PRJ")):
+        return scan
+    lateral, vertical = elevation.units_of_prj(path)
+    return scan._replace(unit=vertical, spacing_unit=lateral)
 
 
 def npy_array(path: FilePath) -> NDArray[Any]:

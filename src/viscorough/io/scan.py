@@ -21,12 +21,15 @@ class Scan(NamedTuple):
     spacing : (dx, dy), distances between neighbouring columns and rows; None if the file states none, nan for a
         direction of which it states none
     spacing_unit : of the spacing, or of lengths along x and y, as in the file; "1" if the file states none
+    corners : (left, bottom, right, top), x and y of the outermost points, in no stated unit, in a format that holds
+        longitudes and latitudes as well; nan where the file states none, None for other formats
     """
 
     heights: np.ndarray
     unit: str = units.UNKNOWN
     spacing: tuple[float, float] | None = None
     spacing_unit: str = units.UNKNOWN
+    corners: tuple[float, float, float, float] | None = None
 
 
 def to_indenter(
@@ -47,7 +50,7 @@ def to_indenter(
     dimensions : of the heights, 2 of a map or 1 of a line
 
     Raises ValueError where file and arguments contradict each other, where something is missing, for a unit that is
-    not one of length, and for heights that Indenter refuses.
+    not one of length, for coordinates that may be degrees, and for heights that Indenter refuses.
     """
     if scan.heights.ndim != dimensions:
         needed = "a line" if dimensions == 1 else "a two-dimensional map"
@@ -60,6 +63,10 @@ def to_indenter(
         scan = scan._replace(
             spacing_unit=_agreed_unit("--lateral-unit", "positions x and y", scan.spacing_unit, lateral_unit)
         )
+    if length_unit == units.UNKNOWN and scan.corners is not None and _may_be_degrees(*scan.corners):
+        left, bottom, right, top = scan.corners
+        text = f"x from {left:g} to {right:g}, y from {bottom:g} to {top:g}, in no stated unit, may be degrees"
+        raise ValueError(f"{text}; lengths are needed, and their unit by --unit")
     in_file = _stated_spacing(scan, length_unit, is_given=spacing is not None)
     own = in_file if spacing is None else _given_spacing(scan, length_unit, spacing, lateral_unit)
     if not np.isfinite(own).all():
@@ -73,6 +80,11 @@ def to_indenter(
             raise ValueError(f"{text}; leave it out")
     dx, dy = in_file if np.isfinite(in_file).all() else own
     return Indenter(scan.heights, dx, dy, length_unit=length_unit)
+
+
+def _may_be_degrees(left: float, bottom: float, right: float, top: float) -> bool:
+    """Return True if all corners are possible longitudes, to 180 or 360 degrees, and latitudes."""
+    return -180 <= left < right <= 360 and -90 <= bottom < top <= 90
 
 
 def _given_spacing(scan: Scan, length_unit: str, spacing: Any, plain_unit: str | None) -> tuple[float, ...]:

@@ -374,4 +374,8 @@ def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
     missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
     heights = np.where(missing, np.nan, table)
     dx, dy = (esri.get(key, esri.get("cellsize")) for key in ("dx", "dy"))
-    return Scan(heights, spacing=None if dx is None or dy is None else (dx, dy))
+    if dx is None or dy is None:
+        return Scan(heights)
+    left = esri.get("xllcenter", esri.get("xllcorner", np.nan) + dx / 2)
+    bottom = esri.get("yllcenter", esri.get("yllcorner", np.nan) + dy / 2)
+    return Scan(heights, spacing=(dx, dy), corners=(left, bottom, left + dx * (columns - 1), bottom + dy * (rows - 1)))

@@ -1,0 +1,164 @@
+"""Elevation models, such as GeoTIFF files, read by rasterio (GDAL): units, masks, missing values, compressions."""
+
+import contextlib
+import math
+import os
+import warnings
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscorough import units
+from viscorough.io.atomic import reading, reason
+from viscorough.io.scan import Scan
+from viscorough.types import FilePath
+
+# Formats of elevation models in GDAL, by the suffix of their files.
+FORMATS = {".adf": "AIG", ".bil": "EHdr", ".dem": "USGSDEM", ".flt": "EHdr", ".hgt": "SRTMHGT", ".img": "HFA"}
+FORMATS |= dict.fromkeys((".dt0", ".dt1", ".dt2"), "DTED")
+# Names of units in GDAL that pint does not have.
+_GDAL_UNITS = {"US survey foot": "survey_foot", "sfoot": "survey_foot", "us-ft": "survey_foot"}
+_RIGHT_ANGLE = 1e-6  # cosine of the angle between rows and columns up to which they are perpendicular
+
+
+def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Scan:
+    """Read the Scan in a file of an elevation model.
+
+    Points are nan where the file has no data: its value for missing data, or a mask in the file or in its .msk file.
+
+    kind : format, as GDAL calls it, one of FORMATS or "GTiff"
+    channel : number of the band, or of the page of a TIFF file, from 0; needed if the file has several
+
+    Raises a one-line ValueError for coordinates in degrees, pictures, and where rasterio is not installed.
+    """
+    with _opened(path, kind) as file:
+        alpha = [band for band, meaning in zip(file.indexes, file.colorinterp, strict=True) if meaning.name == "alpha"]
+        pages, bands = file.subdatasets, [band for band in file.indexes if band not in alpha]
+        number = _number(channel, len(pages or bands), "pages" if pages else "bands")
+        if not pages:
+            return _scan(path, file, bands[number])
+    with _opened(path, kind, pages[number]) as file:
+        return _scan(path, file, 1)
+
+
+def units_of_prj(path: FilePath) -> tuple[str, str]:
+    """Return the units of x and y and of heights that the .prj file of an ESRI grid states; "1" for none.
+
+    Raises ValueError for coordinates in degrees, and for a reference system that GDAL cannot interpret.
+    """
+    with _opened(path, "AAIGrid") as file:
+        return _units(file.crs)
+
+
+@contextlib.contextmanager
+def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]:
+    """Context that yields the rasterio dataset of a file, or of one of its pages, which GDAL names."""
+    try:
+        import rasterio
+    except ImportError as error:
+        text = "GeoTIFF and other elevation models are read by rasterio; pip install 'viscorough[geo]' installs it"
+        raise ValueError(f"{path}: {text}") from error
+    with contextlib.ExitStack() as stack:
+        with _decoding(path):
+            stack.enter_context(warnings.catch_warnings(action="ignore"))  # maps without coordinates are read as well
+            # A name that starts with a folder is not taken for an address or for options of GDAL.
+            file = stack.enter_context(rasterio.open(page or os.path.abspath(path), driver=kind))
+        yield file
+
+
+@contextlib.contextmanager
+def _decoding(path: FilePath) -> Iterator[None]:
+    """Context in which a fault of a file becomes a one-line ValueError with the cause that GDAL gives."""
+    with reading(path, "a whole elevation model, such as GeoTIFF, is needed"):
+        try:
+            yield
+        except Exception as error:
+            raise ValueError(reason(error.__cause__ or error)) from error
+
+
+def _number(channel: str | None, count: int, what: str) -> int:
+    """Return the number of the channel to read, of `count` channels."""
+    if channel is None and count == 1:
+        return 0
+    if channel is None or not (channel.isascii() and channel.isdigit() and int(channel) < count):
+        raise ValueError(f"it has {count} {what}; --channel 0 to {count - 1} chooses one")
+    return int(channel)
+
+
+def _scan(path: FilePath, file: Any, band: int) -> Scan:
+    """Return the Scan of a band of a rasterio dataset."""
+    if (colour := file.colorinterp[band - 1].name) not in ("gray", "undefined"):
+        raise ValueError(f"a picture in colours (band {band - 1} is {colour}); a map of heights is needed")
+    lateral, vertical = _units(file.crs)
+    stated = file.units[band - 1] or units.UNKNOWN
+    unit = _GDAL_UNITS.get(stated, stated)
+    if units.UNKNOWN not in (unit, vertical) and units.metres(unit) != units.metres(vertical):
+        raise ValueError(f"its heights are in {stated}, and in {vertical} by its reference system; one unit is needed")
+    with _decoding(path):
+        heights = _heights(file, band)
+    unit = vertical if unit == units.UNKNOWN else unit
+    if file.transform.is_identity:
+        return Scan(heights, unit)
+    a, b, c, d, e, f = file.transform[:6]  # steps in x and y: (a, d) along a row, (b, e) along a column
+    dx, dy = math.hypot(a, d), math.hypot(b, e)
+    if abs(a * b + d * e) > _RIGHT_ANGLE * dx * dy:
+        raise ValueError("its rows and columns are not perpendicular; a map with a rectangular grid is needed")
+    if lateral != units.UNKNOWN:
+        return Scan(heights, unit, (dx, dy), lateral)
+    places = [(i + 0.5, j + 0.5) for i in (0, file.width - 1) for j in (0, file.height - 1)]
+    x, y = [a * i + b * j + c for i, j in places], [d * i + e * j + f for i, j in places]
+    return Scan(heights, unit, (dx, dy), lateral, (min(x), min(y), max(x), max(y)))
+
+
+def _heights(file: Any, band: int) -> NDArray[Any]:
+    """Return the heights of a band; nan where it is masked or equals the value for missing data."""
+    stored, is_measured = file.read(band), file.read_masks(band) != 0
+    if stored.dtype.kind not in "iuf":
+        return stored
+    heights = stored.astype(stored.dtype if stored.dtype.kind == "f" else np.float64)
+    if (nodata := file.nodatavals[band - 1]) is not None:  # a mask hides it from GDAL
+        with np.errstate(over="ignore"):
+            is_measured &= heights != np.asarray(nodata).astype(heights.dtype)
+    scale, offset = file.scales[band - 1], file.offsets[band - 1]
+    if (scale, offset) != (1, 0):
+        heights = heights.astype(float) * scale + offset
+    return np.where(is_measured, heights, np.nan)
+
+
+def _units(system: Any) -> tuple[str, str]:
+    """Return the units of x and y and of heights in a coordinate reference system of rasterio; "1" for none."""
+    if system is None:
+        return units.UNKNOWN, units.UNKNOWN
+    definition = system.to_dict(projjson=True)
+    if definition["type"] == "EngineeringCRS" and definition["name"] == "unnamed":
+        # GDAL then gives metres, although the file may state another unit.
+        text = "its coordinate reference system is incomplete, so that the unit of x and y is not certain"
+        raise ValueError(f"{text}; a complete one is needed, as 'rio edit-info --crs EPSG:CODE FILE' writes into it")
+    lateral = vertical = units.UNKNOWN
+    for axis in _axes(definition):
+        if axis["direction"] in ("up", "down"):
+            vertical = _unit(axis["unit"])
+        else:
+            lateral = _unit(axis["unit"])
+    return lateral, vertical
+
+
+def _axes(definition: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the axes of a reference system in PROJJSON, those of its parts in turn."""
+    if definition["type"] == "BoundCRS":
+        return _axes(definition["source_crs"])
+    if definition["type"] == "CompoundCRS":
+        return [axis for part in definition["components"] for axis in _axes(part)]
+    return definition["coordinate_system"]["axis"]
+
+
+def _unit(unit: str | dict[str, Any]) -> str:
+    """Return a unit of length in PROJJSON as units.length_unit takes it. Raises ValueError for degrees."""
+    if unit == "metre":
+        return "m"
+    if isinstance(unit, dict) and unit["type"] == "LinearUnit":
+        return f"{unit['conversion_factor']!r} m"
+    text = "its coordinates are in degrees; a map in projected coordinates is needed"
+    raise ValueError(f"{text}, as 'rio warp FILE NEW.tif --dst-crs EPSG:CODE' writes")

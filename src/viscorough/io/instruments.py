@@ -1,6 +1,9 @@
 """Maps of heights in the file formats of instruments, read by SurfaceTopography if that is installed."""
 
+import io
+import re
 import warnings
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -10,69 +13,188 @@ from viscorough import units
 from viscorough.errors import AccuracyWarning
 from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
-from viscorough.types import FilePath
+from viscorough.types import Array, FilePath
 
 # Formats that hold plain arrays, with rows along y; SurfaceTopography's first index runs along x.
 _OF_ARRAYS = ("npy", "npz", "mat", "h5")
+# Heights from this magnitude on, in any unit of length, mark missing points, such as -1.8e308 in double precision.
+_LARGEST_HEIGHT = 1e30
+# Sides of the field of an instrument in metres: others indicate a wrong unit.
+_LEAST_SIDE, _LARGEST_SIDE = 1e-8, 1.0
+# Suffixes of many formats: a fault that one of their readers finds is not the cause.
+_SHARED_SUFFIXES = ("asc", "csv", "dat", "txt", "xyz", "zip")
+_NANOMETRES_PER_MILLIMETRE = 1e6
 
 
 def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
-    """The Scan in a file of any format that SurfaceTopography knows; its formats are told apart by their contents.
+    """Read the Scan in a file of a format that SurfaceTopography recognizes from its contents.
 
-    channel : name or number of the channel, from 0. By default the first one of heights, with a warning that names the
-        others if there are any
+    Gives an AccuracyWarning if other channels hold heights as well, for a periodic surface, and for a field that is
+    larger than 1 m or smaller than 10 nm.
+
+    channel : name or number of the channel, from 0; by default the first one of heights. Arrays without a meaning, as
+        MATLAB and HDF5 files hold them, must be chosen if there are several
 
     Raises a one-line ValueError for files of no known format, line scans and channels that hold no heights.
     """
     # The warnings are about optional packages and the layout of files, which no user can change.
-    with reading(path, "a file of heights is needed"), warnings.catch_warnings(action="ignore"):
-        if not Path(path).stat().st_size:
-            raise ValueError("it is empty")
-        try:
-            from SurfaceTopography.IO import CannotDetectFileFormat, open_topography
-        except ImportError as error:
-            text = "unknown kind of file; .npy, .nc, text and TIFF are read directly, formats of instruments with"
-            raise ValueError(f"{text} pip install 'viscorough[formats]'") from error
-        try:
-            file = open_topography(str(path))
-        except CannotDetectFileFormat as error:
-            raise ValueError("no known format") from error
-        with file:
-            kind, suffix = file.format(), Path(path).suffix.lower()
-            if kind == "hgt" and suffix != ".hgt":  # which any file of a suitable size could be
-                raise ValueError("no known format")
-            chosen, others = _choose(file, channel)
-            # A size is required also where the file states none; it is not used then.
-            size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
-            topography = chosen.topography(**size)
-            heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
-            # HDF5 files that MATLAB wrote hold its arrays transposed.
-            if kind not in _OF_ARRAYS or (kind == "h5" and suffix == ".mat"):
-                heights = heights.T
+    with (
+        reading(path, "a file of heights is needed"),
+        warnings.catch_warnings(action="ignore"),
+        _opened(path) as file,
+    ):
+        if file.format() == "gwy" and not file.channels:
+            return _gwyddion_scan(path, file, channel)
+        chosen, others = _choose(file, channel)
+        # A size is required also where the file states none; it is not used then.
+        size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
+        topography = chosen.topography(**size)
+        heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
+        # HDF5 files that MATLAB wrote hold its arrays transposed.
+        kind = file.format()
+        if kind not in _OF_ARRAYS or (kind == "h5" and Path(path).suffix.lower() == ".mat"):
+            heights = heights.T
+        heights[np.abs(heights) >= _LARGEST_HEIGHT] = np.nan
+        unit, spacing = chosen.unit or units.UNKNOWN, chosen.pixel_size
+        if kind == "nms":
+            spacing = _nms_spacing(spacing, unit, heights.shape)
     if others:
         text = f"the channel {chosen.channel_id!r} is read; --channel chooses another of {', '.join(map(repr, others))}"
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     if chosen.is_periodic:
         text = "states that it is one period of a periodic surface; it is treated as a body with edges"
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
-    unit = chosen.unit or units.UNKNOWN
-    return Scan(heights, unit, chosen.pixel_size, unit)
+    if spacing is not None and unit != units.UNKNOWN:
+        _check_field(path, spacing, unit, heights.shape)
+    return Scan(heights, unit, spacing, unit)
 
 
-def _choose(file: Any, wanted: str | None) -> Any:
-    """The channel to read, and the names of the other channels of heights if none was asked for."""
+def _opened(path: FilePath) -> Any:
+    """Return a SurfaceTopography reader of a file: of the format that its contents, or else its suffix, indicate.
+
+    Raises ValueError with the fault that the reader for the suffix finds, or if there is no such reader.
+    """
+    try:
+        from SurfaceTopography.IO import CannotDetectFileFormat, open_topography, readers
+    except ImportError as error:
+        text = "unknown kind of file; .npy, .nc, text and TIFF are read directly, formats of instruments with"
+        raise ValueError(f"{text} pip install 'viscorough[formats]'") from error
+    if not Path(path).stat().st_size:
+        raise ValueError("it is empty")
+    with open(path, "rb") as file:
+        if file.read(12) == b"DSCOMPRESSED":
+            raise ValueError("compressed Digital Surf files are not read; save it without compression")
+    source, suffix = _with_plain_revision(path), Path(path).suffix.lower().lstrip(".")
+    kinds = [reader.format() for reader in readers if suffix in reader.file_extensions()]
+    try:
+        file = open_topography(source)
+    except CannotDetectFileFormat as error:
+        if not kinds or suffix in _SHARED_SUFFIXES:
+            raise ValueError("no known format") from error
+        return open_topography(source, format=kinds[0])
+    if file.format() == "hgt":  # which any file of a suitable size could be
+        raise ValueError("no known format")
+    if file.format() in kinds or _maps(file) or not kinds:
+        return file
+    file.close()  # a format that many files could have
+    return open_topography(source, format=kinds[0])
+
+
+def _with_plain_revision(path: FilePath) -> Any:
+    """Return the path as text, or the content of an x3p file with a hyphen in its revision in place of a dash."""
+    if Path(path).suffix.lower() != ".x3p" or not zipfile.is_zipfile(path):
+        return str(path)
+    content = io.BytesIO()
+    with zipfile.ZipFile(path) as archive, zipfile.ZipFile(content, "w") as copy:
+        for name in archive.namelist():
+            member = archive.read(name)
+            if name == "main.xml":
+                member = re.sub(rb"ISO\s?5436[^<\w]+2000", b"ISO5436 - 2000", member)
+            copy.writestr(name, member)
+    content.seek(0)
+    return content
+
+
+def _maps(file: Any) -> list[Any]:
+    """Return the channels of a file with two dimensions; of plain arrays those with more than one row and column."""
     maps = [channel for channel in file.channels if channel.dim == 2]
+    return [each for each in maps if file.format() not in _OF_ARRAYS or min(each.nb_grid_pts) > 1]
+
+
+def _choose(file: Any, wanted: str | None) -> tuple[Any, list[str]]:
+    """Return the channel to read, and the names of the other channels of heights if none was asked for."""
+    maps = _maps(file)
     called = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
     matches = maps if wanted is None else called[:1]
     of_heights = [channel for channel in matches if _holds_heights(channel)]
+    names = ", ".join(repr(channel.channel_id) for channel in maps)
+    if not maps:
+        raise ValueError("it holds no map of two dimensions")
     if not of_heights:
-        names = ", ".join(repr(channel.channel_id) for channel in maps) or "none"
         what = "no map of heights" if wanted is None else f"no map of heights is called {wanted!r}"
         raise ValueError(f"{what}; its maps of two dimensions are {names}")
+    if len(of_heights) > 1 and file.format() in _OF_ARRAYS:
+        raise ValueError(f"it holds several arrays, {names}; --channel chooses one")
     return of_heights[0], [channel.channel_id for channel in of_heights[1:]]
 
 
 def _holds_heights(channel: Any) -> bool:
-    """Whether a channel holds heights, in a unit of length or in none."""
+    """Return True if a channel holds heights, in a unit of length or in none."""
     unit = channel.unit
     return channel.is_height_channel and (unit is None or (isinstance(unit, str) and units.is_length(unit)))
+
+
+def _nms_spacing(spacing: tuple[float, float], unit: str, shape: tuple[int, ...]) -> tuple[float, float]:
+    """Return the spacing of a NanoFocus file, whose header has it in nanometres or in millimetres.
+
+    SurfaceTopography reads millimetres. Fields of confocal microscopes are far below 1 m, and a spacing in nanometres
+    gives one far above it.
+    """
+    if max(np.multiply(spacing, shape[::-1])) * units.metres(unit) <= _LARGEST_SIDE:
+        return spacing
+    dx, dy = spacing
+    return dx / _NANOMETRES_PER_MILLIMETRE, dy / _NANOMETRES_PER_MILLIMETRE
+
+
+def _check_field(path: FilePath, spacing: tuple[float, float], unit: str, shape: tuple[int, ...]) -> None:
+    """Give an AccuracyWarning for a field whose size is unlikely for an instrument."""
+    sides = np.multiply(spacing, shape[::-1]) * units.metres(unit)
+    if sides.max() > _LARGEST_SIDE or sides.min() < _LEAST_SIDE:
+        text = f"the field is {sides[0]:.3g} m by {sides[1]:.3g} m; fields of instruments are 10 nm to 1 m wide"
+        warnings.warn(f"{path}: {text}: check the unit of the spacing", AccuracyWarning, stacklevel=3)
+
+
+# ---- Gwyddion fields without a unit of heights or of lengths, which SurfaceTopography leaves out
+
+
+def _gwyddion_scan(path: FilePath, file: Any, wanted: str | None) -> Scan:
+    """Return the Scan of a Gwyddion field whose heights or lengths have no unit; a size without a unit is no size."""
+    content = file._metadata
+    numbers = [match[1] for match in map(re.compile(r"/(\d+)/data").fullmatch, content) if match]
+    names = {number: content.get(f"/{number}/data/title", number) for number in numbers}
+    maps = {number: content[f"/{number}/data"]["GwyDataField"] for number in numbers}
+    units_of = {number: tuple(_gwyddion_unit(maps[number], axes) for axes in ("z", "xy")) for number in numbers}
+    fields = [each for each in numbers if units_of[each][0] == units.UNKNOWN or units.is_length(units_of[each][0])]
+    chosen = [each for each in fields if wanted in (None, each, names[each])]
+    if not fields:
+        raise ValueError("it holds no map of heights")
+    if len(chosen) != 1:
+        raise ValueError(f"its maps are {', '.join(repr(names[each]) for each in fields)}; --channel chooses one")
+    field, (unit, lateral) = maps[chosen[0]], units_of[chosen[0]]
+    heights = _gwyddion_numbers(path, field)
+    if mask := content.get(f"/{chosen[0]}/mask"):
+        heights[_gwyddion_numbers(path, mask["GwyDataField"]) > 0.5] = np.nan
+    if not units.is_length(lateral):
+        return Scan(heights, unit)
+    return Scan(heights, unit, (abs(field["xreal"]) / field["xres"], abs(field["yreal"]) / field["yres"]), lateral)
+
+
+def _gwyddion_unit(field: dict[str, Any], axes: str) -> str:
+    """Return the unit of a Gwyddion field; "1" for none."""
+    return field.get(f"si_unit_{axes}", {}).get("GwySIUnit", {}).get("unitstr", "").strip() or units.UNKNOWN
+
+
+def _gwyddion_numbers(path: FilePath, field: dict[str, Any]) -> Array:
+    """Return the numbers of a Gwyddion field, shape (rows, columns): double precision, after their count."""
+    shape = field["yres"], field["xres"]
+    return np.fromfile(path, "<f8", shape[0] * shape[1], offset=field["data"]["offset"] + 4).reshape(shape)

@@ -1,6 +1,8 @@
 """Files written by instruments and other programs; for their formats the extra `formats` is needed."""
 
+import struct
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -49,24 +51,162 @@ def test_formats_written_by_another_program(tmp_path, suffix):
     assert indenter.length_unit == "m"
 
 
-def test_channels(tmp_path):
-    h5py = pytest.importorskip("h5py")
-    with h5py.File(tmp_path / "a.h5", "w") as file:
-        for number, name in enumerate(("first", "second")):
-            file[name] = np.random.default_rng(number).random((4, 4))
-    with pytest.warns(AccuracyWarning, match="the channel 'first' is read; --channel chooses another of 'second'"):
-        first = read_heights(tmp_path / "a.h5", 0.5, unit="um")
-    second = read_heights(tmp_path / "a.h5", 0.5, unit="um", channel="second")
-    by_number = read_heights(tmp_path / "a.h5", 0.5, unit="um", channel="1")
-    np.testing.assert_array_equal(second.heights, by_number.heights)
-    assert not np.allclose(first.heights, second.heights)
-    assert (first.spacing, first.length_unit) == (0.5, "um")
-    for channel, what in (
-        (None, "--spacing is needed"),
-        ("third", "no map of heights is called 'third'; .* are 'first'"),
-    ):
-        with refused(what):
-            read_heights(tmp_path / "a.h5", channel=channel)
+MAP = 1e-7 * np.random.default_rng(1).random((5, 7))
+
+
+@pytest.mark.parametrize("suffix", ["h5", "mat", "npz"])
+def test_arrays_of_several_maps_are_listed(tmp_path, suffix):
+    """Coordinates of one row or column are no maps."""
+    path = tmp_path / f"a.{suffix}"
+    arrays = {"first": MAP, "second": 2 * MAP, "x": np.arange(7.0)[None], "y": np.arange(5.0)[:, None]}
+    if suffix == "h5":
+        h5py = pytest.importorskip("h5py")
+        with h5py.File(path, "w") as file:
+            file.update(arrays)
+    else:
+        save = np.savez if suffix == "npz" else lambda path, **arrays: scipy.io.savemat(path, arrays)
+        save(path, **arrays)
+    with refused("it holds several arrays, 'first', 'second'; --channel chooses one"):
+        read_heights(path, 0.5, unit="um")
+    second = read_heights(path, 0.5, unit="um", channel="second")
+    np.testing.assert_array_equal(second.heights, 2 * MAP)
+    assert (second.spacing, second.length_unit) == (0.5, "um")
+    np.testing.assert_array_equal(read_heights(path, 1.0, channel="1").heights, 2 * MAP)
+    with refused("--spacing is needed"):
+        read_heights(path, channel="second")
+    with refused("no map of heights is called 'third'; .* are 'first', 'second'"):
+        read_heights(path, 0.5, channel="third")
+
+
+@pytest.mark.parametrize("suffix", ["mat", "npz"])
+def test_the_only_map_among_coordinates_is_read(tmp_path, suffix):
+    arrays = {"x": np.arange(7.0)[None], "y": np.arange(5.0)[:, None], "z": MAP, "date": 7.0}
+    path = tmp_path / f"a.{suffix}"
+    save = np.savez if suffix == "npz" else lambda path, **arrays: scipy.io.savemat(path, arrays)
+    save(path, **arrays)
+    np.testing.assert_array_equal(read_heights(path, 1.0).heights, MAP)
+
+
+def gwyddion(path, *fields, mask=None):
+    """A Gwyddion file of maps of 2 by 3 um per point; each field is (title, heights, unit of x and y, unit of z)."""
+
+    def part(name, kind, content):
+        return name.encode() + b"\0" + kind.encode() + content
+
+    def packed(name, parts):
+        content = b"".join(parts)
+        return name.encode() + b"\0" + struct.pack("<I", len(content)) + content
+
+    def field(heights, lateral, unit):
+        rows, columns = heights.shape
+        numbers = struct.pack("<I", heights.size) + heights.astype("<f8").tobytes()
+        parts = [part("xres", "i", struct.pack("<i", columns)), part("yres", "i", struct.pack("<i", rows))]
+        parts += [
+            part("xreal", "d", struct.pack("<d", 2e-6 * columns)),
+            part("yreal", "d", struct.pack("<d", 3e-6 * rows)),
+        ]
+        for name, text in (("si_unit_xy", lateral), ("si_unit_z", unit)):
+            if text is not None:
+                parts.append(part(name, "o", packed("GwySIUnit", [part("unitstr", "s", text.encode() + b"\0")])))
+        return packed("GwyDataField", [*parts, part("data", "D", numbers)])
+
+    parts = []
+    for number, (title, *content) in enumerate(fields):
+        parts.append(part(f"/{number}/data/title", "s", title.encode() + b"\0"))
+        parts.append(part(f"/{number}/data", "o", field(*content)))
+    if mask is not None:
+        parts.append(part("/0/mask", "o", field(mask, None, None)))
+    path.write_bytes(b"GWYP" + packed("GwyContainer", parts))
+    return path
+
+
+def test_the_first_of_several_channels_of_an_instrument_is_read_with_a_warning(tmp_path):
+    path = gwyddion(
+        tmp_path / "a.gwy", ("Trace", MAP, "m", "m"), ("Phase", MAP, "m", "deg"), ("Retrace", 2 * MAP, "m", "m")
+    )
+    with pytest.warns(AccuracyWarning, match="the channel 'Trace' is read; --channel chooses another of 'Retrace'"):
+        indenter = read_heights(path)
+    np.testing.assert_array_equal(indenter.heights, MAP)
+    assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2e-6, 3e-6))
+    np.testing.assert_array_equal(read_heights(path, channel="Retrace").heights, 2 * MAP)
+
+
+def test_gwyddion_fields_without_units(tmp_path):
+    """The size of a field without a unit of length states no spacing."""
+    path = gwyddion(tmp_path / "a.gwy", ("Topo", MAP, None, None), mask=(MAP > 8e-8).astype(float))
+    indenter = read_heights(path, 1.0, unit="nm")
+    np.testing.assert_array_equal(indenter.heights, np.where(MAP > 8e-8, np.nan, MAP))
+    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (1.0, 1.0, "nm")
+    with refused("--spacing is needed"):
+        read_heights(path, unit="nm")
+    heights_only = gwyddion(tmp_path / "b.gwy", ("Topo", MAP, "", "m"))
+    assert read_heights(heights_only, "5 um").spacing == pytest.approx(5e-6)
+    lengths_only = gwyddion(tmp_path / "c.gwy", ("Topo", MAP, "m", ""))
+    indenter = read_heights(lengths_only, unit="um")
+    assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2, 3))
+    two = gwyddion(tmp_path / "d.gwy", ("A", MAP, None, None), ("B", 2 * MAP, None, None), ("V", MAP, "m", "V"))
+    with refused("its maps are 'A', 'B'; --channel chooses one"):
+        read_heights(two, 1.0)
+    np.testing.assert_array_equal(read_heights(two, 1.0, channel="B").heights, 2 * MAP)
+    with refused("it holds no map of heights"):
+        read_heights(gwyddion(tmp_path / "e.gwy", ("V", MAP, "m", "V")), 1.0)
+
+
+@pytest.mark.parametrize(("code", "kind"), [(3, "<f4"), (7, "<f8")])
+def test_the_lowest_number_marks_missing_points(tmp_path, code, kind):
+    heights = (10 * MAP / 1e-7).astype(kind)
+    heights[2, 3] = np.finfo(kind).min
+    header = struct.pack("<8s10s12s12sHH4dBBB", b"bISO-1.0", b"", b"", b"", 7, 5, 2e-7, 3e-7, 1e-8, 1e-9, 0, code, 0)
+    (tmp_path / "a.sdf").write_bytes(header + heights.tobytes())
+    indenter = read_heights(tmp_path / "a.sdf").to("m")
+    heights[2, 3] = np.nan
+    np.testing.assert_allclose(indenter.heights, 1e-8 * heights, rtol=1e-6)
+    assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2e-7, 3e-7))
+
+
+def test_compressed_digital_surf_files_are_refused_by_name(tmp_path):
+    (tmp_path / "a.sur").write_bytes(b"DSCOMPRESSED" + bytes(600))
+    with refused("compressed Digital Surf files are not read; save it without compression"):
+        read_heights(tmp_path / "a.sur")
+
+
+def test_an_x3p_file_with_a_dash_in_its_revision(tmp_path):
+    surface = SurfaceTopography.Topography(MAP.T, (7 * 2e-6, 5 * 3e-6), unit="m")
+    surface.to_x3p(str(tmp_path / "plain.x3p"))
+    for name, dash in (("en", "\u2013"), ("hyphen", "\u2010"), ("none", "-")):
+        with zipfile.ZipFile(tmp_path / "plain.x3p") as plain, zipfile.ZipFile(tmp_path / f"{name}.x3p", "w") as file:
+            for member in plain.namelist():
+                content = plain.read(member)
+                file.writestr(member, content.replace(b"ISO5436 - 2000", f"ISO5436 {dash} 2000".encode()))
+        indenter = read_heights(tmp_path / f"{name}.x3p")
+        np.testing.assert_array_equal(indenter.heights, MAP)
+        assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2e-6, 3e-6), rel=1e-12)
+
+
+def nms(path, step):
+    """A NanoFocus file of 12 by 8 points, with heights from 2 to 6 um."""
+    content = bytearray(3468 + 2 * 12 * 8)
+    struct.pack_into("<2d", content, 16, 2.0, 6.0)
+    struct.pack_into("<2I2d", content, 1368, 12, 8, step, step)
+    struct.pack_into("<96H", content, 3468, *range(0, 96 * 600, 600))
+    path.write_bytes(content)
+    return path
+
+
+@pytest.mark.parametrize("step", [312.5, 312.5e-6])
+def test_the_spacing_of_nanofocus_files_is_in_nanometres_or_millimetres(tmp_path, step):
+    indenter = read_heights(nms(tmp_path / "a.nms", step))
+    assert indenter.heights.shape == (8, 12)
+    assert (indenter.spacing, indenter.length_unit) == (pytest.approx(0.3125), "um")
+    assert indenter.heights[0, 1] - indenter.heights[0, 0] == pytest.approx(4 * 600 / 65534)
+
+
+@pytest.mark.parametrize(("step", "is_doubtful"), [(2e-10, True), (2e-9, False), (0.1, False), (0.2, True)])
+def test_a_field_of_unlikely_size_gives_a_warning(tmp_path, recwarn, step, is_doubtful):
+    """Seven points per row: 1.4 nm, 14 nm, 0.7 m and 1.4 m."""
+    SurfaceTopography.Topography(MAP.T * step, (7 * step, 7 * step), unit="m").to_x3p(str(tmp_path / "a.x3p"))
+    read_heights(tmp_path / "a.x3p")
+    assert any("check the unit of the spacing" in str(warning.message) for warning in recwarn) is is_doubtful
 
 
 @pytest.mark.parametrize("name", ["a.mat", "a.npz", "a.bin", "a.h5"])

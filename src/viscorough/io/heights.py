@@ -159,8 +159,8 @@ def dimensions_of_heights(path: FilePath) -> int:
     if suffix != ".nc":
         return 2
     with netcdf.opened(path) as file:
-        maps = [name for name, each in file.variables.items() if each.ndim == 2]
-        return file["heights"].ndim if "heights" in file.variables else 2 if maps else 1
+        maps = [name for name, each in file.variables.items() if each.ndim >= 2]
+        return min(file["heights"].ndim, 2) if "heights" in file.variables else 2 if maps else 1
 
 
 def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
@@ -213,22 +213,40 @@ def npy_array(path: FilePath) -> NDArray[Any]:
 
 
 def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Scan:
-    """The variable named `channel` of a NetCDF file, or `heights`, or else the only one of so many dimensions."""
+    """Return the variable named `channel` of a NetCDF file, or `heights`, or else the only one of so many dimensions.
+
+    Further dimensions of length 1, such as a time, may precede them.
+    """
     with netcdf.opened(path) as file:
-        maps = [name for name in file.variables if file[name].ndim == dimensions and name not in file.dimensions]
-        names = [channel] if channel else ["heights"] if "heights" in file.variables else maps
+        data = [each for name, each in file.variables.items() if name not in file.dimensions]
+        maps = [each.name for each in data if each.ndim >= dimensions and not _leading(each, dimensions)]
+        larger = [each.name for each in data if each.ndim > dimensions and each.name not in maps]
+        default = ["heights"] if "heights" in file.variables else maps or larger
+        names = [channel] if channel else default
         if found := len(names) == 1 and names[0] in file.variables:
             variable = file.variables[names[0]]
-            heights, unit, axes = unpacked(variable), _unit_of(variable), variable.dimensions
+            leading = _leading(variable, dimensions)
+            heights, unit, axes = unpacked(variable), _unit_of(variable), variable.dimensions[-dimensions:]
             positions = [_positions_along(file, axis, names[0]) for axis in axes]
     if not found:
         needed = f"none of them is the channel {channel}" if channel else "exactly one, or one named heights, is needed"
         raise ValueError(f"{path}: maps of {dimensions} dimensions: {', '.join(maps) or 'none'}; {needed}")
-    if heights.ndim != dimensions:
+    if leading:
+        first = leading.split(" ", maxsplit=1)[0]
+        text = f"variable {names[0]} has the further dimensions {leading}; a variable without them is needed"
+        raise ValueError(f"{path}: {text}, as isel({first}=0) of xarray gives")
+    if heights.ndim < dimensions:
         return Scan(heights, unit)
+    heights = heights.reshape(heights.shape[-dimensions:])
     if [axis.lower() for axis in axes] == ["x", "y"]:
         heights, positions = heights.T, positions[::-1]
     return Scan(heights, unit, *_spacing(positions[0], positions[-1]))
+
+
+def _leading(variable: netCDF4.Variable, dimensions: int) -> str:
+    """Return the dimensions of more than one value before the last ones, as text "time (3)"; "" for none."""
+    lengths = zip(variable.dimensions[:-dimensions], variable.shape[:-dimensions], strict=True)
+    return ", ".join(f"{name} ({length})" for name, length in lengths if length != 1)
 
 
 def _unit_of(variable: netCDF4.Variable) -> str:

@@ -23,18 +23,22 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
 
     Missing are those that equal _FillValue (without it, what the format writes where nothing was written, except for
     single bytes, of which every value is valid) or missing_value, and those outside valid_range or valid_min and
-    valid_max. Raises ValueError where one of these attributes is not a number of the kind of those stored, and for
-    _Unsigned.
+    valid_max. Whole numbers whose attribute _Unsigned is "true" are stored with a sign but have none, and the reverse
+    for "false". Raises ValueError where one of these attributes is not a number of the kind of those stored, or
+    _Unsigned is neither of both.
     """
     variable.set_auto_maskandscale(False)
     stored = np.asarray(variable[...])
     if stored.dtype.kind not in "iuf":
         return stored
-    stated = {name: _numbers(variable, name, stored.dtype) for name in variable.ncattrs() if name in STORAGE}
+    kind = _kind(variable, stored.dtype)
+    names = [name for name in variable.ncattrs() if name in STORAGE and name != "_Unsigned"]
+    stated = {name: _numbers(variable, name, stored.dtype, kind) for name in names}
+    default = _as_kind(np.array(_DEFAULT_FILL.get(stored.dtype.str[1:], [])), stored.dtype, kind)
+    stored = stored.view(kind)
     low, high = stated.get("valid_range", (-np.inf, np.inf))
     missing = stored < max(low, *stated.get("valid_min", [low]))
     missing |= stored > min(high, *stated.get("valid_max", [high]))
-    default = _DEFAULT_FILL.get(stored.dtype.str[1:], [])
     for mark in [*stated.get("_FillValue", default), *stated.get("missing_value", [])]:
         missing |= stored == mark
     values = stored
@@ -43,8 +47,31 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
     return np.ma.array(values, mask=missing) if missing.any() else values
 
 
-def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any]) -> Array:
-    """An attribute as an array of numbers; those that are compared with stored values have their precision."""
+def _kind(variable: netCDF4.Variable, stored: np.dtype[Any]) -> np.dtype[Any]:
+    """Return the type of the values of a variable: the stored one, or with the sign that _Unsigned states."""
+    if "_Unsigned" not in variable.ncattrs() or stored.kind == "f":
+        return stored
+    text = str(variable.getncattr("_Unsigned")).lower()
+    if text not in ("true", "false"):
+        raise ValueError(f"attribute _Unsigned of {variable.name} is {text!r}, not 'true' or 'false'")
+    return np.dtype(f"{stored.byteorder}{'u' if text == 'true' else 'i'}{stored.itemsize}")
+
+
+def _as_kind(numbers: Array, stored: np.dtype[Any], kind: np.dtype[Any]) -> Array:
+    """Return numbers of the stored type as those that their bytes are in another; others are returned unchanged."""
+    if kind == stored or not numbers.size or numbers.dtype.kind not in "iu":
+        return numbers
+    limits = np.iinfo(stored)
+    if numbers.min() < limits.min or numbers.max() > limits.max:
+        return numbers
+    return numbers.astype(stored).view(kind)
+
+
+def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any], kind: np.dtype[Any]) -> Array:
+    """An attribute as an array of numbers; those that are compared with stored values have their precision.
+
+    kind : type of the values, which differs in the sign from the stored one
+    """
     value = variable.getncattr(name)
     numbers = np.ravel(value)
     wanted = {"valid_range": 2, "missing_value": numbers.size}.get(name, 1)
@@ -53,7 +80,9 @@ def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any]) -> Ar
     if numbers.dtype.kind not in "iuf" or numbers.size != wanted or odd_limit:
         needed = "two numbers" if name == "valid_range" else "a number"
         raise ValueError(f"attribute {name} of {variable.name} is {value!r}, not {needed} like those stored")
-    if stored.kind == "f" and name not in ("scale_factor", "add_offset"):
+    if name in ("scale_factor", "add_offset"):
+        return numbers
+    if stored.kind == "f":
         with np.errstate(over="ignore"):
             return numbers.astype(stored)
-    return numbers
+    return _as_kind(numbers, stored, kind)

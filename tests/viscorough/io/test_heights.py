@@ -37,11 +37,33 @@ def test_heights_of_netcdf(tmp_path):
     for ds, what in (
         (named.rename(heights="y2"), "z, y2"),
         (only.drop_vars("z"), "maps of 2 dimensions: none"),
-        (named.expand_dims("realization"), "shape"),
+        (named.expand_dims(time=3), r"variable heights has the further dimensions time \(3\)"),
     ):
         write_dataset(ds, tmp_path / "b.nc")
         with refused(f"b.nc.*{what}"):
             read_heights(tmp_path / "b.nc", 1.0)
+
+
+def test_leading_dimensions_of_netcdf(tmp_path):
+    """Of length 1, they are left out; the spacing is that of the last two."""
+    coordinates = {name: (name, step * np.arange(n), {"units": "um"}) for name, n, step in (("y", 3, 2), ("x", 4, 1))}
+    heights = 1e-3 * np.random.default_rng(0).random((3, 4))
+    plane = xr.Dataset({"z": (("y", "x"), heights, {"units": "um"})}, coordinates)
+    for leading in ({"time": 1}, {"time": 1, "band": 1}):
+        plane.expand_dims(leading).to_netcdf(tmp_path / "a.nc")
+        indenter = read_heights(tmp_path / "a.nc")
+        np.testing.assert_array_equal(indenter.heights, heights)
+        assert (indenter.spacing, indenter.row_spacing) == (1, 2)
+    series = plane.expand_dims(time=3)
+    series.to_netcdf(tmp_path / "series.nc")
+    with refused(r"variable z has the further dimensions time \(3\); .* as isel\(time=0\) of xarray gives"):
+        read_heights(tmp_path / "series.nc")
+    series.isel(time=0).to_netcdf(tmp_path / "one.nc")
+    np.testing.assert_array_equal(read_heights(tmp_path / "one.nc").heights, heights)
+    xr.merge([series.rename(z="series"), plane]).to_netcdf(tmp_path / "both.nc")
+    np.testing.assert_array_equal(read_heights(tmp_path / "both.nc").heights, heights)
+    with refused("further dimensions time"):
+        read_heights(tmp_path / "both.nc", channel="series")
 
 
 @pytest.mark.parametrize(

@@ -79,13 +79,44 @@ def test_missing_values(tmp_path, kind, attributes, expected):
         ("f8", {"valid_range": "0 5"}, "'0 5', not two numbers"),
         ("f8", {"valid_min": [0.0, 1.0]}, ".* not a number"),
         ("i2", {"valid_max": 1.0, "scale_factor": 0.5}, ".* not a number like those stored"),
-        ("i1", {"_Unsigned": "true"}, "'true', not a number"),
+        ("i1", {"_Unsigned": "yes"}, "'yes', not 'true' or 'false'"),
     ],
 )
 def test_attributes_that_are_no_numbers_are_refused(tmp_path, kind, attributes, what):
     path = stored(tmp_path / "a.nc", kind, [[1, 2], [3, 9]], **attributes)
     with refused(f"a.nc: not readable .*attribute {next(iter(attributes))} of z is {what}"):
         read(path)
+
+
+@pytest.mark.parametrize(
+    ("kind", "attributes", "expected"),
+    [
+        ("i1", {"_Unsigned": "true"}, [[1, 156], [255, 128]]),
+        ("i1", {"_Unsigned": "True", "fill_value": -1}, [[1, 156], [NAN, 128]]),
+        ("i1", {"_Unsigned": "true", "missing_value": np.int16(255)}, [[1, 156], [NAN, 128]]),
+        ("i1", {"_Unsigned": "true", "valid_range": np.array([2, -100], np.int8)}, [[NAN, 156], [NAN, 128]]),
+        ("i1", {"_Unsigned": "true", "scale_factor": 0.5, "add_offset": -1.0}, [[-0.5, 77], [126.5, 63]]),
+        ("i2", {"_Unsigned": "true"}, [[1, 65436], [65535, 65408]]),
+        ("i1", {"_Unsigned": "false"}, [[1, -100], [-1, -128]]),
+        ("f4", {"_Unsigned": "true"}, [[1, -100], [-1, -128]]),
+    ],
+)
+def test_numbers_without_a_sign_that_are_stored_with_one(tmp_path, kind, attributes, expected):
+    path = stored(tmp_path / "a.nc", kind, [[1, -100], [-1, -128]], **attributes)
+    np.testing.assert_array_equal(read(path), expected)
+    np.testing.assert_array_equal(read_heights(path, 1.0).heights, expected)
+
+
+def test_numbers_with_a_sign_that_are_stored_without_one(tmp_path):
+    path = stored(tmp_path / "a.nc", "u1", [[1, 156], [255, 128]], _Unsigned="false", missing_value=np.uint8(255))
+    np.testing.assert_array_equal(read(path), [[1, -100], [NAN, -128]])
+
+
+@pytest.mark.parametrize("fill", [-32767, 7])
+def test_numbers_without_a_sign_that_were_not_written_are_missing(tmp_path, fill):
+    options = {} if fill == -32767 else {"fill_value": fill}
+    path = stored(tmp_path / "a.nc", "i2", [[1, None], [-1, 4]], _Unsigned="true", **options)
+    np.testing.assert_array_equal(read(path), [[1, NAN], [65535, 4]])
 
 
 def test_whole_numbers_that_double_precision_lacks_are_refused_also_beside_missing_ones(tmp_path):

@@ -193,7 +193,8 @@ def _spikes(heights: Array) -> Iterator[str]:
         largest = float(above[spikes].max())
         yield (
             f"{count} single points stand up to {largest:.3g} above all their neighbours, {largest / usual:.3g} times "
-            "the usual step between neighbours: spikes touch first; --nodata or a filter removes them"
+            "the usual step between neighbours: spikes touch first; "
+            "--nodata with their values sets those to nan that are artefacts"
         )
 
 

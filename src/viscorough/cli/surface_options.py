@@ -13,12 +13,11 @@ import click
 
 import viscorough
 from viscorough import units
-from viscorough.cli import files, messages, options
+from viscorough.cli import files, options
 from viscorough.units import Quantity
 
 _OF_READING = ("spacing", "unit", "lateral_unit", "channel")
 _OF_PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
-_STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful, so that users are warned
 
 
 @dataclass(frozen=True)
@@ -109,7 +108,7 @@ def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> visc
     """The indenter that a Surface describes, read after a check that the output can be written.
 
     inputs : further files that are read, as of files.check_output
-    Raises ValueError for an output that cannot be written and for invalid heights; steep ones give an AccuracyWarning.
+    Raises ValueError for an output that cannot be written and for invalid heights.
     """
     from viscorough.io.atomic import path_named
 
@@ -120,8 +119,4 @@ def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> visc
     for name in values.keys() & _VALUES.keys():
         with path_named(f"--{name} {values[name]}"):
             values[name] = _VALUES[name](values[name])
-    indenter = viscorough.read_heights(path, **values)
-    if (slope := indenter.rms_slope) > _STEEP_SLOPE:
-        text = f"{path}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"
-        messages.warn(text)
-    return indenter
+    return viscorough.read_heights(path, **values)

@@ -28,7 +28,8 @@ _PROFILE_COLUMN = re.compile(
 )
 _FACTOR = re.compile(
     r"(?:height|z|data|value)\W*(?:conversion|scal(?:e|ing))?\W*factor|(?:(?:height|z|data|value)\W*)?"
-    r"(?:scal(?:e|ing)|multiplier)(?:\W*factor)?$",
+    r"(?:scal(?:e|ing)|multiplier)(?:\W*factor)?$"
+    r"|bit\W*(?:2|to)\W*[pnuµμm]?m$|[pnuµμm]?m\W*(?:per|/)\W*(?:bit|count|digit|lsb)s?$|(?:z\W*)?lsb$",
     re.IGNORECASE,
 )
 _DEGREES = {"lon", "lat", "longitude", "latitude"}

@@ -20,6 +20,7 @@ from viscorough.io.unpacking import unpacked
 from viscorough.preparation import doubts, prepare
 from viscorough.types import Array, FilePath
 
+_STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".tsv")
 
 
@@ -37,7 +38,7 @@ def read_heights(
 
     Rows are along y and columns along x, in the order of the file; columns of x, y, z in increasing order. Values that
     the file marks as missing are nan. Gives an AccuracyWarning for each defect that viscorough.preparation finds in
-    the prepared map.
+    the prepared map, and for an rms slope above 0.3.
 
     Parameters
     ----------
@@ -56,7 +57,8 @@ def read_heights(
         Name or number (from 0) of the map to read, where a file holds several; by default the variable `heights` of a
         NetCDF file, and the first channel of heights of an instrument's file.
     scale : float or str or units.Quantity, optional
-        Conversion factor of the numbers in a file without a unit, as "0.053 nm" per count of a detector.
+        Conversion factor of the numbers in a file without a unit of length, as "0.053 nm" per count of a detector, or
+        "53 nm" per radian where the file states radians.
     preparation : Any
         Keyword arguments of viscorough.prepare.
 
@@ -71,7 +73,7 @@ def read_heights(
     >>> import numpy as np
     >>> import viscorough
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     np.save(f"{folder}/heights.npy", np.random.default_rng(1).normal(size=(8, 8)))
+    ...     np.save(f"{folder}/heights.npy", 1e-2 * np.random.default_rng(1).normal(size=(8, 8)))
     ...     surface = viscorough.read_heights(f"{folder}/heights.npy", 0.5, unit="um")
     >>> surface.heights.shape, surface.spacing, surface.length_unit
     ((8, 8), 0.5, 'um')
@@ -80,7 +82,10 @@ def read_heights(
         scan = _read_scan(path, channel, is_map=isinstance(spacing, tuple | list | np.ndarray))
         indenter = to_indenter(scan if scale is None else _scaled(scan, scale), spacing, unit, lateral_unit)
         indenter = prepare(indenter, **preparation)
-    for text in doubts(indenter):
+    texts = doubts(indenter)
+    if (slope := indenter.rms_slope) > _STEEP_SLOPE:
+        texts.append(f"the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}")
+    for text in texts:
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     return indenter
 
@@ -164,10 +169,10 @@ def dimensions_of_heights(path: FilePath) -> int:
 
 
 def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
-    """The Scan with its heights multiplied by a number, which may have a unit: then that of the heights."""
+    """Return the Scan with its heights multiplied by a number, whose unit, if any, becomes the unit of the heights."""
     quantity = units.with_unit(scale)
     number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
-    if unit and scan.unit.strip() not in ("", units.UNKNOWN):
+    if unit and units.is_length(scan.unit):
         raise ValueError(f"--scale {scale}: heights are in {scan.unit} in the file; a plain number is needed")
     number = positive("--scale", number)
     if scan.heights.dtype.kind not in "iuf":

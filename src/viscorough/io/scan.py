@@ -55,7 +55,7 @@ def to_indenter(
     if scan.heights.ndim != dimensions:
         needed = "a line" if dimensions == 1 else "a two-dimensional map"
         raise ValueError(f"heights have the shape {scan.heights.shape}; {needed} is needed")
-    length_unit = _agreed_unit("--unit", "heights", scan.unit, unit)
+    length_unit = _unit_of_heights(scan, unit)
     if lateral_unit is not None:
         if length_unit == units.UNKNOWN:
             raise ValueError(f"--lateral-unit {lateral_unit}: heights are in no stated unit; --unit is needed")
@@ -112,9 +112,24 @@ def _in_unit(distance: Any, unit: str) -> units.Quantity:
     return units.Quantity(positive("spacing", distance), unit)
 
 
+def _unit_of_heights(scan: Scan, given: str | None) -> str:
+    """The unit of the heights, stated by the file or given; "1" if it is not known."""
+    try:
+        _stated_unit(scan.unit)
+    except ValueError as error:
+        text = f"--scale, such as '5 nm', states the height of 1 {scan.unit.strip()[:60]}"
+        raise ValueError(f"heights: {error}; {text}") from error
+    return _agreed_unit("--unit", "heights", scan.unit, given)
+
+
+def _stated_unit(in_file: str) -> str | None:
+    """The unit of length that a file states, None if it states none. Raises ValueError for other units."""
+    return None if in_file.strip() in ("", units.UNKNOWN) else units.length_unit(in_file)
+
+
 def _agreed_unit(option: str, lengths: str, in_file: str, given: str | None) -> str:
     """The unit of lengths, stated by the file or given by an option, which must agree; "1" if it is not known."""
-    stated = None if in_file.strip() in ("", units.UNKNOWN) else units.length_unit(in_file)
+    stated = _stated_unit(in_file)
     given = None if given is None or given == units.UNKNOWN else units.length_unit(given)
     if stated and given and units.metres(stated) != units.metres(given):
         raise ValueError(f"{option} {given} contradicts the file, in which {lengths} are in {stated}; leave it out")

@@ -39,6 +39,7 @@ _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
 _PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
 _ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
+_CONTROLS = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))  # characters that no text holds; \x1a ends it under DOS
 _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
 _LEAST_POSITIONS = 10  # the same for numbers that rise, or fall, in any steps
 _MOST_OF_PROFILES = 4  # columns of a table that may be x, z, a second quantity, and a number
@@ -118,9 +119,9 @@ def is_own_table(lines: Sequence[str]) -> bool:
 
 
 def is_binary(path: FilePath) -> bool:
-    """Whether a file cannot be text. Raises a one-line ValueError if it cannot be read."""
+    """Whether a file cannot be text: it has control characters. Raises a one-line ValueError if it cannot be read."""
     start = _content(path, 4096)
-    return b"\x00" in start and _utf16(start) is None
+    return len(start.translate(None, _CONTROLS)) < len(start) and _utf16(start) is None
 
 
 def _utf16(start: bytes) -> str | None:

@@ -115,6 +115,71 @@ def test_counts_are_scaled(tmp_path):
             viscorough.read_heights(tmp_path / "odd.npy", 20.0, scale=2)
 
 
+def test_a_scale_converts_a_unit_that_is_no_length(tmp_path):
+    """As the phase of an interferometer, in radians; the message about the unit names the option."""
+    (tmp_path / "a.txt").write_text("# Z units: rad\n# pixel size: 2 um\n1 2 3\n4 5 7\n")
+    with refused(r"unit 'rad': not a unit of length, .*; --scale, such as '5 nm', states the height of 1 rad"):
+        read_heights(tmp_path / "a.txt")
+    indenter = read_heights(tmp_path / "a.txt", scale="5 nm")
+    np.testing.assert_allclose(indenter.heights, [[5, 10, 15], [20, 25, 35]], rtol=1e-15)
+    assert (indenter.spacing, indenter.length_unit) == (2000, "nm")
+    with refused("unit 'rad': not a unit of length"):
+        read_heights(tmp_path / "a.txt", scale=5)
+
+
+SPIP = """# File Format = ASCII
+# Created by SPIP
+# x-pixels = 4
+# y-pixels = 3
+# x-length = 4000
+# y-length = 3000
+# x-offset = 0
+# y-offset = 0
+# Bit2nm = 0.5
+# Start of Data:
+1 2 3 4
+5 6 7 9
+2 8 1 3
+"""
+
+
+@pytest.mark.parametrize(
+    "factor", ["Bit2nm = 0.5", "bit to um: 0.5", "nm/bit = 0.5", "nm per count: 0.5", "Z LSB = 0.5 nm"]
+)
+def test_a_header_with_the_height_of_a_count_is_refused_and_the_advice_works(tmp_path, factor):
+    path = tmp_path / "spip.asc"
+    path.write_text(SPIP.replace("Bit2nm = 0.5", factor))
+    with refused(f"header '# {factor}': .*; without this line, and with --scale, they are read"):
+        read_heights(path, 1000, unit="nm")
+    path.write_text(SPIP.replace("# Bit2nm = 0.5\n", ""))
+    indenter = read_heights(path, "1000 nm", scale="0.5 nm")
+    np.testing.assert_array_equal(indenter.heights[0], [0.5, 1, 1.5, 2])
+    assert (indenter.spacing, indenter.length_unit) == (1000, "nm")
+
+
+@pytest.mark.parametrize("suffix", [".txt", ".csv", ".asc", ".dat"])
+@pytest.mark.parametrize("content", [b"\x01\x02" + 40 * b"\xff\xd8abc", 20 * bytes(range(1, 256)), 9 * b"1 2\x08\n"])
+def test_binary_files_with_the_suffix_of_a_text_are_refused_without_their_bytes(tmp_path, suffix, content):
+    path = tmp_path / f"a{suffix}"
+    path.write_bytes(content)
+    with refused(rf"a\{suffix}: not readable \(no known format\)") as error:
+        read_heights(path, 1.0)
+    assert str(error.value).isprintable()
+    assert len(str(error.value)) < len(str(path)) + 80
+
+
+@pytest.mark.parametrize(("slope", "is_steep"), [(0.29, False), (0.31, True)])
+def test_steep_slopes_give_a_warning(tmp_path, recwarn, slope, is_steep):
+    ridges = np.abs(np.arange(16) % 8 - 4.0)  # of the slope 1 almost everywhere
+    heights = np.broadcast_to(ridges, (16, 16)) * slope
+    np.save(tmp_path / "a.npy", heights)
+    indenter = read_heights(tmp_path / "a.npy", 1.0)
+    assert indenter.rms_slope == pytest.approx(slope)
+    texts = [str(warning.message) for warning in recwarn if warning.category is viscorough.AccuracyWarning]
+    expected = f"{tmp_path / 'a.npy'}: the rms slope is 0.31; the theory holds for small slopes, below about 0.3"
+    assert texts == [expected] * is_steep
+
+
 def test_a_spacing_may_be_a_text_with_a_unit(tmp_path):
     np.save(tmp_path / "a.npy", np.random.default_rng(1).normal(size=(4, 4)))
     for spacing in ("0.5 um", (units.Quantity(500.0, "nm"), "0.5 um"), pint.Quantity(0.5, "um")):

@@ -2,15 +2,14 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from viscorough_study.comparisons.validation import failures
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.tables import read_table
 
 
 def main(table, passed, *, order_margin):
     """Write the names of passed comparisons. Raises ValueError, naming the failed ones, if there are any."""
-    comparisons = pd.read_csv(table)
+    comparisons = read_table(table)
     if failed := failures(comparisons, order_margin):
         raise ValueError(f"validation failed, see {table}: " + "; ".join(failed))
     names = (comparisons["case"] + " " + comparisons["quantity"]).unique()

@@ -2,13 +2,11 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import select
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import read_table, recorded, write_table
 from viscorough_study.verdicts.claims import COLUMNS, judge, markdown, scale_attributes
 from viscorough_study.verdicts.evidence import Evidence
 
@@ -20,7 +18,7 @@ def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
     """
     evidence = Evidence(
         discs=select(read_dataset(discs), group="base"),
-        tables={Path(path).stem: pd.read_csv(path) for path in tables},
+        tables={Path(path).stem: read_table(path) for path in tables},
         **settings,
     )
     table = judge(claims, evidence)

@@ -2,10 +2,9 @@
 
 from pkgutil import resolve_name
 
-import pandas as pd
-
 from viscorough_study.figures.style import save_figure
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.tables import read_table
 
 
 def main(files, png, pdf, *, functions, **params):
@@ -16,7 +15,7 @@ def main(files, png, pdf, *, functions, **params):
         `files`; other arguments are tables
     """
     inputs = {
-        name: resolve_name(functions[name])(files) if name in functions else pd.read_csv(path)
+        name: resolve_name(functions[name])(files) if name in functions else read_table(path)
         for name, path in files.items()
     }
     save_figure(resolve_name(functions["draw"])(**inputs, **params), png, pdf)

@@ -8,14 +8,14 @@ from viscorough.io import netcdf
 from viscorough.io.datasets import read_dataset
 from viscorough_study.performance import timing
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import read_table, recorded, write_table
 
 
 def read_input(path):
     """The table of a CSV file, the dataset of a NetCDF file, or of a list of NetCDF files an iterator over Contents."""
     if not isinstance(path, str):
         return map(netcdf.read, path)
-    return pd.read_csv(path) if path.endswith(".csv") else read_dataset(path)
+    return read_table(path) if path.endswith(".csv") else read_dataset(path)
 
 
 def main(files, csv, nc, *, functions, tables, arguments):

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from viscorough import units
+from viscorough.io.atomic import path_named
 from viscorough.io.netcdf import Content, Variable, described, padded
 from viscorough.loading_curve import LoadingCurve
 from viscorough.summaries import unit_power
@@ -56,9 +57,14 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
 def curve_from_content(content: Content) -> LoadingCurve:
     """The LoadingCurve in a Content made by curve_to_content.
 
-    Raises ValueError if it holds none, for units that do not follow from that of the depth, and for numbers that no
-    curve can have, within its tolerance.
+    Raises ValueError, which names the file that was read, if the Content holds no curve, for units that do not follow
+    from the unit of the depth, and for numbers that no curve can have, within its tolerance.
     """
+    with contextlib.nullcontext() if content.path is None else path_named(content.path):
+        return _checked_curve(content)
+
+
+def _checked_curve(content: Content) -> LoadingCurve:
     fields: dict[str, Any] = {}
     for name in (name for name in OVER_LEVELS if name in STORED or name in content.variables):
         variable = content.variables.get(name)
@@ -162,7 +168,7 @@ def unstack_curves(content: Content) -> list[LoadingCurve]:
     for i, levels in enumerate(content.variables["levels"].values.tolist()):
         variables = {name: Variable(("level",), v.values[i, :levels], v.attributes) for name, v in stacked.items()}
         attributes = content.attributes | {name: values[i] for name, values in per_curve.items()}
-        curve = curve_from_content(Content(variables, attributes))
+        curve = curve_from_content(Content(variables, attributes, content.path))
         # Counts are stored as floats because of nan.
         curves.append(dataclasses.replace(curve, contact_count=curve.contact_count.astype(int)))
     return curves

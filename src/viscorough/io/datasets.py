@@ -6,7 +6,6 @@ The only module of the library that imports xarray.
 import xarray as xr
 
 from viscorough.io import netcdf
-from viscorough.io.atomic import atomic_write
 from viscorough.types import FilePath
 
 
@@ -25,7 +24,7 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     for name in numeric.keys() & ds.coords.keys():
         encoding[name]["_FillValue"] = None  # in CF no value of a coordinate may be missing
     ds = ds.drop_encoding().assign_attrs(netcdf.global_attributes())
-    with atomic_write(path) as temporary:
+    with netcdf.written_with_digest(path) as temporary:
         ds.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
 
 

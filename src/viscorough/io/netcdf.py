@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import netCDF4
@@ -10,6 +11,7 @@ import numpy as np
 from viscorough import __version__
 from viscorough.arrays import read_only
 from viscorough.io.atomic import atomic_write, reading
+from viscorough.io.digest import add_digest, check_digest
 from viscorough.io.unpacking import STORAGE, unpacked
 from viscorough.summaries import si_unit, unit_power
 from viscorough.types import Array, FilePath
@@ -29,14 +31,18 @@ class Variable(NamedTuple):
 
 
 class Content(NamedTuple):
-    """The content of a NetCDF file: variables {name: Variable} and global attributes {name: value}."""
+    """The content of a NetCDF file: variables {name: Variable} and global attributes {name: value}.
+
+    path : of the file that was read, for error messages
+    """
 
     variables: dict[str, Variable]
     attributes: dict[str, Any]
+    path: FilePath | None = None
 
     def with_attributes(self, **attributes: Any) -> "Content":
         """The same variables, with global attributes added or replaced."""
-        return Content(self.variables, self.attributes | attributes)
+        return self._replace(attributes=self.attributes | attributes)
 
 
 def described(
@@ -81,13 +87,25 @@ def compression(size: int) -> dict[str, Any]:
     return {"zlib": True, "complevel": 4, "shuffle": True} if size >= COMPRESSED_FROM else {}
 
 
+@contextmanager
+def written_with_digest(path: FilePath) -> Iterator[Path]:
+    """Context that yields a temporary path for a NetCDF file with global_attributes, which then replaces `path`.
+
+    Adds the digest of its content (io.digest), which `opened` checks. Raises what atomic_write raises.
+    """
+    with atomic_write(path) as temporary:
+        yield temporary
+        with netCDF4.Dataset(temporary, "a") as file:
+            add_digest(file)
+
+
 def write(content: Content, path: FilePath) -> None:
     """Write a Content of numbers as CF-1.11 NetCDF, atomically; nan is the fill value.
 
-    Every variable needs the attribute `long_name`, and `units` unless it holds text. Adds global_attributes and
-    compresses large arrays. Raises ValueError for a path that cannot be written, OSError if writing fails.
+    Every variable needs the attribute `long_name`, and `units` unless it holds text. Adds global_attributes and a
+    digest, and compresses large arrays. Raises ValueError for a path that cannot be written, OSError if writing fails.
     """
-    with atomic_write(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
+    with written_with_digest(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
         file.setncatts(content.attributes | global_attributes())
         for name, (dimensions, values, attributes) in content.variables.items():
             values = np.asarray(values)
@@ -103,9 +121,14 @@ def write(content: Content, path: FilePath) -> None:
 
 
 @contextmanager
-def opened(path: FilePath) -> Iterator[netCDF4.Dataset]:
-    """Context that yields the netCDF4.Dataset of a file; any fault of the file becomes a one-line ValueError."""
+def opened(path: FilePath, *, checked: bool = True) -> Iterator[netCDF4.Dataset]:
+    """Context that yields the netCDF4.Dataset of a file; any fault of the file becomes a one-line ValueError.
+
+    checked : whether to read the whole file and refuse it if its content does not have the digest in it (io.digest)
+    """
     with reading(path, "a whole NetCDF file is needed"), netCDF4.Dataset(path) as file:
+        if checked:
+            check_digest(file)
         yield file
 
 
@@ -120,4 +143,4 @@ def read(path: FilePath) -> Content:
             # Not those of its storage, which reading undoes.
             attributes = {key: variable.getncattr(key) for key in variable.ncattrs() if key not in STORAGE}
             variables[name] = Variable(variable.dimensions, read_only(unpacked(variable)), attributes)
-        return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()})
+        return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()}, path)

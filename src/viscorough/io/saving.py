@@ -5,7 +5,6 @@ from pathlib import Path
 from viscorough.contact_maps import Contact
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf, tables
-from viscorough.io.atomic import path_named
 from viscorough.io.contacts import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
@@ -83,8 +82,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
     >>> bool((loaded.force == curve.force).all())
     True
     """
-    with path_named(path):
-        return curve_from_content(netcdf.read(path))
+    return curve_from_content(netcdf.read(path))
 
 
 def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> netcdf.Content:

@@ -7,7 +7,6 @@ import numpy as np
 
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
-from viscorough.io.atomic import atomic_write
 from viscorough_study.ensembles.batches import RMS, Realization
 
 
@@ -17,7 +16,7 @@ def write_surfaces(ensembles, path):
     ensembles : list of (settings, number, surfaces): dict of settings, number of realizations, and iterable of
         (Realization, Indenter), which agree except in numbers, heights and rms heights
     """
-    with atomic_write(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
+    with netcdf.written_with_digest(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
         file.set_fill_off()  # every value is written
         file.setncatts({"title": "Heights of rigid indenters; larger is higher"} | netcdf.global_attributes())
         for position, (settings, number, surfaces) in enumerate(ensembles):

@@ -10,7 +10,7 @@ import typst
 import yaml
 
 from viscorough.calibrated_law import ACROSS
-from viscorough_study.page.results import Number, read_table
+from viscorough_study.page.results import Number, read_published
 from viscorough_study.run.readable import readable
 
 AUDITED, PLAIN = "1e-05", "1e-03"  # tolerances of the audits and curves whose sum rules are shown
@@ -30,7 +30,7 @@ def article(project, contents, *, paper, figures):
         undefined=jinja2.StrictUndefined, finalize=as_markup, trim_blocks=True, lstrip_blocks=True
     )
     published, results = project / "docs/results", contents["results"]
-    citation, law = yaml.safe_load((project / "CITATION.cff").read_text("utf-8")), read_table(published / "law.csv")
+    citation, law = yaml.safe_load((project / "CITATION.cff").read_text("utf-8")), read_published(published / "law.csv")
     sum_rules = json.loads((published / "sum_rules.json").read_text("utf-8"))
     springs = results.rows("interface", source="discs", case_group="base").sort_values("hurst")
     validation = results.tables["validation"]
@@ -48,7 +48,7 @@ def article(project, contents, *, paper, figures):
         control=control(results),
         sum_rules=sum_rules_shown(sum_rules),
         audited={"plain": float(PLAIN), "audit": float(AUDITED), "across": sum_rules["across"]},
-        outside=read_table(published / "outside.csv").to_dict("records"),
+        outside=read_published(published / "outside.csv").to_dict("records"),
         origins=json.loads((published / "published.json").read_text("utf-8")),
     )
     return typst.compile((style + text).encode(), root=figures, ignore_system_fonts=True)

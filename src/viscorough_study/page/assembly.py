@@ -4,7 +4,7 @@ from pathlib import Path
 
 from viscorough_study.page import answers, content
 from viscorough_study.page.discussion import QUANTITIES, discussion
-from viscorough_study.page.results import read_results, read_table
+from viscorough_study.page.results import read_published, read_results
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
@@ -20,7 +20,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
     """
     tables = {Path(path).stem: path for path in tables}
-    results, published = read_results(tables), read_table(project / "docs/claims.csv")
+    results, published = read_results(tables), read_published(project / "docs/claims.csv")
     conventions = results.settings["claims"]["conventions"]
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)
     fastest = answers.fastest_methods(results)

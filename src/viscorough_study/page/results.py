@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from viscorough_study.run.tables import read_recorded
+from viscorough_study.run.tables import read_recorded, read_table
 
 MAY_BE_EMPTY = ("convention", "reason")  # columns of texts
+_ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}  # options of pandas.read_csv
 
 
 @dataclass(frozen=True)
@@ -79,10 +80,14 @@ def read_results(tables):
     """Results of the tables at {name: path of the CSV}; the NetCDF files have the same names in the same folder."""
     files = {name: Path(path).with_suffix(".nc") for name, path in tables.items()}
     settings = {name: read_recorded(file, "settings", missing={}) for name, file in files.items()}
-    return Results({name: read_table(path) for name, path in tables.items()}, settings)
+    read = {name: read_table(path, **_ONLY_EMPTY_IS_MISSING) for name, path in tables.items()}
+    return Results({name: _with_empty_texts(table) for name, table in read.items()}, settings)
 
 
-def read_table(path):
-    """Table of a CSV file; empty texts, which pandas reads as nan, become ""."""
-    table = pd.read_csv(path, keep_default_na=False, na_values=[""])
+def read_published(path):
+    """Read a CSV file that the project keeps; empty texts, which pandas reads as nan, become ""."""
+    return _with_empty_texts(pd.read_csv(path, **_ONLY_EMPTY_IS_MISSING))
+
+
+def _with_empty_texts(table):
     return table.assign(**{name: table[name].astype(object).fillna("") for name in MAY_BE_EMPTY if name in table})

@@ -1,12 +1,22 @@
-"""Tidy tables, written as CSV and NetCDF."""
+"""Tidy tables, written as CSV and NetCDF.
 
+The NetCDF file, which has a digest of its own (viscorough.io.digest), also has the digest of the CSV file. A table that
+was cut short or changed since it was written is therefore refused, while the CSV holds nothing but the table.
+"""
+
+import io
 import json
+from hashlib import sha256
+from pathlib import Path
 
+import pandas as pd
 import xarray as xr
 
-from viscorough.io.atomic import atomic_write
+from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.datasets import write_dataset
 from viscorough.io.netcdf import opened
+
+CSV_DIGEST = "csv_sha256"  # attribute of the NetCDF file: SHA-256 of the bytes of the CSV file
 
 
 def write_table(table, csv_path, nc_path, *, columns, dimension, title, attributes=None):
@@ -16,11 +26,12 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
     dimension : name of the rows in the NetCDF file; attributes : its further global attributes
 
     Floats in the CSV have as many digits as needed to read them back exactly; missing values are empty.
-    Raises ValueError if columns and table differ.
+    Both files must have the same name but for the suffix. Raises ValueError if columns and table differ.
     """
     if differing := sorted(set(columns) ^ set(table.columns)):
         raise ValueError(f"{nc_path}: table and descriptions differ in {', '.join(differing)}; both are needed")
-    ds = xr.Dataset(attrs={"title": title} | (attributes or {}))
+    csv = table.to_csv(index=False, lineterminator="\n").encode()
+    ds = xr.Dataset(attrs={"title": title} | (attributes or {}) | {CSV_DIGEST: sha256(csv).hexdigest()})
     for name, (long_name, units) in columns.items():
         values, attributes = table[name].to_numpy(), {"long_name": long_name, "units": units}
         if not values.size:  # the types of empty columns are unspecified
@@ -31,7 +42,23 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
         ds[name] = (dimension, values, attributes)
     write_dataset(ds, nc_path)
     with atomic_write(csv_path) as temporary:
-        table.to_csv(temporary, index=False, lineterminator="\n")
+        temporary.write_bytes(csv)
+
+
+def read_table(csv_path, **options):
+    """Read the CSV file of a table that write_table wrote, with options of pandas.read_csv.
+
+    Raises a one-line ValueError, which names the file, if the table differs from the table that was written with the
+    NetCDF file of the same name, or if either file is missing or damaged.
+    """
+    nc_path = Path(csv_path).with_suffix(".nc")
+    with opened(nc_path) as file:
+        written = file.getncattr(CSV_DIGEST)
+    with reading(csv_path, "remove both files, so that the next run makes them again"):
+        csv = Path(csv_path).read_bytes()
+        if sha256(csv).hexdigest() != written:
+            raise ValueError(f"it does not match {nc_path.name}, which was written with it")
+    return pd.read_csv(io.BytesIO(csv), **options)
 
 
 def recorded(**mappings):

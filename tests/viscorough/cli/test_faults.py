@@ -169,7 +169,7 @@ def test_file_that_cannot_be_opened_in_time_is_one_line(capsys, monkeypatch):
     codes = []
     monkeypatch.setattr(os, "_exit", codes.append)
     monkeypatch.setattr(files, "LONGEST", 0.05)
-    monkeypatch.setattr(netcdf, "opened", lambda path: contextlib.nullcontext(time.sleep(0.5)))
+    monkeypatch.setattr(netcdf, "opened", lambda path, checked: contextlib.nullcontext(time.sleep(0.5)))
     with click.Context(click.Command("kinetics"), info_name="viscorough kinetics"):
         files.check_opens("a.nc")
     assert codes == [2]

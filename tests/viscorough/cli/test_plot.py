@@ -53,7 +53,7 @@ def test_every_kind_of_file_is_drawn_and_follows_the_cf_conventions(made, here, 
     if file.endswith(".nc"):
         assert violations(file) == []
         attributes = netcdf.read(file).attributes
-        assert attributes["history"] == f"written by viscorough {viscorough.__version__}"
+        assert attributes["history"] == f"written by viscorough {viscorough.__version__}, with content_sha256"
         assert str(made) not in str(attributes)
     assert run(f"plot {file} -o figure.png") == 0
     captured = capsys.readouterr()

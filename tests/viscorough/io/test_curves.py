@@ -72,6 +72,10 @@ def test_stacked_curves_survive_files_exactly(tmp_path):
         content = netcdf.read(tmp_path / name)
         for read, curve in zip(unstack_curves(content), curves, strict=True):
             assert_same_curve(read, curve)
+    damaged = values("stiffness", lambda stiffness: -stiffness)(content)
+    netcdf.write(damaged, tmp_path / "batch.nc")
+    with refused(r"batch\.nc: .*stiffness"):
+        unstack_curves(netcdf.read(tmp_path / "batch.nc"))
     with refused("at least one"):
         stack_curves([])
     with refused("lengths are in m and um; one unit is allowed"):

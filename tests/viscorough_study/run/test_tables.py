@@ -7,8 +7,10 @@ import pandas as pd
 import pytest
 
 from support.cf import violations
+from support.contract import refused
+from support.workflow import load_script
 from viscorough.io.datasets import read_dataset
-from viscorough_study.run.tables import write_table
+from viscorough_study.run.tables import read_table, write_table
 
 
 def test_table_survives_both_files_exactly(tmp_path):
@@ -34,3 +36,49 @@ def test_table_without_rows_keeps_what_its_columns_hold(tmp_path):
     files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc")]
     write_table(pd.DataFrame(columns=list(columns)), *files, columns=columns, dimension="fit", title="Fits")
     assert violations(files[1]) == []
+
+
+@pytest.fixture
+def files(tmp_path):
+    """The two files of a table of three rows, the last of which is a whole number."""
+    table = pd.DataFrame({"source": ["discs", "lines", "discs"], "beta": [0.125, 0.25, 0.5]})
+    columns = {"source": ("origin of the curves", ""), "beta": ("exponent", "1")}
+    files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc")]
+    write_table(table, *files, columns=columns, dimension="fit", title="Fits")
+    return files
+
+
+CHANGES = {
+    "a row less": lambda csv: csv[: csv.rindex("discs")],
+    "part of a number": lambda csv: csv.removesuffix("5\n"),
+    "no newline": lambda csv: csv.removesuffix("\n"),
+    "another number": lambda csv: csv.replace("0.25", "0.35"),
+    "nothing": lambda csv: "",
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_table_that_is_cut_short_or_changed_is_refused(files, change):
+    csv, nc = files
+    assert read_table(csv)["beta"].tolist() == [0.125, 0.25, 0.5]
+    csv.write_text(CHANGES[change](csv.read_text()))
+    with refused(r"fits\.csv: not readable \(it does not match fits\.nc, which was written with it\); remove both"):
+        read_table(csv)
+    with refused(r"fits\.csv"):
+        load_script("plot").main({"table": str(csv)}, "a.png", "a.pdf", functions={"draw": "builtins.print"})
+    nc.unlink()
+    with refused(r"fits\.nc: not readable"):
+        read_table(csv)
+
+
+def test_missing_texts_are_read_as_asked(files):
+    csv, _ = files
+    write_table(
+        pd.DataFrame({"reason": ["", "NA"], "beta": [0.5, np.nan]}),
+        *files,
+        columns={"reason": ("reason", ""), "beta": ("exponent", "1")},
+        dimension="fit",
+        title="Fits",
+    )
+    assert read_table(csv)["reason"].isna().tolist() == [True, True]
+    assert read_table(csv, keep_default_na=False, na_values=[""])["reason"].tolist()[1] == "NA"

@@ -1,0 +1,107 @@
+"""Digests of the content of NetCDF files, so that reading refuses a damaged file.
+
+The HDF5 library, which stores these files, has checksums of their structure, but not of the numbers in it. A digest
+covers groups, dimensions, variables and attributes, with their names, types and stored values.
+"""
+
+import hashlib
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import netCDF4
+import numpy as np
+from numpy.typing import NDArray
+
+ATTRIBUTE = "content_sha256"  # global attribute with the digest of everything else in the file
+# Number of values that are read at a time, 32 MiB in double precision: a large map need not fit into memory twice.
+_VALUES_AT_A_TIME = 2**22
+
+
+def add_digest(file: netCDF4.Dataset) -> None:
+    """Add the digest of a file that is open for writing and is otherwise complete, as the attribute `ATTRIBUTE`.
+
+    The attribute `history` then names it, so that a file that has lost its digest is refused.
+    """
+    file.setncattr("history", f"{file.getncattr('history')}, with {ATTRIBUTE}")
+    file.setncattr(ATTRIBUTE, content_digest(file))
+
+
+def check_digest(file: netCDF4.Dataset) -> None:
+    """Raise ValueError if the content of an open file has changed since its digest was added.
+
+    Files of other programs and of versions of viscorough without digests have none, and are not checked.
+    """
+    names = file.ncattrs()
+    if ATTRIBUTE in names:
+        if file.getncattr(ATTRIBUTE) != content_digest(file):
+            raise ValueError(
+                f"its content does not match its attribute {ATTRIBUTE}: it is damaged, or another program changed it, "
+                "which must then remove this attribute and history"
+            )
+    elif "history" in names and ATTRIBUTE in str(file.getncattr("history")):
+        raise ValueError(
+            f"it has lost its attribute {ATTRIBUTE}: it is damaged, or another program removed it, which must then "
+            "remove history, too"
+        )
+
+
+def content_digest(file: netCDF4.Dataset) -> str:
+    """Return the SHA-256 of the content of an open file, as 64 hexadecimal digits; `ATTRIBUTE` does not count.
+
+    Neither the order in the file nor the byte order of the machine changes it. The digest is computed from lines of
+    JSON: for each group, sorted by path, its path, dimensions and attributes, and for each of its variables, sorted by
+    name, its name, type, dimensions, shape and attributes. The stored values of the variable follow its line, as
+    little-endian numbers, or each as a line of JSON if they are texts.
+    """
+    digest = hashlib.sha256()
+
+    def add_line(*content: Any) -> None:
+        digest.update(json.dumps(content).encode() + b"\n")
+
+    for group in sorted(_groups(file), key=lambda group: group.path):
+        sizes = {name: dimension.size for name, dimension in group.dimensions.items()}
+        add_line("group", group.path, sorted(sizes.items()), _attributes(group))
+        for name, variable in sorted(group.variables.items()):
+            kind = _little_endian(np.dtype(variable.dtype))
+            text = kind.kind == "U"
+            add_line(name, "text" if text else kind.str, variable.dimensions, variable.shape, _attributes(variable))
+            for values in _parts(variable):
+                if text:
+                    for value in values.flat:
+                        add_line(value)
+                else:
+                    digest.update(values.astype(kind, copy=False).tobytes())
+    return digest.hexdigest()
+
+
+def _groups(group: netCDF4.Dataset) -> Iterator[netCDF4.Dataset]:
+    yield group
+    for member in group.groups.values():
+        yield from _groups(member)
+
+
+def _attributes(owner: netCDF4.Dataset | netCDF4.Variable) -> list[Any]:
+    """[name, type, shape, value] of every attribute, numbers as hexadecimal bytes."""
+    listed: list[Any] = []
+    for name in sorted(set(owner.ncattrs()) - {ATTRIBUTE}):
+        value = np.asarray(owner.getncattr(name))
+        kind = _little_endian(value.dtype)
+        text = kind.kind == "U"
+        data = value.tolist() if text else value.astype(kind).tobytes().hex()
+        listed.append([name, "text" if text else kind.str, value.shape, data])
+    return listed
+
+
+def _parts(variable: netCDF4.Variable) -> Iterator[NDArray[Any]]:
+    """The stored values of a variable, some rows at a time if they are many."""
+    variable.set_auto_maskandscale(False)
+    rows = variable.shape[0] if variable.ndim else 1
+    step = max(1, _VALUES_AT_A_TIME * rows // max(1, variable.size))
+    for first in range(0, rows, step):
+        yield np.asarray(variable[first : first + step] if step < rows else variable[...])
+    variable.set_auto_maskandscale(True)
+
+
+def _little_endian(kind: np.dtype[Any]) -> np.dtype[Any]:
+    return kind.newbyteorder("<")

@@ -1,0 +1,132 @@
+"""Digests of NetCDF files: a changed content is refused, whatever changed; files without a digest are read."""
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray as xr
+
+from support.contract import refused
+from support.curves import random_curve
+from viscorough import load_curve, read_heights
+from viscorough.io import datasets, digest, netcdf
+from viscorough.io.curves import stack_curves
+from viscorough.io.netcdf import Content, Variable
+
+ABOUT = {"long_name": "depth", "units": "m"}
+
+
+@pytest.fixture
+def path(tmp_path):
+    """A file with numbers and texts, on a dimension and alone."""
+    variables = {
+        "depth": Variable(("level",), np.array([1.0, -0.0, np.nan]), ABOUT),
+        "count": Variable(("level",), np.array([1, 2, 3]), ABOUT | {"valid": np.array([1, 3])}),
+        "spacing": Variable((), np.array(0.1), ABOUT),
+        "case": Variable(("level",), np.array(["a", "b", "c"], dtype=object), {"long_name": "case"}),
+    }
+    netcdf.write(Content(variables, {"title": "All kinds", "tolerance": 1e-3}), tmp_path / "all.nc")
+    return tmp_path / "all.nc"
+
+
+def assign(name, value):
+    def change(file):
+        file.set_auto_maskandscale(False)
+        file[name][...] = value
+
+    return change
+
+
+CHANGES = {
+    "one bit of a number": assign("depth", [np.nextafter(1.0, 2), -0.0, np.nan]),
+    "sign of zero": assign("depth", [1.0, 0.0, np.nan]),
+    "a missing number": assign("depth", [1.0, -0.0, 2.0]),
+    "whole numbers": assign("count", [1, 2, 4]),
+    "a number alone": assign("spacing", 0.2),
+    "a text": assign("case", np.array(["a", "b", "d"], dtype=object)),
+    "texts joined": assign("case", np.array(["a", 'b", "c', "c"], dtype=object)),
+    "a unit": lambda file: file["depth"].setncattr("units", "um"),
+    "numbers of an attribute": lambda file: file["count"].setncattr("valid", np.array([1, 4])),
+    "type of an attribute": lambda file: file["count"].setncattr("valid", np.array([1, 3], np.int32)),
+    "a title": lambda file: file.setncattr("title", "No kinds"),
+    "an attribute less": lambda file: file.delncattr("tolerance"),
+    "an attribute more": lambda file: file.setncattr("length_unit", "m"),
+    "the history": lambda file: file.setncattr("history", "by another program"),
+    "the digest": lambda file: file.setncattr(digest.ATTRIBUTE, 64 * "0"),
+    "no digest": lambda file: file.delncattr(digest.ATTRIBUTE),
+    "a name": lambda file: file.renameVariable("depth", "height"),
+    "another name of the dimension": lambda file: file.renameDimension("level", "step"),
+    "a dimension more": lambda file: file.createDimension("y", 2),
+    "a variable more": lambda file: file.createVariable("gap", "f8"),
+    "a group more": lambda file: file.createGroup("more").setncattr("title", "more"),
+}
+
+
+@pytest.mark.parametrize("read", [netcdf.read, datasets.read_dataset], ids=["content", "dataset"])
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_changed_content_is_refused(path, change, read):
+    read(path)
+    with netCDF4.Dataset(path, "a") as file:
+        CHANGES[change](file)
+    with refused(r"all\.nc: not readable \(.*content_sha256.*damaged, or another program"):
+        read(path)
+
+
+def test_files_of_other_programs_and_older_ones_are_read(path):
+    """Those that say nothing of a digest, even if a program kept other attributes."""
+    with netCDF4.Dataset(path, "a") as file:
+        file.delncattr(digest.ATTRIBUTE)
+        file.setncattr("history", "written by viscorough 1.0.0")
+        file["spacing"][...] = 0.2
+    assert netcdf.read(path).variables["spacing"].values == 0.2
+    x = np.arange(4.0)
+    heights = xr.Dataset({"heights": (("y", "x"), np.eye(4), {"units": "m"})}, {"y": ("y", x), "x": ("x", x)})
+    heights.to_netcdf(path)
+    assert read_heights(path, 2.0).spacing == 2.0
+
+
+def test_the_digest_depends_on_the_content_alone(tmp_path, monkeypatch):
+    """Not on the order of names, the byte order, compression, or the rows that are read at a time."""
+    map_of_heights, names = np.random.default_rng(0).random((7, 6)), np.array([*"abcdefg"], dtype=object)
+
+    def write(name, order, kind, **options):
+        with netCDF4.Dataset(tmp_path / name, "w") as file:
+            for dimension, size in {"y": 7, "x": 6}.items():
+                file.createDimension(dimension, size)
+            for variable in order:
+                if variable == "map":
+                    file.createVariable(variable, kind, ("y", "x"), **options)[...] = map_of_heights
+                else:
+                    file.createVariable(variable, str, ("y",))[...] = names
+                file[variable].setncatts(dict.fromkeys(order, "m"))
+
+    def digest_in(name):
+        with netCDF4.Dataset(tmp_path / name) as file:
+            return digest.content_digest(file)
+
+    write("plain.nc", ["map", "name"], "f8")
+    write("reversed.nc", ["name", "map"], ">f8", endian="big", zlib=True)
+    write("single.nc", ["map", "name"], "f4")
+    plain = digest_in("plain.nc")
+    assert digest_in("reversed.nc") == plain != digest_in("single.nc")
+    monkeypatch.setattr(digest, "_VALUES_AT_A_TIME", 13)
+    assert digest_in("plain.nc") == plain
+
+
+def test_a_file_that_is_read_and_written_again_has_its_own_digest(path):
+    netcdf.write(stack_curves([random_curve(3), random_curve(5)]), path)
+    once = netcdf.read(path)
+    netcdf.write(once, path)
+    assert netcdf.read(path).attributes == once.attributes
+    datasets.write_dataset(datasets.read_dataset(path).isel(realization=[0]), path)
+    assert netcdf.read(path).variables["levels"].values.tolist() == [3]
+
+
+def test_a_damaged_number_in_the_bytes_of_a_curve_is_refused(tmp_path):
+    """The structure of the file is whole, and the curve is one that could exist."""
+    curve = random_curve(30)
+    curve.save(tmp_path / "curve.nc")
+    whole = (tmp_path / "curve.nc").read_bytes()
+    place = whole.index(curve.depth.tobytes())
+    (tmp_path / "curve.nc").write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+    with refused(r"curve\.nc: not readable \(its content"):
+        load_curve(tmp_path / "curve.nc")

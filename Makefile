@@ -1,5 +1,5 @@
 # Needs make, and Python >= 3.11 with venv (Debian and Ubuntu: python3-venv). The environment in .venv is built from
-# requirements.lock, and again when that changes.
+# requirements.lock, and again when that changes or the folder is copied or moved.
 PYTHON ?= python3
 CORES ?= 2
 UV ?= uv
@@ -8,6 +8,15 @@ SETTINGS ?=
 SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))
 # One line of progress; all that is printed is in results/run.log.
 WITH_PROGRESS = $(BIN)/python workflow/run_with_progress.py --
+
+# Snakemake does not quote the path of the Python interpreter, so that every job would fail.
+ifneq ($(words $(CURDIR)),1)
+$(error $(CURDIR): the path has a space, with which no job can start; move the folder to a path without spaces)
+endif
+
+# The programs in .venv name the folder in which it was built: in a copied or moved folder they would not start, or run
+# the packages of the first one.
+MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
 .PHONY: help environment environment-slurm settings reproduce paper report check lint ready-to-test test docs test-slurm bench \
 	speed light stability sizes law large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
@@ -42,11 +51,14 @@ help:
 
 environment: .venv/package-installed
 
-.venv/lock-installed: requirements.lock
+.PHONY: moved
+moved:
+
+.venv/lock-installed: requirements.lock $(MOVED)
 	@$(PYTHON) -c 'import sys; sys.exit("Python >= 3.11 is needed; set PYTHON" if sys.version_info < (3, 11) else 0)'
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 		{ echo "The Python modules venv and ensurepip are needed; Debian and Ubuntu: apt install python3-venv" >&2; exit 1; }
-	$(PYTHON) -m venv .venv
+	$(PYTHON) -m venv $(if $(MOVED),--clear) .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
 	@touch $@
 

@@ -66,13 +66,15 @@ def made_once(tmp_path_factory, name, make):
     return folder
 
 
-def environment(folder):
-    """The variables of this process, with the packages of the copy, if it has any, before the installed ones.
+def environment(folder, project=None):
+    """The variables of this process, with the packages of a project before the installed ones.
 
+    project : by default the copy, if it has packages, otherwise this project
     Python may keep compiled sources: otherwise every job of a copy would compile them again.
     """
+    project = project or (folder if (folder / "src").is_dir() else ROOT)
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    return kept | {"PYTHONPATH": str((folder if (folder / "src").is_dir() else ROOT) / "src")}
+    return kept | {"PYTHONPATH": str(project / "src")}
 
 
 # Every run is a copy of a process that has loaded Snakemake and what the packages of this project import. So are its
@@ -96,8 +98,9 @@ def _enter(variables, folder, output):
         os.dup2(file.fileno(), 2)
 
 
-def _run_snakemake(arguments, folder, output):
-    _enter(environment(folder), folder, output)
+def _run_snakemake(arguments, variables, folder, output):
+    _enter(variables, folder, output)
+    sys.argv = ["snakemake", *arguments]
     python = importlib.import_module("snakemake.script").PythonScript
     in_new_process, scripts = python.execute_script, set()
     # Snakemake runs each job in a thread. A process can be asked only once for its exit code, and starting one asks all
@@ -132,12 +135,15 @@ def _run_job(path, *surroundings):
         sys.exit(1)
 
 
-def snakemake(folder, *arguments, fails=False, cores=2):
-    """Run Snakemake in a copy of the project; stdout and stderr together. cores : None leaves --cores out"""
+def snakemake(folder, *arguments, fails=False, cores=2, project=None):
+    """Run Snakemake in a copy of the project; stdout and stderr together.
+
+    cores : None leaves --cores out; project : of `environment`
+    """
     number = () if cores is None else ("--cores", cores)
     with tempfile.NamedTemporaryFile("r") as output:
         line = ["--nocolor", *map(str, (*number, *arguments))]
-        run = COPIES.Process(target=_run_snakemake, args=(line, folder, output.name))
+        run = COPIES.Process(target=_run_snakemake, args=(line, environment(folder, project), folder, output.name))
         run.start()
         run.join(HANGS)
         text = output.read()

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import tomllib
 
+import pytest
 import yaml
 
 from support.workflow import RESULTS, ROOT, TEST, copy_project, jobs, plan, snakemake
@@ -46,6 +47,38 @@ def test_missing_venv_is_one_line_and_leaves_nothing(tmp_path):
     assert done.stderr.splitlines()[0].endswith("are needed; Debian and Ubuntu: apt install python3-venv")
     assert "Traceback" not in done.stderr
     assert not (tmp_path / ".venv").exists()
+
+
+@pytest.fixture
+def built(tmp_path):
+    """A folder with a Makefile and an environment that is up to date."""
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    shutil.copytree(ROOT / "peers", tmp_path / "peers")
+    (tmp_path / ".venv/bin").mkdir(parents=True)
+    for name in ("requirements.lock", "pyproject.toml", ".venv/lock-installed", ".venv/package-installed"):
+        (tmp_path / name).touch()
+    (tmp_path / ".venv/bin/pip").write_text(f"#!{tmp_path}/.venv/bin/python3.11\n")
+    return tmp_path
+
+
+def make_environment(folder):
+    command = ["make", "--dry-run", "environment"]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_moved_environment_is_built_again(built):
+    """Its programs name the folder in which it was built."""
+    assert "venv" not in make_environment(built).stdout
+    moved = built.rename(built.with_name(f"{built.name}-moved"))
+    assert "python3 -m venv --clear .venv\n" in make_environment(moved).stdout
+
+
+def test_folder_with_a_space_is_refused_by_make(built):
+    done = make_environment(built.rename(built.with_name("my folder")))
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert "my folder: the path has a space, with which no job can start; " in done.stderr
+    assert done.stderr.count("\n") == 1
 
 
 def test_citation_agrees_with_package_and_changelog():

@@ -1,9 +1,14 @@
 """The workflow as a module of another one, and beside a library that was installed without the study."""
 
 import os
+import site
+import subprocess
+import sys
+
+import pytest
 
 from support.command_line import python
-from support.workflow import ROOT, copy_kernels, jobs, snakemake
+from support.workflow import ROOT, copy_kernels, copy_project, copy_sources, environment, jobs, snakemake
 
 OTHER = """
 module viscorough:
@@ -44,3 +49,47 @@ main(["--dry-run", "--quiet"])
     source = ROOT / "src"
     expected = [f"{source}{os.pathsep}{tmp_path / 'site'}", f"{source}/viscorough/__init__.py"]
     assert done.stdout.splitlines()[:3] == [*expected, f"{source}/viscorough_study/run/cases.py"]
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    """A copy of the project with sources of its own."""
+    copy_project(tmp_path / "copy")
+    copy_sources(tmp_path / "copy")
+    return tmp_path / "copy"
+
+
+def test_packages_of_another_checkout_are_refused(checkout):
+    """As with `cp -a`, whose .venv holds the path of the first checkout."""
+    output = snakemake(checkout, "--dry-run", project=ROOT, fails=True)
+    message = f"Error: this Snakemake uses viscorough of {ROOT}/src, not of this checkout, {checkout}/src; "
+    assert output.splitlines()[-1].startswith(message)
+    assert "Traceback" not in output
+    assert "total" in snakemake(checkout, "--dry-run")
+
+
+def test_module_with_packages_of_another_checkout_is_refused(checkout, tmp_path):
+    (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=checkout / "workflow/Snakefile"))
+    output = snakemake(tmp_path, "--dry-run", project=ROOT, fails=True)
+    assert output.splitlines()[-1].startswith(f"Error: this Snakemake uses viscorough of {ROOT}/src, not of this")
+
+
+def test_workflow_without_sources_needs_packages_of_its_version(tmp_path):
+    citation = copy_project(tmp_path / "copy") / "CITATION.cff"
+    citation.write_text(citation.read_text().replace("version: 1.0.0\n", "version: 1.0.99\n"))
+    output = snakemake(tmp_path / "copy", "--dry-run", fails=True)
+    assert output.splitlines()[-1].endswith("is installed; version 1.0.99 is needed, as in CITATION.cff")
+
+
+def test_interpreter_whose_path_has_a_space_is_refused(unmade, tmp_path):
+    """Snakemake does not quote it, so that every job would fail."""
+    interpreter = tmp_path / "my folder/python"
+    interpreter.parent.mkdir()
+    interpreter.symlink_to(sys.executable)
+    variables = environment(unmade)
+    variables["PYTHONPATH"] += os.pathsep + os.pathsep.join(site.getsitepackages())
+    command = [interpreter, "-m", "snakemake", "--dry-run"]
+    done = subprocess.run(command, cwd=unmade, env=variables, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1].startswith(f"Error: {interpreter}: the path of the Python interpreter has ' '")
+    assert "Traceback" not in done.stderr

@@ -22,10 +22,52 @@ def path_of(source):
 # Of this file, not of a workflow that uses this one as a module.
 WORKFLOW = path_of(workflow.current_basedir).parent
 PROJECT = WORKFLOW.parent
-if importlib.util.find_spec("viscorough_study") is None:  # an installed library comes without the study
-    sys.path.insert(0, str(PROJECT / "src"))
-    # Of the jobs.
-    os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, [sys.path[0], os.environ.get("PYTHONPATH")])))
+
+
+def read_yaml(path):
+    return yaml.load((PROJECT / path).read_text(encoding="utf-8"), yaml.CSafeLoader)
+
+
+def end_run(message):
+    """End Snakemake with one line; a WorkflowError would show three more lines, about this file."""
+    raise SystemExit(f"Error: {message}")
+
+
+def use_packages_of_checkout():
+    """Make sure that rules and jobs use the packages of this checkout, or end with one line.
+
+    Without this check, the Snakemake of another checkout would run the packages of that one: edits in src/ of this
+    checkout would have no effect. A copy of the workflow without src/ uses installed packages of the same version.
+    """
+    if special := sorted(set(sys.executable) & set(" \t\n'\"\\$`&;|<>()*?[]")):
+        end_run(
+            f"{sys.executable}: the path of the Python interpreter has {' '.join(map(repr, special))}, and no job can "
+            "start, since Snakemake does not quote it; move the folder to a path without"
+        )
+    source = PROJECT / "src"
+    if not (source / "viscorough_study").is_dir():
+        from viscorough import __version__
+
+        required = read_yaml("CITATION.cff")["version"]
+        if __version__ != required:
+            end_run(
+                f"{PROJECT}: viscorough {__version__} is installed; version {required} is needed, as in CITATION.cff"
+            )
+        return
+    if importlib.util.find_spec("viscorough_study") is None:  # an installed library comes without the study
+        sys.path.insert(0, str(source))
+        # Of the jobs.
+        os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, [sys.path[0], os.environ.get("PYTHONPATH")])))
+    for package in ("viscorough", "viscorough_study"):
+        found = Path(importlib.util.find_spec(package).origin).parent
+        if not found.samefile(source / package):
+            end_run(
+                f"this Snakemake uses {package} of {found.parent}, not of this checkout, {source}; run `make environment` "
+                f"in {PROJECT}, and then {PROJECT}/.venv/bin/snakemake"
+            )
+
+
+use_packages_of_checkout()
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.run import cases
@@ -52,10 +94,6 @@ if workflow.is_main_process:  # not one of its jobs
 
 
 SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1], ".snakemake/sources.json")
-
-
-def read_yaml(path):
-    return yaml.load((PROJECT / path).read_text(encoding="utf-8"), yaml.CSafeLoader)
 
 
 def complete(settings, files):

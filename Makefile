@@ -23,7 +23,7 @@ MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.ve
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
-	@echo "make paper       the same at full scale, twice that of the paper"
+	@echo "make paper       a larger run, with twice as many surfaces as the paper"
 	@echo "make report      results/report.html of the existing results, with the SETTINGS that they were made with"
 	@echo "make check       format, lint, contracts, types and the tests of what has changed since the last commit; half a minute"
 	@echo "make test        format, lint, types, documentation and every test"

@@ -4,8 +4,10 @@ import json
 import os
 import re
 from pathlib import Path
+from pkgutil import resolve_name
 
 import click
+import pandas as pd
 import publish
 import pytest
 from PIL import Image
@@ -13,6 +15,8 @@ from PIL import Image
 from support.documentation import ROOT, read
 from support.workflow import FIGURES
 from support.workflow import TABLES as MADE
+from viscorough_study.performance.methods import METHODS
+from viscorough_study.run.rule_costs import COLUMNS as COST_COLUMNS
 
 TABLES = publish.tables()
 
@@ -59,6 +63,21 @@ def test_published_files_say_where_they_come_from():
     names = {path.name for path in folder.iterdir()} - {"published.json"}
     assert set(json.loads(read(folder / "published.json"))) == names
     assert sum(path.stat().st_size for path in folder.iterdir()) <= 3e6
+
+
+@pytest.mark.parametrize("name", sorted(name for name in MADE if (ROOT / f"docs/results/{name}.csv").is_file()))
+def test_published_tables_have_the_columns_of_the_code(name):
+    if name == "rule_costs":
+        columns = COST_COLUMNS
+    else:
+        module = MADE[name]["function"].rpartition(".")[0]
+        columns = resolve_name(MADE[name].get("columns", f"{module}.COLUMNS"))
+    assert set(pd.read_csv(ROOT / f"docs/results/{name}.csv")) == set(columns)
+
+
+def test_published_methods_are_those_of_the_code():
+    table = pd.read_csv(ROOT / "docs/results/methods.csv")
+    assert set(table["method"]) == {method.name for method in METHODS}
 
 
 def test_every_published_file_is_made_by_a_rule_or_a_benchmark():

@@ -13,6 +13,7 @@ from measuring import fit_cost
 from support.documentation import ROOT, read
 from support.study import CLAIMS
 from support.workflow import merged, read_settings
+from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE
 from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.reference import exponent_beta
 from viscorough_study.run.cases import disc_cases
@@ -173,8 +174,12 @@ QUOTED = {
         "4097 elements across takes {:.0f} s": lambda: large(4097)["wall"],
         "takes {:.2f} to {:.2f} s for a disc of 257": lambda: default_path()["wall_s"].agg(["min", "max"]),
     },
+    "docs/getting_started.md": {
+        "at most {:.2f} GB per job": lambda: pd.read_csv(ROOT / publish.DEFAULT_COSTS)["memory_mb"].max() / 1000,
+    },
     "docs/reproduce.md": {
         "50 500 lines: {:.0f} minutes": minutes_of_paper,
+        "which shows them; {} (": publish.default_minutes,
         "{} discs for the figures, {} for variants and grids": discs_of_paper,
     },
     "docs/performance.md": {
@@ -189,6 +194,7 @@ QUOTED = {
         "lines took {:.0f} % and discs {:.0f} %": lambda: (
             100 * costs()[["reduce_lines", "indent_surfaces"]] / costs().sum()
         ),
+        "between {:.2f} and 1.4 for any set": lambda: LEAST_EIGENVALUE,
         "the largest job took {:.0f} GB": lambda: costs("memory_mb").max() / 1000,
     },
 }

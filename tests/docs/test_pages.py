@@ -6,6 +6,7 @@ import pytest
 
 from support.documentation import PAGES, ROOT, anchors, links, prose, read
 from support.workflow import FIGURES, RESULTS, TABLES, TARGETS
+from viscorough_study.run.cases import POOLS
 
 WORKFLOW = "\n".join(read(path) for path in [ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
 RULES = TARGETS | set(RESULTS["tables"]) | {f"plot_{name}" for name in RESULTS["figures"]}
@@ -23,18 +24,41 @@ def test_links_lead_to_files_and_headings(page):
         assert not anchor or anchor in anchors(target), link
 
 
+MAKEFILES = read(ROOT / "Makefile") + read(ROOT / "peers/targets.mk")
+
+
+def is_made(path):
+    """Whether a rule or a command of make makes a file of results/, or something in a folder of results/."""
+    folder, _, name = path.partition("/")
+    listed = {"figures": FIGURES, "tables": TABLES, "ensembles": POOLS}.get(folder, {})
+    return name.partition(".")[0] in listed or f"results/{path}" in WORKFLOW + MAKEFILES
+
+
+def test_results_page_names_only_files_that_are_made():
+    """In the first column; a name without a folder is in results/ or in the folder named before it."""
+    cells = re.findall(r"^\| (`.*?) \|", read(ROOT / "results/README.md"), re.MULTILINE)
+    assert len(cells) > 20
+    for cell in cells:
+        folder = ""
+        for name in re.findall(r"`(\w[^`]*)`", cell):
+            if name.endswith("/"):
+                assert is_made(f"{name.partition('/')[0]}/"), cell
+                continue
+            folder = name.rpartition("/")[0] or folder
+            assert is_made(name) or is_made(f"{folder}/{name}"), f"{name} in {cell}"
+
+
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_what_is_named_exists(page):
     """Targets of make and of the workflow, figures and tables that rules make, and files of the project."""
     text = read(page)
     if page.name == "CHANGELOG.md":
         return  # it also tells what was renamed
-    makefiles = read(ROOT / "Makefile") + read(ROOT / "peers/targets.mk")
     for targets in re.findall(r"(?:^|`|=\S* |; )make ([a-z][a-z -]*)", text, re.MULTILINE):
         for target in targets.split():
-            assert re.search(rf"^{target}:", makefiles, re.MULTILINE), target
+            assert re.search(rf"^{target}:", MAKEFILES, re.MULTILINE), target
     for folder, name in re.findall(r"`results/(figures|tables)/(\w+)", text):
-        assert name in FIGURES or name in TABLES or f"results/{folder}/{name}." in WORKFLOW + makefiles, name
+        assert is_made(f"{folder}/{name}"), name
     for path in re.findall(r"`((?:src|workflow|config|resources|benchmarks|profiles|examples|peers)/[\w./]+)`", text):
         assert (ROOT / path).exists() or f"\n`{path}`:\n" in text, path
     for command in re.findall(r"`snakemake ([^`]*)`", text):

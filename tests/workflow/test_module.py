@@ -1,14 +1,27 @@
 """The workflow as a module of another one, and beside a library that was installed without the study."""
 
 import os
+import shutil
 import site
 import subprocess
 import sys
 
+import pandas as pd
 import pytest
 
 from support.command_line import python
-from support.workflow import ROOT, copy_kernels, copy_project, copy_sources, environment, jobs, snakemake
+from support.workflow import (
+    ROOT,
+    copy_kernels,
+    copy_project,
+    copy_sources,
+    environment,
+    jobs,
+    merged,
+    plan,
+    read_settings,
+    snakemake,
+)
 
 OTHER = """
 module viscorough:
@@ -27,6 +40,49 @@ def test_another_workflow_makes_a_figure_with_settings_of_its_own(finished_once,
     assert planned["rough_indent_surfaces"] == 2 * 2 + 2
     snakemake(tmp_path, "--", "rough_figure_1")
     assert (tmp_path / "results/figures/fig1_surfaces.png").stat().st_size > 5000
+
+
+WITH_PREFIX = """
+rule mine:
+    output:
+        "mine.txt"
+    shell:
+        "touch {{output}}"
+
+
+module viscorough:
+    snakefile: "{snakefile}"
+    prefix: "rough"
+    config: {settings}
+
+use rule * from viscorough
+"""
+
+
+def test_module_leaves_the_default_target_to_rules_before_it(tmp_path):
+    (tmp_path / "Snakefile").write_text(WITH_PREFIX.format(snakefile=ROOT / "workflow/Snakefile", settings={}))
+    assert jobs(snakemake(tmp_path, "--dry-run")) == {"mine": 1}
+
+
+def test_costs_are_those_of_the_run_under_any_prefix(finished, tmp_path):
+    """Benchmark files that other settings or targets have left behind do not count."""
+    expected = pd.read_csv(finished / "results/tables/rule_costs.csv").set_index("rule")["jobs"]
+    benchmarks = finished / "results/benchmarks"
+    others = ("make_article.tsv", "evaluate_measured.tsv", "earlier.tsv", "indent_surfaces/discs/h07000/0000-0001.tsv")
+    for name in others:
+        (benchmarks / name).parent.mkdir(exist_ok=True)
+        shutil.copy(benchmarks / "judge_claims.tsv", benchmarks / name)
+    (benchmarks / "compile_kernels.tsv").unlink()
+    (finished / "results").rename(tmp_path / "results")
+    (tmp_path / "rough").mkdir()
+    (tmp_path / "results").rename(tmp_path / "rough/results")
+    settings = merged(read_settings("config"), read_settings("test"))
+    (tmp_path / "Snakefile").write_text(WITH_PREFIX.format(snakefile=ROOT / "workflow/Snakefile", settings=settings))
+    options = ("--rerun-triggers", "mtime", "--forcerun", "tabulate_rule_costs", "--", "costs")
+    assert plan(tmp_path, *options) == {"tabulate_rule_costs": 1}
+    snakemake(tmp_path, *options)
+    costs = pd.read_csv(tmp_path / "rough/results/tables/rule_costs.csv").set_index("rule")["jobs"]
+    assert costs.to_dict() == expected.drop("compile_kernels").to_dict()
 
 
 def test_the_study_comes_from_the_checkout_of_the_workflow(tmp_path):

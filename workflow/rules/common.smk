@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 import yaml
+from snakemake.io import apply_wildcards, get_wildcard_names
 from snakemake.utils import update_config
 
 
@@ -251,10 +252,29 @@ def pool_memory(wildcards):
 
 # ---- all rules
 
+KERNELS_BENCHMARK = "results/benchmarks/compile_kernels.tsv"  # of `compile_kernels`, which is no rule
+
 
 def own_rules():
     """The rules of this workflow, without those of one that uses it as a module."""
     return [member for member in workflow.rules if path_of(member.basedir).is_relative_to(WORKFLOW)]
+
+
+def benchmark_files(counted):
+    """{rule: benchmark files of its jobs} of rules, with the jobs of these settings."""
+    names = {"discs": ["case"], "lines": ["line"], "measured": ["case", "scan"]}  # wildcards for a case, by kind
+    kinds = {pool: kind_of_pool(pool) for pool in cases.POOLS}
+    jobs = [
+        dict.fromkeys(names[kind], case) | {"batch": batch, "kind": kind, "pool": pool}
+        for pool, kind in kinds.items()
+        for case, batch in batches_of_pool(pool)
+    ]
+    files = {}
+    for member in counted:
+        if pattern := member.benchmark:
+            described = [job for job in jobs if get_wildcard_names(pattern) <= job.keys()]
+            files[member.name] = sorted({apply_wildcards(pattern, job) for job in described})
+    return files
 
 
 def complete_rules(rules):
@@ -291,7 +311,7 @@ def compile_kernels():
     print("Compiling the solvers, once: about a minute", file=sys.stderr, flush=True)
     start = time.monotonic()
     subprocess.run([sys.executable, "-m", "viscorough_study.run.kernels"], check=True)
-    cost = Path("results/benchmarks/compile_kernels.tsv")  # as for a job, without its memory
+    cost = Path(KERNELS_BENCHMARK)  # as for a job, without its memory
     cost.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(cost) as temporary:
         temporary.write_text(f"s\tmax_rss\n{time.monotonic() - start:.2f}\t\n")

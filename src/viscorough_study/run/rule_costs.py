@@ -21,16 +21,18 @@ COLUMNS = {
 PACKAGES = ("viscorough", "numpy", "scipy", "numba", "ducc0", "xarray", "netCDF4", "pandas", "matplotlib", "snakemake")
 
 
-def rule_costs(folder):
-    """Time and memory of every rule, most expensive first; a pandas.DataFrame with the columns of `COLUMNS`.
+def rule_costs(benchmarks):
+    """Return time and memory of every rule, most expensive first: a pandas.DataFrame with the columns of `COLUMNS`.
 
-    folder : of benchmark files, <rule>.tsv or <rule>/<job>.tsv, each written at the end of its job; without files the
-        table has no rows
+    benchmarks : {rule: benchmark files of its jobs}, each written at the end of its job; missing files are left out,
+        and without any the table has no rows
     Raises ValueError for a damaged file.
     """
-    paths = sorted(Path(folder).rglob("*.tsv"))
+    files = [(rule, Path(path)) for rule, paths in benchmarks.items() for path in sorted(paths)]
+    files = [(rule, path) for rule, path in files if path.is_file()]
+    paths = [path for _, path in files]
     jobs = pd.DataFrame([_time_and_memory(path) for path in paths], columns=["s", "memory"])
-    jobs["rule"] = [Path(path.relative_to(folder).parts[0]).stem for path in paths]
+    jobs["rule"] = [rule for rule, _ in files]
     jobs["share"] = _shares(np.array([path.stat().st_mtime for path in paths]), jobs["s"].to_numpy())
     table = jobs.groupby("rule").agg(
         jobs=("s", "size"),

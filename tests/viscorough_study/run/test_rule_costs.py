@@ -15,7 +15,8 @@ def test_jobs_are_summed_up_by_rule(tmp_path):
     (tmp_path / "indent/a/0.tsv").write_text(HEADER + "10.0\t0:00:10\t200.0\t900\n")
     (tmp_path / "indent/b.tsv").write_text(HEADER + "30.0\t0:00:30\t100.4\t900\n")
     (tmp_path / "plot.tsv").write_text(HEADER + "0.5\t0:00:00\t-\t-\n")
-    table = rule_costs(tmp_path)
+    benchmarks = {"indent": [tmp_path / "indent/b.tsv", tmp_path / "indent/a/0.tsv"], "plot": [tmp_path / "plot.tsv"]}
+    table = rule_costs(benchmarks | {"not made": [tmp_path / "missing.tsv"]})
     assert list(table) == list(COLUMNS)
     table = table.drop(columns="share_s")
     assert table.to_numpy().tolist() == [["indent", 2, 40.0, 30.0, 200.0], ["plot", 1, 0.5, 0.5, 0.0]]
@@ -26,7 +27,8 @@ def shares(folder, **jobs):
     for name, (end, seconds) in jobs.items():
         (folder / f"{name}.tsv").write_text(f"s\tmax_rss\n{seconds}\t\n")
         os.utime(folder / f"{name}.tsv", (end, end))
-    return rule_costs(folder).set_index("rule")["share_s"].to_dict()
+    table = rule_costs({name: [folder / f"{name}.tsv"] for name in jobs})
+    return table.set_index("rule")["share_s"].to_dict()
 
 
 def test_jobs_side_by_side_share_the_time_and_pauses_count_for_none(tmp_path, monkeypatch):
@@ -49,4 +51,9 @@ def test_shares_of_a_copied_folder_sum_up_to_the_time_of_all_jobs_over_the_cores
 def test_a_damaged_file_is_named(tmp_path, content):
     (tmp_path / "plot.tsv").write_bytes(content)
     with pytest.raises(ValueError, match=rf"^{re.escape(str(tmp_path))}/plot.tsv: not a benchmark of a job; delete"):
-        rule_costs(tmp_path)
+        rule_costs({"plot": [tmp_path / "plot.tsv"]})
+
+
+def test_without_files_the_table_has_no_rows(tmp_path):
+    table = rule_costs({"plot": [tmp_path / "plot.tsv"]})
+    assert (list(table), len(table)) == (list(COLUMNS), 0)

@@ -87,7 +87,8 @@ def _positions_and_heights(table: Table, columns: tuple[str, ...] | None) -> tup
 
 def _check_not_named(table: Table) -> None:
     """Raise ValueError if the line above the first row names two columns that are not known as x and z."""
-    line = table.header[-1].strip("#%/;!| \t") if table.header else ""
+    filled = [line for line in table.header if line.strip()]
+    line = filled[-1].strip("#%/;!| \t") if filled else ""
     names = [name.strip(' "') for name in line.split(table.delimiter)]
     if len(names) == table.values.shape[1] == 2 and all(re.match(r"[^\W\d_]", name) for name in names):
         raise ValueError(f"{line[:60]!r} names two columns; a heading such as 'x [um], z [nm]' is needed for x and z")

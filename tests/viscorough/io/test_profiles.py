@@ -120,6 +120,7 @@ def test_saved_line_is_read_again(tmp_path):
         ("1 2\n3 4\n", "at least 3 points"),
         ("1\nnan\n3\n", "1 of 3 heights are missing"),
         ("time;depth\n0;1\n1;2\n2;4\n", "names two columns"),
+        ("# time depth\n\n0 1\n1 2\n2 4\n", "names two columns"),
         ("x [s], z [nm]\n0, 1\n1, 2\n2, 4\n", "'s' is no unit of length"),
         ("spacing: 0.2\n0 1\n.5 2\n1 4\n", "0.2 in the header, 0.5 between"),
         ("1e308 1\n-1e308 2\n-1.7e308 4\n", "not equally spaced"),

@@ -17,7 +17,7 @@ from viscorough_study.run import seeds
 POOLS = {
     "discs": ("disc", "square", "peak", "ensemble"),
     "lines": ("line",),
-    "size_discs": ("disc", "square", "peak"),
+    "size_discs": ("disc", "square", "peak", "ensemble"),
     "size_lines": ("line",),
     "measured": ("disc",),
 }

@@ -6,7 +6,9 @@ exponents have different file names.
 """
 
 import difflib
+import functools
 import math
+import operator
 from itertools import chain
 
 import jsonschema
@@ -15,21 +17,36 @@ import jsonschema
 _LIMITS = ("type", "enum", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems", "decimals")
 
 
-def check_settings(settings, schema):
+def check_settings(settings, schema, sources=None):
     """Raise ValueError unless the settings agree with the schema and with each other.
 
     schema : of JSON, with a unit and a description for every key
-    The message is one line with key, value and allowed values.
+    sources : {name: settings that it gives}, each of which overrides those before it; by default none is named
+    The message is one line with the source, key, value and allowed values.
     """
     standard = jsonschema.Draft202012Validator
     checker = standard.TYPE_CHECKER.redefine_many({"integer": _is_whole, "number": _is_finite})
     keywords = {"eachOnce": _each_once, "decimals": _decimals}
     validator = jsonschema.validators.extend(standard, keywords, type_checker=checker)
     error = jsonschema.exceptions.best_match(validator(schema).iter_errors(settings))
-    checks = (_disc_without_line, _unlike_lengths, _too_short_wave, _empty_range, _too_short_curve)
-    contradictions = chain.from_iterable(check(settings) for check in (*checks, _wrong_medium))
-    if complaint := _schema_complaint(error) if error else next(contradictions, None):
-        raise ValueError(complaint)
+    contradictions = chain.from_iterable(check(settings) for check in _CROSS_CHECKS)
+    if found := _schema_complaint(error) if error else next(contradictions, None):
+        paths, complaint = found
+        names = dict.fromkeys(filter(None, (source_of(path, sources or {}) for path in paths)))
+        raise ValueError(": ".join(filter(None, [" and ".join(names), complaint])))
+
+
+def source_of(path, sources):
+    """Return the name of the last source that gives a setting, or None; path : its keys, as ["discs", "hurst"]."""
+    for name, value in reversed(sources.items()):
+        for key in path:
+            try:
+                value = value[key]
+            except (KeyError, IndexError, TypeError):
+                break
+        else:
+            return name
+    return None
 
 
 def _is_whole(_, value):
@@ -42,9 +59,10 @@ def _is_finite(_, value):
 
 def _each_once(_, key, entries, __):
     if isinstance(entries, list):
-        values = [f"{key} {entry.get(key)}" if isinstance(entry, dict) else f"{entry}" for entry in entries]
+        values = [entry.get(key) if isinstance(entry, dict) else entry for entry in entries]
         for value in (value for value in values if values.count(value) > 1):
-            yield jsonschema.ValidationError(f"{value} occurs twice; allowed: once")
+            name = f"{key} " if isinstance(key, str) else ""
+            yield jsonschema.ValidationError(f"{name}{value} occurs twice; allowed: once")
 
 
 def _decimals(_, number, value, __):
@@ -56,80 +74,160 @@ def _decimals(_, number, value, __):
 
 
 def _schema_complaint(error):
-    """One line on an error of jsonschema."""
-    key, rule = error.json_path[2:] or "settings", error.schema  # without "$."
+    """Return paths of the settings that an error of jsonschema is about, and one line on it."""
+    key, rule, path = error.json_path[2:] or "settings", error.schema, list(error.absolute_path)  # key without "$."
     if error.validator == "additionalProperties":
         known = sorted(rule["properties"])
-        unknown = min(map(str, set(error.instance) - set(known)))
-        close = difflib.get_close_matches(unknown, known, 1)
+        unknown = min(set(error.instance) - set(known), key=str)
+        close = difflib.get_close_matches(str(unknown), known, 1)
         hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(known)}"
-        return f"unknown key {unknown!r:.60} in {key}; {hint}"
+        return [[*path, unknown]], f"unknown key {str(unknown)!r:.60} in {key}; {hint}"
     if error.validator in ("required", "eachOnce"):
-        return f"{key}: {error.message}"
+        return [path], f"{key}: {error.message}"
     value = "empty" if error.instance is None else repr(error.instance)
     limits = ", ".join(f"{name} {rule[name]}" for name in _LIMITS if name in rule)
     unit = f" {rule['unit']}" if rule.get("unit", "1") != "1" else ""
     is_text = isinstance(error.instance, str) and "number" in str(rule.get("type"))
     hint = "; this is text: write numbers as 1.0e-3, with a point" * is_text
-    return f"{key} is {value:.60}; allowed: {limits}{unit} ({rule['description']}){hint}"
+    return [path], f"{key} is {value:.60}; allowed: {limits}{unit} ({rule['description']}){hint}"
 
 
-# ---- against each other: one line on settings that are valid separately but not together
+# ---- against each other: paths of settings that are valid separately but not together, and one line on them
 
 
 def _disc_without_line(settings):
     for hurst in settings["discs"]["hurst"]:
         if hurst not in settings["lines"]["hurst"]:
-            yield f"discs.hurst has {hurst}, lines.hurst has not; allowed: exponents of lines.hurst (lambda needs both)"
+            text = (
+                f"discs.hurst has {hurst}, lines.hurst has not; allowed: exponents of lines.hurst (lambda needs both)"
+            )
+            yield [["discs", "hurst"], ["lines", "hurst"]], text
 
 
 def _unlike_lengths(settings):
     for combination in settings["discs"]["combinations"]:
         if not combination["diameter"] * 1e-12 <= combination["rms"] < combination["diameter"] / 100:
             where = f"combination {combination['number']} of discs.combinations"
-            yield f"rms {combination['rms']} in {where} is out of range; allowed: below diameter/100, from 1e-12 of it"
+            text = f"rms {combination['rms']} in {where} is out of range; allowed: below diameter/100, from 1e-12 of it"
+            yield [["discs", "combinations"]], text
 
 
 def _too_short_wave(settings):
-    sizes = settings["sizes"]
+    sizes, cases = settings["sizes"], settings["variants"]["cases"]
     coarsest = {"name": "sizes.control", "elements": min(grid["elements"] for grid in sizes["discs"])}
-    for changed in [{"name": "surface"}, *settings["variants"]["cases"], coarsest | sizes["control"]]:
+    changes = [(["surface", "roll_off_wavelength"], {"name": "surface"})]
+    changes += [(["variants", "cases", i], case) for i, case in enumerate(cases)]
+    changes.append((["sizes", "control"], coarsest | sizes["control"]))
+    for path, changed in changes:
         surface = {"elements": settings["discs"]["elements"]} | settings["surface"] | changed
         wavelength = surface["roll_off_wavelength"]
         if wavelength is not None and wavelength * surface["elements"] < 4:
-            yield f"roll_off_wavelength {wavelength} of {changed['name']} is too short; allowed: from four elements"
+            yield (
+                [path],
+                f"roll_off_wavelength {wavelength} of {changed['name']} is too short; allowed: from four elements",
+            )
+
+
+# Ends of ranges, and the least factor between them.
+_RANGES = [
+    ("ensemble.x_low", "ensemble.x_high", 10),
+    ("reduction.x_low", "reduction.x_high", 10),
+    ("periodic.x_low", "periodic.x_high", 10),
+    ("media.times.low", "media.times.high", 10),
+    ("ensemble.x_low", "indentation.until_x", 10),
+    ("ensemble.x_low", "sizes.until_x", 10),
+    ("ensemble.x_low", "verdicts.plateau_range.0", 1),
+    ("verdicts.plateau_range.0", "verdicts.plateau_range.1", 10),
+    ("verdicts.plateau_range.1", "ensemble.x_high", 1),
+    ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
+]
+# {setting with a list: the lower end for its entries, or None if each entry is a range itself}
+_RANGES_IN_LISTS = {
+    "sizes.windows": None,
+    "collapse.x_high": "ensemble.x_low",
+    "collapse.corrected_x_high": "ensemble.x_low",
+}
 
 
 def _empty_range(settings):
-    x_low, sizes, times = settings["ensemble"]["x_low"], settings["sizes"], settings["media"]["times"]
-    decades = {
-        "ensemble.x_low and x_high": (x_low, settings["ensemble"]["x_high"]),
-        "reduction.x_low and x_high": (settings["reduction"]["x_low"], settings["reduction"]["x_high"]),
-        "ensemble.x_low and indentation.until_x": (x_low, settings["indentation"]["until_x"]),
-        "ensemble.x_low and sizes.until_x": (x_low, sizes["until_x"]),
-        "media.times.low and high": (times["low"], times["high"]),
-        **{f"sizes.windows[{i}]": window for i, window in enumerate(sizes["windows"])},
-    }
-    ranges = [(name, ends, 10) for name, ends in decades.items()]
-    ranges.append(("scaling.stiffness_range", settings["scaling"]["stiffness_range"], 1.01))
-    for name, (low, high), factor in ranges:
+    ranges = list(_RANGES)
+    for name, low in _RANGES_IN_LISTS.items():
+        entries = [f"{name}.{i}" for i in range(len(_value(settings, _path(name))))]
+        ranges += [(low, entry, 10) if low else (f"{entry}.0", f"{entry}.1", 10) for entry in entries]
+    for low_name, high_name, factor in ranges:
+        paths = _path(low_name), _path(high_name)
+        low, high = (_value(settings, path) for path in paths)
         if high < factor * low * (1 - 1e-9):  # rounding
-            yield f"{name}: {low} and {high} are too close; allowed: the second from {factor} times the first"
+            fault = "in the wrong order" if high < low else "too close"
+            allowed = f"the second from {factor} times the first"
+            yield paths, f"{_range_name(*paths)}: {low} and {high} are {fault}; allowed: {allowed}"
+
+
+def _path(name):
+    """Path of a setting from its name with points; whole numbers are positions in a list."""
+    return [int(key) if key.isdecimal() else key for key in name.split(".")]
+
+
+def _value(settings, path):
+    return functools.reduce(operator.getitem, path, settings)
+
+
+def _name(path):
+    """Name of a setting as in messages: sizes.windows[0]."""
+    return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path)[1:]
+
+
+def _range_name(low, high):
+    """Name of a range from the paths of its ends."""
+    if low[:-1] != high[:-1]:
+        return f"{_name(low)} and {_name(high)}"
+    return f"{_name(low)} and {high[-1]}" if isinstance(low[-1], str) else _name(low[:-1])
+
+
+def _too_narrow_slope(settings):
+    half_width, per_decade = settings["scaling"]["slope_half_width"], settings["ensemble"]["per_decade"]
+    if half_width * per_decade < 1 - 1e-9:
+        text = (
+            f"scaling.slope_half_width: {half_width} decades hold no further abscissa; allowed: from 1/per_decade of "
+        )
+        yield [["scaling", "slope_half_width"], ["ensemble", "per_decade"]], f"{text}ensemble, {1 / per_decade:.4g}"
 
 
 def _too_short_curve(settings):
-    end = settings["verdicts"]["plateau_range"][1] * 10 ** settings["scaling"]["slope_half_width"]
+    plateau = ["verdicts", "plateau_range", 1]
+    end = _value(settings, plateau) * 10 ** settings["scaling"]["slope_half_width"]
     for section, name in (("discs", "short_until_x"), ("indentation", "until_x")):
         if (until_x := settings[section][name]) < end:
             what = "verdicts.plateau_range and half a slope's width"
-            yield f"{section}.{name}: curves that end at X = {until_x} miss a part of {what}; allowed: from {end:.4g}"
+            text = f"{section}.{name}: curves that end at X = {until_x} miss a part of {what}; allowed: from {end:.4g}"
+            yield [[section, name], plateau], text
 
 
 def _wrong_medium(settings):
     from viscorough.io.media import medium_from_mapping  # takes long to import
 
-    for case in settings["media"]["cases"]:
+    for i, case in enumerate(settings["media"]["cases"]):
         try:
             medium_from_mapping({key: value for key, value in case.items() if key != "name"})
         except ValueError as error:
-            yield f"{case['name']} in media.cases: {error}"
+            yield [["media", "cases", i]], f"{case['name']} in media.cases: {error}"
+
+
+def _empty_crop(settings):
+    for i, entry in enumerate(settings["measured"]):
+        for j, (first, end) in enumerate(entry.get("preparation", {}).get("crop", [])):
+            if first >= end:
+                path = ["measured", i, "preparation", "crop", j]
+                yield [path], f"{_name(path)}: {first} to {end} is empty; allowed: an end above the first number"
+
+
+_CROSS_CHECKS = (
+    _disc_without_line,
+    _unlike_lengths,
+    _too_short_wave,
+    _empty_range,
+    _too_narrow_slope,
+    _too_short_curve,
+    _wrong_medium,
+    _empty_crop,
+)

@@ -13,6 +13,7 @@ from viscorough_study.run.settings import check_settings
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 
 COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
+SCAN = {"name": "scan", "files": ["z.npy"]}
 FLUID = {"name": "fluid", "kind": "newtonian", "viscosity": 1.0}
 WRONG = [
     ({"discs": {"elemnts": 33}}, "unknown key 'elemnts' in discs; did you mean elements?"),
@@ -45,7 +46,25 @@ WRONG = [
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"discs": {"short_until_x": 0.5}}, "discs.short_until_x: curves that end at X = 0.5 miss a part of verdicts"),
     ({"sizes": {"windows": [[0.01, 0.02]]}}, "sizes.windows[0]: 0.01 and 0.02 are too close"),
-    ({"scaling": {"stiffness_range": [0.3, 0.03]}}, "scaling.stiffness_range: 0.3 and 0.03 are too close"),
+    ({"scaling": {"stiffness_range": [0.3, 0.03]}}, "scaling.stiffness_range: 0.3 and 0.03 are in the wrong order"),
+    ({"verdicts": {"plateau_range": [1, 1e-3]}}, "verdicts.plateau_range: 1 and 0.001 are in the wrong order; allowed"),
+    (
+        {"verdicts": {"plateau_range": [1e-3, 100]}},
+        "verdicts.plateau_range[1] and ensemble.x_high: 100 and 30.0 are in",
+    ),
+    ({"ensemble": {"x_low": 1e-2}}, "ensemble.x_low and verdicts.plateau_range[0]: 0.01 and 0.001 are in the wrong"),
+    ({"periodic": {"x_low": 10, "x_high": 0.1}}, "periodic.x_low and x_high: 10 and 0.1 are in the wrong order"),
+    ({"periodic": {"hurst": [0.1, 0.1]}}, "periodic.hurst: 0.1 occurs twice; allowed: once"),
+    ({"lines": {"hurst": [0, 0.0, 0.1, 0.4, 0.6, 0.9]}}, "lines.hurst: 0 occurs twice; allowed: once"),
+    ({"sizes": {"windows": [[1e-3, 1e-2], [1e-3, 1e-2]]}}, "sizes.windows: [0.001, 0.01] occurs twice; allowed: once"),
+    ({"collapse": {"x_high": [0.1, 1e-10]}}, "ensemble.x_low and collapse.x_high[1]: 1e-09 and 1e-10 are in the wrong"),
+    ({"collapse": {"elements_min": [10, 10]}}, "collapse.elements_min: 10 occurs twice; allowed: once"),
+    (
+        {"scaling": {"slope_half_width": 0.01}},
+        "scaling.slope_half_width: 0.01 decades hold no further abscissa; allowed",
+    ),
+    ({"measured": [SCAN | {"forces": [1, 1.0]}]}, "measured[0].forces: 1 occurs twice; allowed: once"),
+    ({"measured": [SCAN | {"preparation": {"crop": [[0, 9], [5, 5]]}}]}, "measured[0].preparation.crop[1]: 5 to 5 is"),
 ]
 
 
@@ -55,6 +74,26 @@ def test_wrong_settings_end_with_one_line(wrong, message):
         check_settings(merged(read_settings("config"), wrong), SCHEMA)
     assert "\n" not in str(error.value)
     assert len(str(error.value)) < 250
+
+
+@pytest.mark.parametrize(
+    ("change", "names"),
+    [
+        ({"discs": {"elements": "many"}}, "mine.yaml"),
+        ({"discs": {"elemnts": 33}}, "mine.yaml"),
+        ({"discs": {"combinations": 2 * [COMBINATION]}}, "mine.yaml"),
+        ({"discs": {"hurst": [0.33]}}, "mine.yaml and other.yaml"),
+        ({"periodic": {"x_high": 0.1}}, "config.yaml and mine.yaml"),
+        ({"discs": {"elements": 65, "combinations": []}}, "mine.yaml"),
+        ({"discs": {"elements": 66}, "reduction": {"x_high": 1e-15}}, "config.yaml and mine.yaml"),
+    ],
+)
+def test_file_of_a_wrong_setting_is_named(change, names):
+    """Of a setting that several files give the last one; of settings that contradict each other all files."""
+    default, other = read_settings("config"), {"lines": {"hurst": [0.1, 0.4, 0.6, 0.9]}, "discs": {"elements": 65}}
+    sources = {"config.yaml": default, "other.yaml": other, "mine.yaml": change}
+    with pytest.raises(ValueError, match=f"^{names}: "):
+        check_settings(merged(merged(default, other), change), SCHEMA, sources)
 
 
 @pytest.mark.parametrize("name", ["config", "paper", "sizes", "methods", "test"])

@@ -13,6 +13,7 @@ from pathlib import Path
 import pandas as pd
 from tqdm import tqdm
 
+from viscorough.io.atomic import check_output, reason
 from viscorough.io.netcdf import opened
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.run.rule_costs import duration_text
@@ -63,7 +64,12 @@ def run(command, output=OUTPUT):
     """
     costs = pd.read_csv(PUBLISHED_COSTS, index_col="rule")
     progress = Progress(costs["share_s"] / costs["jobs"])
-    output.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        check_output(output)
+    except (OSError, ValueError) as error:
+        _show(f"Error: {output.resolve()}: not written ({reason(error)}); a folder that can be written is needed\n")
+        return 1
     piped = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "encoding": "utf-8", "errors": "replace"}
     with open(output, "w", encoding="utf-8") as file, subprocess.Popen(command, **piped) as process:
         signal.signal(signal.SIGINT, signal.SIG_IGN)

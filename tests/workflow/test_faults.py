@@ -1,11 +1,15 @@
 """Damaged files and wrong settings under the workflow."""
 
+import os
 import re
+import shlex
+import subprocess
+import sys
 
 import pytest
 
 from support.faults import DAMAGES
-from support.workflow import TEST, snakemake
+from support.workflow import ROOT, TEST, copy_project, environment, snakemake
 
 TARGET = "results/ensembles/lines.nc"
 CURVES = "results/curves/lines/h04000/0000-0001.nc"
@@ -26,19 +30,79 @@ def test_damaged_input_of_a_rule_is_named_and_can_be_made_again(finished):
     assert (finished / TARGET).exists()
 
 
+@pytest.mark.parametrize("kind", ["lines", "discs"])
+def test_batch_outside_of_the_settings_is_refused(unmade, kind):
+    """It would hold fewer realizations than its name says."""
+    output = snakemake(unmade, *TEST, "--dry-run", "--", f"results/curves/{kind}/h04000/0000-0005.nc", fails=True)
+    message = "Error: batch 0000-0005 of h04000 is not one of the settings; allowed: 0000-0001"
+    assert output.splitlines()[-1].startswith(message)
+    assert "Traceback" not in output
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("# nothing\n", "Config file must be given as JSON or YAML with keys at top level."),
-        ("discs: {hurst: [0.4\n", "Config file is not valid JSON or YAML."),
-        ("discs: {elemnts: 33}\n", "unknown key 'elemnts' in discs; did you mean elements?"),
-        ("measured: [{name: scan, files: [z.npy]}]\n", "Error in the settings: measured: no file z.npy of scan; "),
+        (b"# nothing\n", ": not readable (it holds no settings)"),
+        (b"discs: {hurst: [0.4\n", ": not readable (while parsing a flow sequence"),
+        (b"- seed\n", ": not readable (it holds no settings)"),
+        ("seed: 1\n".encode("utf-16"), ": not readable ('utf-8' codec can't decode byte 0xff"),
+        (None, ": not readable (No such file or directory)"),
+        ("folder", ": not readable (it is a folder)"),
+        (b"discs: {elemnts: 33}\n", ": unknown key 'elemnts' in discs; did you mean elements?"),
+        (b"discs: {hurst: [0.33]}\n", " and config/config.yaml: discs.hurst has 0.33, lines.hurst has not; "),
+        (b"measured: [{name: scan, files: [z.npy]}]\n", ": measured: no file z.npy of scan; "),
     ],
-    ids=["empty", "broken", "misspelt", "no scan"],
+    ids=["empty", "broken", "list", "UTF-16", "missing", "folder", "misspelt", "contradiction", "no scan"],
 )
-def test_wrong_settings_are_one_line_without_a_traceback(unmade, tmp_path, content, message):
-    (tmp_path / "mine.yaml").write_text(content)
-    output = snakemake(unmade, "--dry-run", "--configfile", tmp_path / "mine.yaml", fails=True)
-    assert message in output.rstrip().splitlines()[-1]
-    assert "Traceback" not in output
-    assert len(output.splitlines()) <= 3  # besides it: the profile in use, and "WorkflowError:" by Snakemake itself
+def test_wrong_settings_are_one_line_that_names_the_file(unmade, tmp_path, content, message):
+    path = tmp_path / "mine.yaml"
+    if content == "folder":
+        path.mkdir()
+    elif content is not None:
+        path.write_bytes(content)
+    output = snakemake(unmade, "--dry-run", "--configfile", path, fails=True)
+    profile, *lines = output.splitlines()
+    assert profile.startswith("Using workflow specific profile")
+    assert len(lines) == 1
+    assert lines[0].startswith(f"Error in the settings: {path}{message}")
+
+
+def test_setting_on_the_command_line_is_named(unmade):
+    output = snakemake(unmade, "--dry-run", "--config", "seed=-1", fails=True)
+    assert output.splitlines()[-1].startswith("Error in the settings: --config: seed is -1; allowed: type integer")
+
+
+def test_module_settings_are_named(tmp_path):
+    (tmp_path / "Snakefile").write_text(
+        f'module viscorough:\n    snakefile: "{ROOT}/workflow/Snakefile"\n    config: {{"seed": -1}}\n\n'
+        "use rule * from viscorough as rough_*\n"
+    )
+    output = snakemake(tmp_path, "--dry-run", fails=True)
+    assert output.splitlines()[-1].startswith("Error in the settings: the settings of the module: seed is -1; allowed")
+
+
+def in_read_only(folder, command):
+    """Result of a command in a folder that cannot be written, for root by a mount of its own."""
+    folder.chmod(0o555)
+    if os.access(folder, os.W_OK):
+        quoted = shlex.quote(str(folder))
+        mount = f"mount --bind {quoted} {quoted} && mount -o remount,bind,ro {quoted} && cd {quoted}"
+        if subprocess.run(["unshare", "-m", "sh", "-c", mount], capture_output=True, check=False).returncode:
+            pytest.skip("root cannot mount a folder here")
+        command = ["unshare", "-m", "sh", "-c", f"{mount} && exec {shlex.join(command)}"]
+    variables = environment(folder) | {"PYTHONDONTWRITEBYTECODE": "1"}
+    return subprocess.run(command, cwd=folder, env=variables, capture_output=True, text=True, check=False)
+
+
+def test_folder_that_cannot_be_written_is_one_line(tmp_path):
+    folder, line = copy_project(tmp_path / "copy"), [sys.executable, "-m", "snakemake", "--cores", "1", "--dry-run"]
+    done = in_read_only(folder, line)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[1:] == [
+        f"Error: {folder}: the folder cannot be written; make it writable, or let `snakemake --directory FOLDER` write "
+        "all results to another folder"
+    ]
+    done = in_read_only(folder, [sys.executable, "workflow/run_with_progress.py", "--", *line])
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith(f"Error: {folder}/results/run.log: not written (")
+    assert done.stderr.count("\n") == 1

@@ -68,13 +68,24 @@ def use_packages_of_checkout():
             )
 
 
-use_packages_of_checkout()
+def check_folder():
+    """End with one line unless Snakemake and its jobs can write into the folder of the run."""
+    for folder in map(Path, (".", ".snakemake", "results")):
+        if folder.is_dir() and not os.access(folder, os.W_OK | os.X_OK):
+            end_run(
+                f"{folder.resolve()}: the folder cannot be written; make it writable, or let "
+                "`snakemake --directory FOLDER` write all results to another folder"
+            )
 
-from viscorough.io.atomic import atomic_write
+
+use_packages_of_checkout()
+check_folder()
+
+from viscorough.io.atomic import atomic_write, path_named
 from viscorough_study.run import cases
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.run.scans import scans
-from viscorough_study.run.settings import check_settings
+from viscorough_study.run.settings import check_settings, source_of
 from viscorough_study.run.settings_files import read_settings_file
 from viscorough_study.run.source_digest import SourceDigests
 from viscorough_study.run.stale_locks import remove_stale_locks
@@ -97,23 +108,30 @@ if workflow.is_main_process:  # not one of its jobs
 SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1], ".snakemake/sources.json")
 
 
-def complete(settings, files):
+def complete(settings, files, options):
     """The default settings with these in their place, and the cases of the measured surfaces that they name.
 
-    settings : of files, of the command line, or of a workflow that uses this one as a module
-    files : of settings, which must be readable
-    Ends with one line about the first file that cannot be read or is missing, or the first wrong setting.
+    settings : all that are given by files, by the command line, or by a workflow that uses this one as a module
+    files : of settings, which must be readable; options : settings given by --config
+    Ends with one line about the first file that cannot be read or is missing, or the first wrong setting and its file.
     """
+    defaults = PROJECT / "config" / "config.yaml"
     try:
-        completed = read_settings_file(PROJECT / "config" / "config.yaml")
-        for path in files:
-            read_settings_file(path)
+        completed = read_settings_file(defaults)
         update_config(completed, settings)
-        check_settings(completed, read_yaml("workflow/schemas/config.schema.yaml"))
-        return completed, scans(completed["measured"], completed["indentation"])
+        sources = {shown(defaults): read_settings_file(defaults), "the settings of the module": settings}
+        sources |= {shown(path): read_settings_file(path) for path in files} | {"--config": options}
+        check_settings(completed, read_yaml("workflow/schemas/config.schema.yaml"), sources)
+        with path_named(source_of(["measured"], sources)):
+            return completed, scans(completed["measured"], completed["indentation"])
     except ValueError as error:
         # A WorkflowError would show three more lines, about this file.
         raise SystemExit(f"Error in the settings: {error}")
+
+
+def shown(path):
+    """A path from the folder of the run, if it is in there."""
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 # ---- inputs and params
@@ -127,6 +145,13 @@ def chosen(section, *names):
 def without(section, *names):
     """{name: setting} of a section without these settings."""
     return {name: value for name, value in config[section].items() if name not in names}
+
+
+def batch_ensembles(table, case, batch):
+    """Ensembles of a batch of a case; ends with one line if the settings do not have this batch."""
+    if batch not in (existing := cases.batches(table[case])):
+        end_run(f"batch {batch} of {case} is not one of the settings; allowed: {', '.join(existing)}")
+    return cases.batch_ensembles(table[case], batch)
 
 
 def scan_value(name):

@@ -26,7 +26,7 @@ rule reduce_lines:
     resources:
         mem_mb=lambda wildcards: cases.line_memory(LINES[wildcards.line]),
     params:
-        ensembles=lambda wildcards: cases.batch_ensembles(LINES[wildcards.line], wildcards.batch),
+        ensembles=lambda wildcards: batch_ensembles(LINES, wildcards.line, wildcards.batch),
         seed=config["seed"],
         until_x=lambda wildcards: LINES[wildcards.line]["until_x"],
     message:

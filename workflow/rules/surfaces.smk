@@ -9,7 +9,7 @@ rule generate_discs:
     resources:
         mem_mb=lambda wildcards: cases.generation_memory(DISCS[wildcards.case]["ensembles"]),
     params:
-        ensembles=lambda wildcards: cases.batch_ensembles(DISCS[wildcards.case], wildcards.batch),
+        ensembles=lambda wildcards: batch_ensembles(DISCS, wildcards.case, wildcards.batch),
         seed=config["seed"],
     message:
         "Discs {wildcards.case}, realizations {wildcards.batch}"

@@ -3,7 +3,7 @@
     python -m viscorough_study.run.settings_files mine.yaml
 
 checks that files can be read. Snakemake itself reads the files given with --configfile before it reads the Snakefile,
-and its errors name neither file nor line.
+and its errors name neither file nor line; profiles/default therefore calls `check_command_line` before.
 """
 
 import sys
@@ -22,6 +22,23 @@ def read_settings_file(path):
         if not isinstance(settings, dict):
             raise ValueError("it holds no settings")
     return settings
+
+
+def check_command_line(arguments):
+    """End this process with one line if a file of settings on the command line of Snakemake cannot be read.
+
+    arguments : of Snakemake, with --configfile or --configfiles followed by paths, or --configfile=path
+    """
+    paths, reads_paths = [], False
+    for argument in arguments:
+        option, equals, path = argument.partition("=")
+        if argument.startswith("-"):
+            reads_paths = option in ("--configfile", "--configfiles") and not equals
+            paths += [path] if option in ("--configfile", "--configfiles") and equals else []
+        elif reads_paths:
+            paths.append(argument)
+    if code := main(paths):
+        sys.exit(code)
 
 
 def main(paths):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from viscorough_study.run.settings_files import main, read_settings_file
+from viscorough_study.run.settings_files import check_command_line, main, read_settings_file
 
 BROKEN = {
     "unclosed": (b"discs:\n  hurst: [0.4\n", "expected ',' or ']', but got '<stream end>'"),
@@ -36,3 +36,20 @@ def test_readable_file(tmp_path, capsys):
     assert read_settings_file(path) == {"discs": {"elements": 9}, "lines": {"batch": 3}}
     assert main([path]) == 0
     assert capsys.readouterr() == ("", "")
+
+
+def test_files_on_a_command_line(tmp_path, monkeypatch, capsys):
+    """The values of other options, and targets, are no files of settings."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("a.yaml", "b.yaml"):
+        (tmp_path / name).write_text("seed: 1\n")
+    check_command_line(["--cores", "2", "--configfile", "a.yaml", "b.yaml", "--directory", "x", "--", "all"])
+    check_command_line(["all", "--cores=2", "--configfile=b.yaml", "y"])
+    for options in (
+        ["--configfile", "a.yaml", "c.yaml"],
+        ["--configfiles=c.yaml", "-n"],
+        ["-n", "--configfiles", "c.yaml"],
+    ):
+        with pytest.raises(SystemExit, match="2"):
+            check_command_line(options)
+        assert capsys.readouterr().err.startswith("Error in the settings: c.yaml: not readable (No such file")

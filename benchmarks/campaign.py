@@ -86,7 +86,7 @@ def main(cases, seed, family, case, cores, output):
         numbers = [case] if case is not None else range(max(1, round(FAMILIES[name][2] * cases)))
         counts[name] = len(numbers)
         with Pool(cores) as pool:
-            wrongs = pool.imap(partial(failure, name, seed), numbers, chunksize=20)
+            wrongs = pool.imap(partial(failure, name, seed), numbers)
             for number, wrong in tqdm(zip(numbers, wrongs, strict=True), name, len(numbers), mininterval=2):
                 if wrong:
                     failures.append({"family": name, "case": number, "wrong": wrong})

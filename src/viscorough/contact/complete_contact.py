@@ -19,9 +19,10 @@ from viscorough.contact.state import ContactState, Elements, MemberLoads, Units
 from viscorough.errors import ConvergenceError
 from viscorough.types import Array
 
-# Norm of the residual over the norm of the right-hand side at which the linear problems count as solved, and the number
-# of iterations after which ConvergenceError is raised.
-_RESIDUAL, _MAX_ITERATIONS = 1e-12, 500
+# Smallest norm of the residual, over the norm of the right-hand side, to which the linear problems are solved.
+EXACT = 1e-12
+# Iterations after which ConvergenceError is raised.
+_MAX_ITERATIONS = 500
 
 
 class JoinedSurface(NamedTuple):
@@ -29,11 +30,13 @@ class JoinedSurface(NamedTuple):
 
     tangent, load : q and s, by rank, shape (elements,)
     initial_gap : g, by rank, shape (elements,)
+    residual : norm of the residuals of both problems over the norm of their right-hand sides
     """
 
     tangent: Array
     load: Array
     initial_gap: Array
+    residual: float
 
     @property
     def depth(self) -> float:
@@ -58,17 +61,22 @@ class JoinedSurface(NamedTuple):
             self.tangent.size,
             pressure_sum=stiffness * (depth - self.mean_gap),
             tangent_sum=stiffness,
-            residual=_RESIDUAL * size / depth,
+            residual=self.residual * size / depth,
             loads=MemberLoads(np.arange(self.tangent.size), pressure, self.tangent),
         )
 
 
-def joined_surface(elements: Elements, *, padding: bool = True, threads: int = 1) -> JoinedSurface:
+def joined_surface(
+    elements: Elements, *, residual: float = EXACT, padding: bool = True, threads: int = 1
+) -> JoinedSurface:
     """Solve K q = 1 and K s = g over all elements by preconditioned conjugate gradients, in double precision.
 
-    elements : Elements, all ranked; padding : see SolverOptions; threads : on which it computes
+    elements : Elements, all ranked
+    residual : norm of the residual, over the norm of the right-hand side, at which a problem counts as solved
+    padding : see SolverOptions
+    threads : on which it computes
 
-    Raises ConvergenceError if the residuals do not fall below 1e-12.
+    Raises ConvergenceError if the residuals do not fall so far.
     """
     from scipy.sparse.linalg import LinearOperator, cg  # takes long to import
 
@@ -87,21 +95,21 @@ def joined_surface(elements: Elements, *, padding: bool = True, threads: int = 1
         on_map[slot] = load
         return halfspace.apply().ravel()[slot]
 
-    def precondition(residual: Array) -> Array:
-        # The smallest residuals must not underflow in single precision.
-        scale = np.abs(residual).max() or 1.0
-        field[place] = residual / scale
+    def precondition(gap: Array) -> Array:
+        # The smallest gaps must not underflow in single precision.
+        scale = np.abs(gap).max() or 1.0
+        field[place] = gap / scale
         return scale * preconditioner.apply(field)[place].astype(float)
 
     shape = place.size, place.size
     influence, inverse = (LinearOperator(shape, function, dtype=float) for function in (deflection, precondition))
     solutions = []
     for right in (np.ones(place.size), elements.initial_gap):
-        solution, failed = cg(influence, right, rtol=_RESIDUAL, maxiter=_MAX_ITERATIONS, M=inverse)
+        solution, failed = cg(influence, right, rtol=residual, maxiter=_MAX_ITERATIONS, M=inverse)
         if failed:
             raise ConvergenceError(
-                f"complete contact: the residual does not fall below {_RESIDUAL:.0e} in {_MAX_ITERATIONS} steps"
+                f"complete contact: the residual does not fall below {residual:.0e} in {_MAX_ITERATIONS} steps"
             )
         solutions.append(solution)
     tangent, load = solutions
-    return JoinedSurface(tangent, load, elements.initial_gap)
+    return JoinedSurface(tangent, load, elements.initial_gap, residual)

@@ -31,6 +31,8 @@ from viscorough.types import Progress
 # The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
 # until their ratio is the last number.
 _APPROACH_DEPTH_RATIO, _APPROACH_SHARE, _APPROACH_MIN_RATIO = 4.0, 0.7, 1.02
+# A curve that ends at a contact fraction up to this one does not need the depth of complete contact for its end.
+_FAR_FROM_COMPLETE = 0.95
 # Exponent of the share of the contact, or of the force, in the estimated share of the computation.
 _PROGRESS_EXPONENT = 0.5
 
@@ -200,7 +202,9 @@ class _LoadingPath:
         """
         if self._complete is None:
             contact = self._solver.advance_reduced(self._contact, depth)
-            if not self._solver.may_be_complete(contact):
+            far = self._until_count <= _FAR_FROM_COMPLETE * self._solver.elements.count
+            is_last = contact.count >= self._until_count
+            if (far and is_last) or not self._solver.may_be_complete(contact):
                 return contact
             self._complete = self._solver.complete_contact()
             # Rounding and residuals must not decide the order of two levels at nearly the same depth.

@@ -15,7 +15,7 @@ import numpy as np
 
 from viscorough import units
 from viscorough.contact import dense
-from viscorough.contact.complete_contact import joined_surface
+from viscorough.contact.complete_contact import EXACT, joined_surface
 from viscorough.contact.dense import ContactEvents
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
@@ -43,8 +43,11 @@ _GROWTH_OF_BOX = 1.3
 _LOST_CONTACT = 3
 # Largest reduced depth: single precision holds numbers a thousand times as large and more.
 _LARGEST_DEPTH = 1e25
-# A gap is open beyond doubt if it is larger than the residual by this factor.
-_OPEN_GAP = 2.0
+# Residual of the linear problems of complete contact, over the tolerance. The relative error of the depth is a few times
+# as large as this residual, and the largest residual of an element is below it times the root of their number.
+_JOINED_SHARE = 1e-4
+# A gap is open beyond doubt if it is larger than the residual by this factor: a margin for rounding.
+_OPEN_GAP = 1.1
 # Ratio of depths up to which a contact is transferred to another grid as the start there.
 _LARGEST_RATIO_OF_START = 2.0
 
@@ -221,7 +224,9 @@ class ContactSolver:
         """
         self.elements = self._ranking.up_to(self.elements, np.inf)
         require_for_complete_contact(self.elements, self.threads)
-        joined = joined_surface(self.elements, padding=self.options.padding, threads=self.threads)
+        residual = max(_JOINED_SHARE * self.tolerance, EXACT)
+        how: dict[str, Any] = {"residual": residual, "padding": self.options.padding, "threads": self.threads}
+        joined = joined_surface(self.elements, **how)
         contact = joined.first_complete_contact(self.units)
         if self._grid is None:
             return contact

@@ -42,9 +42,9 @@ def test_whole_curve_ends_where_contact_becomes_complete(indenter, tolerance):
     """Elements whose overlap stays within the tolerance do not let the path run on."""
     curve, end = indent(indenter, tolerance=tolerance, until_fraction=1.0), complete_contact(indenter)
     assert curve.contact_fraction[-1] == 1.0
-    np.testing.assert_allclose(curve.depth[-1], end.depth, rtol=1e-9)
-    np.testing.assert_allclose(curve.force[-1], end.force, rtol=1e-9)
-    np.testing.assert_allclose(curve.stiffness[-1], end.stiffness, rtol=1e-9)
+    np.testing.assert_allclose(curve.depth[-1], end.depth, rtol=0.01 * tolerance)
+    np.testing.assert_allclose(curve.force[-1], end.force, rtol=0.01 * tolerance)
+    np.testing.assert_allclose(curve.stiffness[-1], end.stiffness, rtol=0.01 * tolerance)
     assert curve.residual.max() <= tolerance
 
 
@@ -53,13 +53,13 @@ def test_whole_curve_ends_where_contact_becomes_complete(indenter, tolerance):
 def test_curve_until_almost_all_elements_touch_does_not_pass_complete_contact(name, until_fraction):
     curve = indent(INDENTERS[name], tolerance=1e-2, until_fraction=until_fraction)
     assert curve.contact_fraction[-1] >= until_fraction
-    assert curve.depth[-1] <= complete_contact(INDENTERS[name]).depth * (1 + 1e-9)
+    assert curve.depth[-1] <= complete_contact(INDENTERS[name]).depth * (1 + 1e-4)
 
 
 def test_long_first_steps_do_not_pass_complete_contact():
     """With a start fraction, the path first takes steps of up to four times the depth."""
     curve = indent(pit(41), tolerance=0.1, start_fraction=1 - 1e-4, until_fraction=1.0)
-    np.testing.assert_allclose(curve.depth[-1], complete_contact(pit(41)).depth, rtol=1e-9)
+    np.testing.assert_allclose(curve.depth[-1], complete_contact(pit(41)).depth, rtol=1e-3)
 
 
 @pytest.mark.parametrize("dense", [0, 10**9])
@@ -67,18 +67,19 @@ def test_end_does_not_depend_on_the_way_of_solving(dense):
     indenter = self_affine_disc(0.7, 25, seed=3)
     options = SolverOptions(dense_contacts=dense, dense_interactions=dense)
     curve = indent(indenter, tolerance=1e-3, until_fraction=1.0, options=options)
-    np.testing.assert_allclose(curve.depth[-1], complete_contact(indenter).depth, rtol=1e-9)
+    np.testing.assert_allclose(curve.depth[-1], complete_contact(indenter).depth, rtol=1e-5)
 
 
 def test_force_beyond_complete_contact_ends_the_curve_there():
     disc = INDENTERS["disc, H = 0.5"]
     end = complete_contact(disc)
     curve = indent(disc, tolerance=1e-2, until_fraction=1.0, until_force=3 * end.force)
-    np.testing.assert_allclose(curve.force[-1], end.force, rtol=1e-9)
+    np.testing.assert_allclose(curve.force[-1], end.force, rtol=1e-4)
 
 
-@pytest.mark.parametrize("until_fraction", [0.5, 0.9])
-def test_complete_contact_is_not_computed_for_curves_that_end_far_before_it(until_fraction, monkeypatch):
+@pytest.mark.parametrize("end", [{"until_fraction": 0.5}, {"until_fraction": 0.9}, {"until_force": 20.0}])
+@pytest.mark.parametrize("tolerance", [0.1, 1e-3])
+def test_complete_contact_is_not_computed_for_curves_that_end_far_before_it(tolerance, end, monkeypatch):
     monkeypatch.delattr(ContactSolver, "complete_contact")
     for hurst in (0.2, 0.8):
-        indent(self_affine_disc(hurst, 65, seed=2), tolerance=1e-2, until_fraction=until_fraction)
+        indent(self_affine_disc(hurst, 65, seed=2), tolerance=tolerance, **end)

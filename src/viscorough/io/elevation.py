@@ -20,7 +20,7 @@ FORMATS = {".adf": "AIG", ".bil": "EHdr", ".dem": "USGSDEM", ".flt": "EHdr", ".h
 FORMATS |= dict.fromkeys((".dt0", ".dt1", ".dt2"), "DTED")
 # Names of units in GDAL that pint does not have.
 _GDAL_UNITS = {"US survey foot": "survey_foot", "sfoot": "survey_foot", "us-ft": "survey_foot"}
-_RIGHT_ANGLE = 1e-6  # cosine of the angle between rows and columns up to which they are perpendicular
+_RIGHT_ANGLE = 1e-6  # largest cosine of the angle between perpendicular rows and columns
 
 
 def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Scan:
@@ -31,7 +31,7 @@ def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Sca
     kind : format, as GDAL calls it, one of FORMATS or "GTiff"
     channel : number of the band, or of the page of a TIFF file, from 0; needed if the file has several
 
-    Raises a one-line ValueError for coordinates in degrees, pictures, and where rasterio is not installed.
+    Raises a one-line ValueError for coordinates in degrees, for pictures, and if rasterio is not installed.
     """
     with _opened(path, kind) as file:
         alpha = [band for band, meaning in zip(file.indexes, file.colorinterp, strict=True) if meaning.name == "alpha"]
@@ -70,7 +70,7 @@ def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]
 
 @contextlib.contextmanager
 def _decoding(path: FilePath) -> Iterator[None]:
-    """Context in which a fault of a file becomes a one-line ValueError with the cause that GDAL gives."""
+    """Context that turns a fault of a file into a one-line ValueError with the cause that GDAL gives."""
     with reading(path, "a whole elevation model, such as GeoTIFF, is needed"):
         try:
             yield
@@ -146,7 +146,7 @@ def _units(system: Any) -> tuple[str, str]:
 
 
 def _axes(definition: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the axes of a reference system in PROJJSON, those of its parts in turn."""
+    """Return the axes of a reference system in PROJJSON, part after part."""
     if definition["type"] == "BoundCRS":
         return _axes(definition["source_crs"])
     if definition["type"] == "CompoundCRS":

@@ -17,7 +17,7 @@ _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are n
 # Tags of GeoTIFF (scale, place and rotation of the pixels, keys) and of GDAL (metadata, value for missing data).
 _ELEVATION_TAGS = (33550, 33922, 34264, 34735, 42112, 42113)
 _MASK = 4  # bit of the tag NewSubfileType
-# Ends of the names of files in which GDAL keeps mask, units and the value for missing data of a TIFF file.
+# GDAL keeps mask, units and the value for missing data of a TIFF file in files that end so.
 _SIDECARS = (".msk", ".aux.xml")
 # What tifffile logs about a damaged file is not printed: the error says it in one line.
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
@@ -30,7 +30,7 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
 
     channel : number of the page, from 0; needed if the file has several of the same size
 
-    Raises a one-line ValueError for what is no map of one channel, and for geographic coordinates in degrees.
+    Raises a one-line ValueError for a picture in colours, and for geographic coordinates in degrees.
     """
     import tifffile
 
@@ -71,7 +71,7 @@ def _page(pages: list[Any], channel: str | None) -> Any:
 
 
 def _heights(page: Any) -> NDArray[Any]:
-    """Return the numbers of a page. Raises ValueError that says what to install where they cannot be decompressed."""
+    """Return the numbers of a page. Raises ValueError with the package to install if they cannot be decompressed."""
     try:
         return page.asarray()
     except (ImportError, ValueError) as error:

@@ -64,7 +64,7 @@ def _as_kind(numbers: Array, stored: np.dtype[Any], kind: np.dtype[Any]) -> Arra
     limits = np.iinfo(stored)
     if numbers.min() < limits.min or numbers.max() > limits.max:
         return numbers
-    return numbers.astype(stored).view(kind)
+    return np.asarray(numbers, stored).view(kind)
 
 
 def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any], kind: np.dtype[Any]) -> Array:

@@ -102,6 +102,25 @@ def test_a_mask_beside_a_picture_of_a_microscope_is_used(tmp_path):
     np.testing.assert_array_equal(indenter.heights, np.where(mask, np.nan, HEIGHTS))
 
 
+def test_a_mask_inside_a_picture_of_a_microscope_is_used(tmp_path):
+    mask = HEIGHTS > 300.8
+    elevation(tmp_path / "a.tif", mask=mask, crs=None, transform=None)
+    indenter = read_heights(tmp_path / "a.tif", 1, unit="um")
+    np.testing.assert_array_equal(indenter.heights, np.where(mask, np.nan, HEIGHTS))
+
+
+def test_what_gdal_states_in_a_file_for_a_picture_is_used(tmp_path):
+    heights = HEIGHTS.copy()
+    heights[2, 3] = -1
+    tifffile.imwrite(tmp_path / "a.tif", heights)
+    band = "<NoDataValue>-1</NoDataValue><UnitType>um</UnitType>"
+    text = f'<PAMDataset><PAMRasterBand band="1">{band}</PAMRasterBand></PAMDataset>'
+    (tmp_path / "a.tif.aux.xml").write_text(text)
+    indenter = read_heights(tmp_path / "a.tif", 1)
+    np.testing.assert_array_equal(indenter.heights, np.where(heights == -1, np.nan, heights))
+    assert indenter.length_unit == "um"
+
+
 def test_values_for_missing_data_are_nan(tmp_path):
     whole = np.round(100 * HEIGHTS).astype("i2")
     whole[1, 2] = -32768
@@ -186,11 +205,12 @@ def test_a_map_without_reference_system_is_in_the_unit_that_is_given(tmp_path):
 
 @pytest.mark.parametrize("suffix", [".tif", ".bil"])
 def test_coordinates_without_a_unit_that_may_be_degrees_are_refused(tmp_path, suffix):
-    near = rasterio.transform.from_origin(-105.56, 40.09, 3 / 3600, 3 / 3600)
-    path = elevation(tmp_path / f"a{suffix}", crs=None, transform=near)
-    with refused("may be degrees; lengths are needed, and their unit by --unit"):
-        read_heights(path)
-    assert read_heights(path, unit="mm").spacing == pytest.approx(3 / 3600)
+    for left, top, step in ((-105.56, 40.09, 3 / 3600), (-180.5, 90.5, 1)):  # points at -180 and 90
+        near = rasterio.transform.from_origin(left, top, step, step)
+        path = elevation(tmp_path / f"a{suffix}", crs=None, transform=near)
+        with refused("may be degrees; lengths are needed, and their unit by --unit"):
+            read_heights(path)
+        assert read_heights(path, unit="mm").spacing == pytest.approx(step)
 
 
 ESRI = "ncols 4\nnrows 3\nxll{0} {1}\nyll{0} {2}\ncellsize {3}\nNODATA_value -9999\n1 2 3 4\n5 6 7 9\n2 8 1 3\n"
@@ -203,6 +223,8 @@ ESRI = "ncols 4\nnrows 3\nxll{0} {1}\nyll{0} {2}\ncellsize {3}\nNODATA_value -99
         (("center", -180, -90, 90), True),  # whole Earth, points at the poles
         (("corner", 0, -45, 30), True),  # longitudes may count to 360
         (("corner", 178, 0, 1), True),
+        (("corner", -180.5, -90.5, 1), True),  # points at -180 and -90
+        (("corner", 356.5, 87.5, 1), True),  # points at 360 and 90
         (("corner", 358, 0, 1), False),
         (("corner", 0, 88, 1), False),
         (("corner", 500000, 40, 1), False),

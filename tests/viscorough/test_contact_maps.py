@@ -1,5 +1,7 @@
 """Quantities that follow from the maps of a contact: areas, pressures, patches."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -22,6 +24,17 @@ def test_areas_and_pressures():
     assert CONTACT.largest_pressure == 5.0
     # Ten changes between neighbours, that beside the point outside the indenter not counted.
     assert CONTACT.corrected_contact_area == pytest.approx(30 - 60 * (np.pi - 1 + np.log(2)) / 24)
+
+
+@pytest.mark.parametrize("change", [np.flipud, np.fliplr, np.transpose], ids=lambda change: change.__name__)
+def test_a_turned_map_has_the_same_areas(change):
+    """Elements outside the indenter lie before and after elements in contact, along rows and columns."""
+    pressure = PRESSURE.copy()
+    pressure[2, 0], pressure[0, 3], pressure[1, 1] = np.nan, np.nan, 0.0
+    area = 30 - 6 - 7 * 6 * (np.pi - 1 + np.log(2)) / 24  # seven changes, none beside points outside the indenter
+    for pressures in (pressure, change(pressure)):
+        maps = {"pressure": pressures, "gap": 0 * pressures, "contact": pressures > 0}
+        assert replace(CONTACT, **maps).corrected_contact_area == pytest.approx(area)
 
 
 def test_patches_are_connected_by_sides_and_the_largest_comes_first():

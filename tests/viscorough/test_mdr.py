@@ -58,6 +58,17 @@ def test_curve_stops_at_fraction_or_force():
     assert_exact(beyond, line)
 
 
+def test_a_curve_ends_at_the_level_that_has_exactly_the_fraction_or_force():
+    line = Indenter(-np.arange(8.0), 0.5)
+    full = reduce(line)
+    for level in range(2, full.depth.size):
+        fraction, force = full.contact_fraction[level], full.force[level]
+        first = np.argmax(full.contact_fraction == fraction)  # the count also stays the same between levels
+        limits = {"until_fraction": fraction} | ({"until_force": 1e9} if fraction < 1 else {})
+        np.testing.assert_array_equal(reduce(line, **limits).force, full.force[: max(first, 1) + 1])
+        np.testing.assert_array_equal(reduce(line, until_force=force).force, full.force[: level + 1])
+
+
 def test_bad_options():
     for options, message in (
         ({"until_fraction": 0}, "reduce: until_fraction must lie in"),

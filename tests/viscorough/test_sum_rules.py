@@ -105,6 +105,25 @@ def test_error_that_levels_do_not_reduce_is_no_agreement():
     assert "do not agree" in str(result)
 
 
+def test_depths_between_levels_must_be_as_accurate_as_the_curve_promises():
+    """To the tolerance of the curve, not to that of the integrals; but not below 1e-5, the finest of `indent`."""
+    whole = audit(INDENTERS["sphere"], tolerance=1e-3)
+    for tolerance, promised in ((1e-2, 1e-2), (1e-5, 1e-5), (1e-9, 1e-5)):
+        result = replace(whole, curve=replace(whole.curve, tolerance=tolerance))
+        for error, agrees in ((0.99 * promised, True), (1.01 * promised, False)):
+            judged = replace(result, interpolation_error=error)
+            assert (judged.is_interpolated, judged.agrees) == (agrees, agrees)
+            assert ("depths between levels are off by" in str(judged)) != agrees
+    assert not replace(whole, tolerance=1e-20).agrees
+
+
+def test_complete_contact_of_a_line_is_exact():
+    """U/G = 2 Δx Σ (g − ⟨g⟩)²: heights 0, −1, −5 have gaps of 0, 1, 5, their mean 2."""
+    end = complete_contact(Indenter(np.array([0.0, -1.0, -5.0]), 0.5))
+    assert (end.mean_gap, end.energy, end.stiffness, end.depth) == (2.0, 14.0, 6.0, 5.0)
+    assert end.force == 18.0
+
+
 def test_line_of_independent_springs():
     line = self_affine_line(0.7, 3000, seed=3, dtype=np.float64)
     curve, end = reduce(line), complete_contact(line)

@@ -6,6 +6,7 @@ import pytest
 from support.workflow import load_script, read_settings
 from viscorough.contact.loading_path import indent
 from viscorough.io import netcdf
+from viscorough.io.curves import unstack_curves
 from viscorough_study.ensembles.batches import Realization
 from viscorough_study.ensembles.discs import ensemble_disc
 from viscorough_study.ensembles.flat_punch import punch_stiffness
@@ -53,6 +54,21 @@ def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
     ends = np.nanmax(values["force"], axis=1) / (4 * largest_rms * values["diameter"])
     assert (ends >= values["until_x"]).all()
     assert (ends < 1.5 * values["until_x"]).all()
+
+
+@pytest.mark.parametrize("until_x", [0.003, 0.3])
+def test_curves_of_lines_end_at_the_first_level_beyond_their_x(tmp_path, until_x):
+    ensembles = cases.batch_ensembles(cases.line_cases(read_settings("config"))["h04000"], "0000-0002")[:1]
+    (batch,) = ensembles = [ensemble | {"points": 4096} for ensemble in ensembles]
+    load_script("reduce_lines").main(tmp_path / "curves.nc", ensembles=ensembles, seed=7, until_x=until_x)
+    content = netcdf.read(tmp_path / "curves.nc")
+    for curve in unstack_curves(content):
+        x = curve.force / (4 * batch["surface"]["rms"] * batch["surface"]["length"])
+        assert x[-1] >= until_x > x[-2]
+    lengths = {name: content.variables[name].values.tolist() for name in ("diameter", "spacing", "until_x")}
+    length = batch["surface"]["length"]
+    assert lengths == {"diameter": length, "spacing": pytest.approx(length / 4096), "until_x": until_x}
+    np.testing.assert_allclose(content.variables["rms_line"].values, batch["surface"]["rms"])
 
 
 def test_stiffness_of_a_flat_disc_approaches_that_of_the_punch_at_first_order():

@@ -1,20 +1,29 @@
-"""The blocks of code in README and docs/ run, in the order in which they stand on a page."""
+"""The blocks of code in README and docs/ run, in the order in which they stand on a page.
 
-import contextlib
-import io
+Those on the page of the results run in tests/workflow/test_page.py, those for workflows in tests/workflow.
+"""
+
 import re
-import shlex
+import tomllib
+from pathlib import Path
 
 import pytest
 import yaml
 from matplotlib.testing.compare import compare_images
 
-from support.documentation import PAGES, README, ROOT, blocks
+from support.code_blocks import run_console, run_python, run_shell
+from support.documentation import PAGES, README, ROOT, blocks, read
 from support.workflow import merged, read_settings
-from viscorough.cli import main
+from viscorough.io.media import read_medium
+from viscorough.io.motion import read_force_history
+from viscorough.surfaces import self_affine_disc
 from viscorough_study.run.settings import check_settings
 
-RUN = {page: [block for block in blocks(page) if block.language in ("python", "console")] for page in PAGES}
+RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}
+FILES = {"t [": ("force.csv", read_force_history), "kind: ": ("medium.yaml", read_medium)}  # {beginning: name, reader}
+# Blocks that other tests read: what a page is made of, settings (below), and parts of a workflow (tests/workflow).
+ELSEWHERE = {"{toctree}", "{include}", "{eval-rst}", "yaml"}
+PARTS_OF_WORKFLOWS = ("  tabulate_departures:", "  departures:", "module viscorough:")
 
 
 @pytest.fixture(autouse=True)
@@ -26,29 +35,55 @@ def run_page(page):
     names = {}
     for block in RUN[page]:
         if block.language == "python":
-            exec(compile("\n" * block.line + block.text, page, "exec"), names)
-        else:
+            run_python(block.text, page, block.line, names)
+        elif block.language == "console":
             run_console(block.text)
+        else:
+            run_shell(block.text)
 
 
-def run_console(text):
-    """Run the lines that start with "$"; what they print must match the lines below, where ... stands for any text."""
-    for line, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
-        command, *arguments = shlex.split(line)
-        with contextlib.redirect_stdout(io.StringIO()) as printed:
-            assert (command, main(arguments)) == ("viscorough", 0), line
-        pattern = ".*".join(re.escape(piece) for piece in expected.split("..."))
-        assert re.fullmatch(pattern, printed.getvalue()), printed.getvalue()
+def write_scan():
+    """A text file of heights that states its unit and its spacing, as the blocks name it."""
+    heights = self_affine_disc(0.7, 17, rms=1.0, diameter=170.0, seed=1).heights
+    rows = "\n".join(" ".join(f"{height:.4f}" for height in row) for row in heights)
+    Path("scan.txt").write_text(f"# Width: 170 um\n# Height: 170 um\n# Value units: um\n{rows}\n")
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if RUN[page] and page != README], ids=lambda page: page.stem)
 def test_blocks_run(page):
+    write_scan()
     run_page(page)
 
 
 def test_readme_makes_the_picture_that_it_shows(tmp_path):
     run_page(README)
     assert compare_images(ROOT / "docs/own_surface.png", tmp_path / "own_surface.png", tol=1) is None
+
+
+def test_files_shown_are_read():
+    texts = [block.text for page in PAGES for block in blocks(page) if block.language == "text"]
+    read_files = 0
+    for text in texts:
+        if text.startswith(PARTS_OF_WORKFLOWS):
+            continue
+        (name, reader) = next(FILES[beginning] for beginning in FILES if text.startswith(beginning))
+        Path(name).write_text(text)
+        reader(name, "m")
+        read_files += 1
+    assert read_files == len(FILES)
+
+
+def test_every_block_is_run_by_a_test():
+    kinds = {block.language for page in PAGES for block in blocks(page)}
+    assert kinds == {"python", "console", "shell", "text"} | ELSEWHERE
+
+
+def test_extras_that_are_installed_exist():
+    extras = tomllib.loads(read(ROOT / "pyproject.toml"))["project"]["optional-dependencies"]
+    named = {
+        name for page in PAGES for name in re.findall(r"""pip install ["'](?:\.|viscorough)\[(\w+)\]""", read(page))
+    }
+    assert {"plot"} <= named <= set(extras)
 
 
 def test_settings_shown_are_valid():

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from support.documentation import PAGES, ROOT, anchors, links, prose, read
+from support.documentation import MAKEFILES, PAGES, ROOT, anchors, links, prose, read
 from support.workflow import FIGURES, RESULTS, TABLES, TARGETS
 from viscorough_study.run.cases import POOLS
 
@@ -22,9 +22,6 @@ def test_links_lead_to_files_and_headings(page):
         assert target.exists(), link
         assert ROOT in target.parents, link
         assert not anchor or anchor in anchors(target), link
-
-
-MAKEFILES = read(ROOT / "Makefile") + read(ROOT / "peers/targets.mk")
 
 
 def is_made(path):

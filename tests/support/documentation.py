@@ -7,7 +7,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
 PAGES = [
-    *(README, ROOT / "CHANGELOG.md", ROOT / "config/README.md", ROOT / "results/README.md"),
+    *(README, ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md", ROOT / "config/README.md", ROOT / "results/README.md"),
     *sorted((ROOT / "docs").rglob("*.md")),
 ]
 _FENCE = re.compile(r"^```(\S*)(?: [^\n]*)?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -25,6 +25,9 @@ class Block:
 
 def read(page):
     return page.read_text(encoding="utf-8")
+
+
+MAKEFILES = read(ROOT / "Makefile") + read(ROOT / "peers/targets.mk")
 
 
 def named_files(page):

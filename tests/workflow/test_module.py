@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 
 from support.command_line import python
+from support.documentation import blocks
 from support.workflow import (
     ROOT,
     copy_kernels,
@@ -83,6 +84,14 @@ def test_costs_are_those_of_the_run_under_any_prefix(finished, tmp_path):
     snakemake(tmp_path, *options)
     costs = pd.read_csv(tmp_path / "rough/results/tables/rule_costs.csv").set_index("rule")["jobs"]
     assert costs.to_dict() == expected.drop("compile_kernels").to_dict()
+
+
+def test_module_of_the_documentation_is_planned(tmp_path):
+    page = ROOT / "docs/reproduce.md"
+    (text,) = (block.text for block in blocks(page) if block.text.startswith("module viscorough:"))
+    (tmp_path / "viscorough").symlink_to(ROOT)
+    (tmp_path / "Snakefile").write_text(text)
+    assert plan(tmp_path, "--", "rough_figure_1") == {"rough_generate_examples": 1, "rough_plot_surfaces": 1}
 
 
 def test_the_study_comes_from_the_checkout_of_the_workflow(tmp_path):

@@ -2,13 +2,17 @@
 
 import base64
 import re
+from html import unescape
 from itertools import pairwise
 
+import numpy as np
 import pandas as pd
 import pytest
 
+from support.code_blocks import run_python, run_shell
 from support.page import BROWSER, Page, number_in, opened
 from support.workflow import FIGURES, ROOT, TEST, jobs, snakemake
+from viscorough.surfaces import self_affine_disc
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.verdicts.claims import of_paper, overall
 
@@ -42,6 +46,33 @@ def test_every_image_is_embedded_and_described(finished_once, page):
         assert base64.b64decode(content, validate=True).startswith(b"\x89PNG")
         assert len(image["alt"]) > 40
         assert int(image["width"]) > 100
+
+
+def test_code_on_the_page_runs(html, tmp_path, monkeypatch):
+    """Lines for Python and for the command line, on the heights that they name."""
+    monkeypatch.chdir(tmp_path)
+    np.save("heights.npy", self_affine_disc(0.7, 33, rms=1e-7, diameter=33e-6, seed=1).heights)
+    blocks = [unescape(text) for text in re.findall(r"<pre><code>(.*?)</code></pre>", html, re.DOTALL)]
+    assert len(blocks) == html.count("<pre") == 2
+    for text in blocks:
+        if text.startswith("import "):
+            run_python(text, "results/index.html", 0, {})
+        else:
+            run_shell(text)
+    lines = [unescape(line) for line in re.findall(r"<code>(viscorough \w+ [^<]*)</code>(?!</pre>)", html)]
+    assert len(lines) >= 1
+    for line in lines:
+        run_shell(line)
+
+
+def test_commands_on_page_and_in_article_exist(html):
+    """The article shows no block of code, which a test would have to run."""
+    article = (ROOT / "workflow/article/article.typ.jinja").read_text(encoding="utf-8")
+    assert "```" not in article
+    commands = re.findall(r"<code>(make [\w -]+)</code>", html) + re.findall(r"`(make [\w -]+)`", article)
+    assert len(set(commands)) > 3
+    for command in commands:
+        run_shell(command)
 
 
 def test_nothing_comes_from_elsewhere(html, page):

@@ -1,0 +1,41 @@
+"""Blocks of code of a page, run in the working directory."""
+
+import contextlib
+import io
+import re
+import shlex
+
+from support.documentation import MAKEFILES
+from viscorough.cli import main
+
+
+def run_python(text, page, line, names):
+    """Run a block of Python at a line of a page; names : global names, which the blocks of a page share."""
+    exec(compile("\n" * line + text, page, "exec"), names)
+
+
+def run_command(line):
+    """Run a line of the command line of viscorough, and return what it prints."""
+    command, *arguments = shlex.split(line, comments=True)
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        assert (command, main(arguments)) == ("viscorough", 0), line
+    return printed.getvalue()
+
+
+def run_console(text):
+    """Run the lines that start with "$"; what they print must match the lines below, where ... stands for any text."""
+    for line, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
+        printed = run_command(line)
+        pattern = ".*".join(re.escape(piece) for piece in expected.split("..."))
+        assert re.fullmatch(pattern, printed), printed
+
+
+def run_shell(text):
+    """Run the lines that call viscorough; those of make need a target, those of pip are not run."""
+    for line in text.splitlines():
+        program, *arguments = shlex.split(line, comments=True)
+        if program == "make":
+            targets = [argument for argument in arguments if "=" not in argument]
+            assert all(re.search(rf"^{target}:", MAKEFILES, re.MULTILINE) for target in targets), line
+        elif program != "pip":
+            run_command(line)

@@ -1,0 +1,106 @@
+"""Every value of every setting with a list of values runs once, at the smallest scale."""
+
+import numpy as np
+import pytest
+import yaml
+
+from support.workflow import ROOT, TEST, merged, read_settings, settings_file, snakemake
+from viscorough.surfaces import self_affine_disc
+
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8"))
+
+
+def scan(name, **preparation):
+    entry = {"name": name, "files": ["scan.npy"], "spacing": [10.0], "unit": "um", "forces": [1e-3]}
+    return entry | {"preparation": preparation}
+
+
+# With those of config/test.yaml, these settings have every value.
+RUNS = {
+    "ensemble": {
+        "figures": {"average": "arithmetic", "rms_convention": "ensemble", "window_rule": "kappa", "gamma": "with"},
+        "media": {
+            "cases": [
+                {"name": "newtonian", "kind": "newtonian", "viscosity": 1e6},
+                {"name": "maxwell", "kind": "maxwell", "shear_modulus": 2.5e6, "viscosity": 1e6},
+                {"name": "kelvin_voigt", "kind": "kelvin_voigt", "shear_modulus": 2.5e3, "viscosity": 1e6},
+                {
+                    "name": "solid",
+                    "kind": "standard_linear_solid",
+                    "instantaneous_modulus": 2.5e5,
+                    "relaxed_modulus": 2.5e4,
+                    "relaxation_time": 4.0,
+                },
+                {
+                    "name": "prony",
+                    "kind": "prony",
+                    "relaxed_modulus": 2.5e4,
+                    "moduli": [1e5, 1e5],
+                    "relaxation_times": [0.1, 10.0],
+                },
+                {"name": "springpot", "kind": "springpot", "modulus": 4e5, "exponent": 0.5},
+            ]
+        },
+        "measured": [
+            scan("untouched", detrend="none", fill="none", flip=False),
+            scan("centred", detrend="mean", fill="harmonic"),
+            scan("flipped", detrend="plane", flip=True),
+            scan("ball", detrend="sphere"),
+        ],
+    },
+    "square": {
+        "figures": {"rms_convention": "square", "window_rule": "lower_half"},
+        "variants": {
+            "cases": [
+                {"name": "random", "corners": False, "amplitudes": "random", "rms_over": "disc"},
+                {"name": "others", "corners": True, "amplitudes": "fixed", "rms_over": "square"},
+            ]
+        },
+        "methods": {"bodies": ["cone"]},
+    },
+    "peak": {
+        "figures": {"rms_convention": "peak", "window_rule": "upper_half"},
+        "surface": {"corners": True, "amplitudes": "fixed", "rms_over": "square"},
+    },
+}
+
+
+def resolved(rule):
+    return SCHEMA["$defs"][rule["$ref"].split("/")[-1]] if "$ref" in rule else rule
+
+
+def values_allowed(rule, key=""):
+    """(key, value) of everything that settings with a list of values, or true and false, may be."""
+    rule = resolved(rule)
+    yield from ((key, value) for value in rule.get("enum", [False, True] if rule.get("type") == "boolean" else []))
+    for name, inner in rule.get("properties", {}).items():
+        yield from values_allowed(inner, f"{key}.{name}")
+    if "items" in rule:
+        yield from values_allowed(rule["items"], f"{key}[]")
+
+
+def values_used(rule, settings, key=""):
+    """(key, value) of such settings in these."""
+    rule = resolved(rule)
+    if "enum" in rule or rule.get("type") == "boolean":
+        yield key, settings
+    for name, inner in rule.get("properties", {}).items():
+        if isinstance(settings, dict) and name in settings:
+            yield from values_used(inner, settings[name], f"{key}.{name}")
+    for entry in settings if "items" in rule else ():
+        yield from values_used(rule["items"], entry, f"{key}[]")
+
+
+def test_no_value_is_left_out():
+    small = merged(read_settings("config"), read_settings("test"))
+    runs = [small, *(merged(small, changed) for changed in RUNS.values())]
+    assert set(values_allowed(SCHEMA)) == {value for run in runs for value in values_used(SCHEMA, run)}
+    assert len(set(values_allowed(SCHEMA))) > 35
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_values_run_to_the_end(finished, name):
+    heights = self_affine_disc(0.6, 25, rms=0.5, diameter=250.0, seed=1).heights
+    np.save(finished / "scan.npy", heights)
+    snakemake(finished, *TEST, settings_file(finished, name, **RUNS[name]))
+    assert snakemake(finished, *TEST, f"{name}.yaml", "--dry-run").count("Nothing to be done") == 1

@@ -1,4 +1,4 @@
-"""The blocks of code in README and docs/ run, in the order in which they stand on a page.
+"""The blocks of code in README and docs/ run, in the order of the page.
 
 Those on the page of the results run in tests/workflow/test_page.py, those for workflows in tests/workflow.
 """
@@ -21,7 +21,7 @@ from viscorough_study.run.settings import check_settings
 
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}
 FILES = {"t [": ("force.csv", read_force_history), "kind: ": ("medium.yaml", read_medium)}  # {beginning: name, reader}
-# Blocks that other tests read: what a page is made of, settings (below), and parts of a workflow (tests/workflow).
+# Blocks that other tests read: directives of the website, and settings (below).
 ELSEWHERE = {"{toctree}", "{include}", "{eval-rst}", "yaml"}
 PARTS_OF_WORKFLOWS = ("  tabulate_departures:", "  departures:", "module viscorough:")
 

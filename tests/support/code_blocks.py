@@ -15,7 +15,7 @@ def run_python(text, page, line, names):
 
 
 def run_command(line):
-    """Run a line of the command line of viscorough, and return what it prints."""
+    """Run a command of viscorough, and return its output."""
     command, *arguments = shlex.split(line, comments=True)
     with contextlib.redirect_stdout(io.StringIO()) as printed:
         assert (command, main(arguments)) == ("viscorough", 0), line
@@ -23,7 +23,7 @@ def run_command(line):
 
 
 def run_console(text):
-    """Run the lines that start with "$"; what they print must match the lines below, where ... stands for any text."""
+    """Run the lines that start with "$". Their output must match the lines below, in which ... matches any text."""
     for line, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
         printed = run_command(line)
         pattern = ".*".join(re.escape(piece) for piece in expected.split("..."))
@@ -31,7 +31,7 @@ def run_console(text):
 
 
 def run_shell(text):
-    """Run the lines that call viscorough; those of make need a target, those of pip are not run."""
+    """Run the lines that call viscorough. Lines of make must name targets; lines of pip are left out."""
     for line in text.splitlines():
         program, *arguments = shlex.split(line, comments=True)
         if program == "make":

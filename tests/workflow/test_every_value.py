@@ -15,7 +15,7 @@ def scan(name, **preparation):
     return entry | {"preparation": preparation}
 
 
-# With those of config/test.yaml, these settings have every value.
+# Together with config/test.yaml, these settings have every value.
 RUNS = {
     "ensemble": {
         "figures": {"average": "arithmetic", "rms_convention": "ensemble", "window_rule": "kappa", "gamma": "with"},

@@ -118,7 +118,7 @@ main(["--dry-run", "--quiet"])
 
 @pytest.fixture
 def checkout(tmp_path):
-    """A copy of the project with sources of its own."""
+    """A copy of the project and its sources."""
     copy_project(tmp_path / "copy")
     copy_sources(tmp_path / "copy")
     return tmp_path / "copy"

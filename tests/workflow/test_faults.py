@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import sys
 
+import netCDF4
 import pytest
 
 from support.faults import DAMAGES
@@ -28,6 +29,14 @@ def test_damaged_input_of_a_rule_is_named_and_can_be_made_again(finished):
     snakemake(finished, *TEST, "--", TARGET)
     assert curves.read_bytes() == whole
     assert (finished / TARGET).exists()
+
+
+def test_curve_with_impossible_numbers_is_named(finished):
+    """In a whole file of NetCDF, whose force decreases with the depth."""
+    with netCDF4.Dataset(finished / CURVES, "a") as file:
+        file["force"][:] = file["force"][:][:, ::-1]
+    output = snakemake(finished, *TEST, "--forcerun", "aggregate_curves", "--", TARGET, fails=True)
+    assert re.search("ERROR (.*)", output)[1].startswith(f"ValueError: {CURVES}: ")
 
 
 @pytest.mark.parametrize("kind", ["lines", "discs"])
@@ -82,7 +91,7 @@ def test_module_settings_are_named(tmp_path):
 
 
 def in_read_only(folder, command):
-    """Result of a command in a folder that cannot be written, for root by a mount of its own."""
+    """Result of a command in a folder that cannot be written; root needs a read-only mount."""
     folder.chmod(0o555)
     if os.access(folder, os.W_OK):
         quoted = shlex.quote(str(folder))

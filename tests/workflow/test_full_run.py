@@ -64,6 +64,13 @@ def test_every_job_has_a_log_and_a_benchmark(finished_once):
     assert table["seconds"].is_monotonic_decreasing
 
 
+def test_no_log_holds_a_warning(finished_once):
+    logs = (finished_once / "results/logs").rglob("*.log")
+    lines = [line for path in logs for line in path.read_text().splitlines()]
+    assert any(" INFO " in line for line in lines), "no job has logged"
+    assert [line for line in lines if "Warning" in line or " WARNING " in line] == []
+
+
 def test_timed_jobs_ran_alone(finished_once):
     timed, running, most = ("Cost and error of every method", "Placement of levels: by the package"), {}, 0
     log = (finished_once / "run.log").read_text()

@@ -8,7 +8,7 @@ from viscorough_study.run.seeds import realization_seed
 
 
 def main(surfaces, *, ensembles, seed):
-    """Generate the realizations of a batch; lengths in m.
+    """Generate the realizations of a batch; lengths in the unit of each surface.
 
     ensembles : of `viscorough_study.run.cases.batch_ensembles`; surface : arguments of self_affine_disc
     """

@@ -11,7 +11,7 @@ from viscorough_study.run.job_log import run_job
 
 
 def main(surfaces, curves, *, indentation):
-    """Indent the surfaces in a file; lengths in m.
+    """Indent the surfaces in a file; lengths in the unit of each surface.
 
     indentation : further arguments of `indent_realization`
     """

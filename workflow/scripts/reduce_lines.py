@@ -9,7 +9,7 @@ from viscorough_study.run.seeds import realization_seed
 
 
 def main(curves, *, ensembles, seed, until_x):
-    """Generate and reduce the realizations of a batch up to X = F/(4GhL) = until_x; lengths in m.
+    """Generate and reduce the realizations of a batch up to X = F/(4GhL) = until_x; lengths are dimensionless.
 
     ensembles : of `viscorough_study.run.cases.batch_ensembles`; surface : arguments of SelfAffineLines
     """
@@ -21,7 +21,7 @@ def main(curves, *, ensembles, seed, until_x):
         lengths = surface["length"], lines.spacing, {"line": surface["rms"]}  # every line has the nominal rms height
         for number in range(*ensemble["numbers"]):
             heights = lines.heights_in_any_order(realization_seed(seed, *ensemble["spawn_key"], number))
-            curve = reduce_heights(heights, lines.spacing, until_force=until_force, length_unit="m")
+            curve = reduce_heights(heights, lines.spacing, until_force=until_force)
             members.append((curve, Realization(ensemble["name"], number, surface["hurst"], *lengths), until_x))
     settings = {"seed": seed, "until_x": until_x, "ensembles": without_numbers(ensembles)}
     netcdf.write(batch_of_curves(members, settings), curves)

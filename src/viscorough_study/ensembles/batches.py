@@ -18,7 +18,7 @@ RMS = {
 
 
 class Realization(NamedTuple):
-    """One surface of an ensemble; lengths in m.
+    """One surface of an ensemble; lengths in the unit of its indenter: m, or "1" if they are dimensionless.
 
     ensemble : its name; number : of the realization
     hurst : Hurst exponent, nan of a measured surface; diameter : L; spacing : between columns, or points of a line
@@ -34,19 +34,19 @@ class Realization(NamedTuple):
 
 
 def batch_of_curves(members, settings):
-    """Content of a NetCDF file; lengths in m.
+    """Content of a NetCDF file; lengths in the unit of the curves.
 
     members : (LoadingCurve, Realization, X up to which the curve was computed) of every surface; values common to all
         surfaces are stored once
     settings : of the curves, for the attribute settings
     """
     curves, realizations, until_x = zip(*members, strict=True)
-    content = stack_curves(curves)
+    content, unit = stack_curves(curves), curves[0].length_unit
     ensemble, number, hurst, diameter, spacing, rms = zip(*realizations, strict=True)
-    stored = {f"rms_{name}": (np.array([heights[name] for heights in rms]), RMS[name], "m") for name in rms[0]}
+    stored = {f"rms_{name}": (np.array([heights[name] for heights in rms]), RMS[name], unit) for name in rms[0]}
     stored |= {
-        "spacing": (_single_if_equal(spacing), "spacing of the grid", "m"),
-        "diameter": (_single_if_equal(diameter), "diameter of the indenter", "m"),
+        "spacing": (_single_if_equal(spacing), "spacing of the grid", unit),
+        "diameter": (_single_if_equal(diameter), "diameter of the indenter", unit),
         "hurst": (_single_if_equal(hurst), "Hurst exponent", "1"),
         "until_x": (_single_if_equal(until_x), "X that the curve was to reach", "1"),
         "number": (np.asarray(number), "number of the realization", "1"),

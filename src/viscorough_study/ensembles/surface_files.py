@@ -35,7 +35,7 @@ def write_surfaces(ensembles, path):
 def _define(group, realization, indenter):
     """Define the variables of a group, and write the values common to all its realizations."""
 
-    def variable(name, dimensions, long_name, units="m", **kind):
+    def variable(name, dimensions, long_name, units=indenter.length_unit, **kind):
         stored = group.createVariable(name, kind.pop("kind", "f8"), dimensions, **kind)
         stored.setncatts({"long_name": long_name, "units": units})
         return stored
@@ -66,5 +66,5 @@ def read_surfaces(path):
             for i, number in enumerate(group["number"][...].tolist()):
                 rms = {name: group[f"rms_{name}"][i].item() for name in RMS if f"rms_{name}" in group.variables}
                 realization = Realization(group.title, number, hurst, diameter, spacing, rms)
-                indenter = Indenter(group["heights"][i], spacing, row_spacing, length_unit="m")
+                indenter = Indenter(group["heights"][i], spacing, row_spacing, group["heights"].units)
                 yield json.loads(group.settings), realization, indenter

@@ -22,7 +22,7 @@ POOLS = {
     "measured": ("disc",),
 }
 SURFACE_CONVENTIONS = {"period", "corners", "amplitudes"}  # settings of surfaces that the paper leaves open
-UNIT_DISC = {"rms": 1.0, "diameter": 1.0}
+UNIT_DISC = {"rms": 1.0, "diameter": 1.0, "length_unit": "1"}
 UNIT_LINE = {"rms": 1.0, "length": 1.0}
 
 
@@ -50,7 +50,7 @@ def _paper_discs(settings):
     for hurst in discs["hurst"]:
         for combination in sorted(discs["combinations"], key=lambda combination: combination["number"] // 10):
             number, lengths = combination["number"], {name: combination[name] for name in ("rms", "diameter")}
-            surface = settings["surface"] | {"hurst": hurst} | lengths
+            surface = settings["surface"] | {"hurst": hurst, "length_unit": "m"} | lengths
             ensemble = _ensemble(f"{hurst_id(hurst)}_c{number}", seeds.disc_key(hurst, number), surface, discs)
             name = hurst_id(hurst) + (f"_{number // 10}0" if number >= 10 else "")
             case = cases.setdefault(name, shared | base | {"ensembles": []})

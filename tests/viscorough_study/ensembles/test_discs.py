@@ -11,7 +11,7 @@ from viscorough_study.run.seeds import realization_seed
 
 @pytest.mark.parametrize("rms_over", ["disc", "square"])
 def test_both_rms_heights_are_those_of_the_surface(rms_over):
-    surface = {"hurst": 0.4, "rms": 2e-6, "diameter": 1e-2, "period": 2.0, "rms_over": rms_over}
+    surface = {"hurst": 0.4, "rms": 2e-6, "diameter": 1e-2, "period": 2.0, "rms_over": rms_over, "length_unit": "m"}
     seed = realization_seed(1, 1, 0)
     disc, rms = ensemble_disc(33, surface, seed)
     assert rms["disc"] == pytest.approx(np.nanstd(disc.heights), rel=1e-12)
@@ -25,7 +25,7 @@ def test_both_rms_heights_are_those_of_the_surface(rms_over):
 @pytest.mark.parametrize("across", [16, 17])
 def test_rms_height_of_the_ensemble_is_that_of_the_spectrum(across):
     """In its unit the mean square height over the square is 1 on average; with fixed amplitudes, in each."""
-    surface = {"hurst": 0.9, "rms": 1.0, "diameter": 1.0, "rms_over": "disc"}
+    surface = {"hurst": 0.9, "rms": 1.0, "diameter": 1.0, "rms_over": "disc", "length_unit": "1"}
 
     def squares(amplitudes, number):
         drawn = [ensemble_disc(across, surface | {"amplitudes": amplitudes}, seed)[1] for seed in range(number)]

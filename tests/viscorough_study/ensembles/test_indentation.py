@@ -1,5 +1,7 @@
 """Curves of realizations, as the scripts make them, and the stiffness of flat discs."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -44,6 +46,18 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
     assert not np.array_equal(*list(curves[0].values())[:2])
 
 
+def test_dimensionless_discs_have_no_unit_and_give_no_warning(tmp_path):
+    """Their heights are as large as their diameter, which would be a mistake in metres."""
+    settings = read_settings("config")
+    (ensemble,) = cases.batch_ensembles(cases.disc_cases(settings)["h04000_roll_off"], "0000-0001")
+    with warnings.catch_warnings(action="error"):
+        curves_of("discs", tmp_path, [ensemble | {"elements": 17}])
+    variables = netcdf.read(tmp_path / "curves.nc").variables
+    assert np.nanmax(variables["depth"].values) > variables["diameter"].values, "the depth is that of ordinary discs"
+    lengths = ("depth", "stiffness", "spacing", "diameter", "rms_disc", "rms_square")
+    assert {variables[name].attributes["units"] for name in lengths} == {"1"}
+
+
 def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
     settings = read_settings("config")
     ensembles = cases.batch_ensembles(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
@@ -78,7 +92,7 @@ def test_stiffness_of_a_flat_disc_approaches_that_of_the_punch_at_first_order():
 
 def test_a_curve_is_that_of_the_surface_itself(tmp_path):
     """Bit by bit: nothing of a surface is lost in its file. A measured one has only the rms height over itself."""
-    surface = {"hurst": 0.5, "rms": 1.7, "diameter": 33.0, "period": 1.5, "rms_over": "disc"}
+    surface = {"hurst": 0.5, "rms": 1.7, "diameter": 33.0, "period": 1.5, "rms_over": "disc", "length_unit": "m"}
     disc, rms = ensemble_disc(17, surface, 3)
     for known in (rms, {"disc": rms["disc"]}):
         realization = Realization("disc", 0, 0.5, 33.0, disc.spacing, known)

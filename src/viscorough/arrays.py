@@ -1,12 +1,28 @@
-"""Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; samples over time."""
+"""Numbers and arrays that functions are given and objects keep, and samples over time.
 
+Every public function takes plain numbers through `real_number`, `real_numbers` or `whole_number`, and numbers that may
+have a unit through viscorough.units, which converts them first. Arrays that an object keeps are copies that cannot be
+changed; their masked entries are nan.
+"""
+
+import contextlib
 import dataclasses
-from typing import Any, NamedTuple, cast
+import functools
+import math
+from collections.abc import Iterator
+from numbers import Integral, Real
+from typing import Any, NamedTuple, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscorough.types import Array
+from viscorough.types import Array, Mask, Numbers
+
+_PLAIN = {float, int, bool, str, complex, type(None), np.float64, np.ndarray}  # types without units, for speed
+_KINDS = {"b": "truth values", "c": "complex numbers", "U": "texts", "S": "texts", "m": "times", "M": "dates"}
+_NO_NUMBERS = (bool, np.timedelta64)  # although Python counts them as whole numbers
+_BEYOND = "a number beyond double precision; a number that double precision holds is needed"
+_IMPULSE_ROUNDING = 1e-9  # relative to the last impulse; more than the rounding of a sum over a million samples
 
 
 def read_only(values: Any) -> NDArray[Any]:
@@ -25,11 +41,118 @@ def read_only(values: Any) -> NDArray[Any]:
     return array
 
 
+def unit_attribute(value: Any) -> str:
+    """Unit of a quantity of pint or of a similar library, which has an attribute `units` or `unit`; "" for others."""
+    if type(value) is np.ndarray and value.dtype.kind == "O":
+        value = list(value.flat)
+    if isinstance(value, list | tuple):
+        return next(filter(None, map(unit_attribute, value)), "")
+    if type(value) in _PLAIN:
+        return ""
+    unit = getattr(value, "units", getattr(value, "unit", ""))
+    return "" if unit is None or callable(unit) else str(unit)
+
+
+@contextlib.contextmanager
+def named(name: str) -> Iterator[None]:
+    """Turn errors of making an array into a ValueError that starts with the name."""
+    try:
+        yield
+    except ValueError:
+        raise ValueError(f"{name}: rows of different lengths; rows of one length are needed") from None
+    except OverflowError:
+        raise ValueError(f"{name}: {_BEYOND}") from None
+
+
+def real_numbers(name: str, values: Any) -> Array:
+    """Return the values as a read-only array of double precision; masked entries are nan.
+
+    values : real numbers of any type and shape, which may be nan or infinite
+
+    Raises ValueError, which starts with the name, for complex numbers, truth values, texts, other objects and
+    quantities with a unit, for rows of different lengths, and for numbers beyond double precision.
+    """
+    if unit := unit_attribute(values):
+        raise ValueError(f"{name}: has the unit {unit}; plain numbers are needed")
+    with named(name):
+        array = read_only(values)
+        if array.dtype.kind == "O" and all(isinstance(v, Real) and not isinstance(v, _NO_NUMBERS) for v in array.flat):
+            array = np.array([float(v) for v in array.flat]).reshape(array.shape)
+    if array.dtype.kind not in "iuf" or _holds_truth_value(values):
+        found = _KINDS.get(array.dtype.kind, "something else than real numbers")
+        raise ValueError(f"{name}: {found if array.ndim else shown(values)}; real numbers are needed")
+    with np.errstate(over="ignore", under="ignore"):
+        converted = array.astype(float, copy=False)
+    if array.itemsize > 8 and ((np.isinf(converted) & np.isfinite(array)) | ((converted == 0) & (array != 0))).any():
+        raise ValueError(f"{name}: {_BEYOND}")
+    return read_only(converted)
+
+
+def real_number(name: str, value: Any) -> float:
+    """Return the value as a finite float. Raises ValueError as `real_numbers`, and for several values, nan and inf."""
+    value = _float(name, value)
+    if not math.isfinite(value):
+        raise ValueError(f"{name}: {value}; a finite number is needed")
+    return value
+
+
+def _float(name: str, value: Any) -> float:
+    """The value as a float, which may be nan or infinite. Raises ValueError as `real_number`."""
+    if type(value) is float:
+        return value
+    array = real_numbers(name, value)
+    if array.ndim:
+        raise ValueError(f"{name}: an array of shape {array.shape}; one number is needed")
+    return float(array)
+
+
+def float_or_array(name: str, values: Any) -> Numbers:
+    """Return finite real numbers for a formula: a float, or an array. Raises ValueError as `real_numbers`."""
+    numbers = real_numbers(name, values)
+    if not np.isfinite(numbers).all():
+        raise ValueError(f"{name}: {shown(values)}; finite numbers are needed")
+    return numbers if numbers.ndim else float(numbers)
+
+
+def whole_number(name: str, value: Any, at_least: int, at_most: float = 2**63 - 1) -> int:
+    """Return the value as an int. Raises ValueError, which starts with the name, unless it is one in this range."""
+    if not is_whole(value) or value < at_least:
+        raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {shown(value)}")
+    if value > at_most:
+        raise ValueError(f"{name}: must be a whole number of at most {at_most}, not {shown(value)}")
+    return int(value)
+
+
+def is_whole(value: Any) -> bool:
+    """Return True for whole numbers of any type; truth values and durations are none."""
+    return isinstance(value, Integral) and not isinstance(value, _NO_NUMBERS)
+
+
+def fraction(name: str, value: Any) -> float:
+    """Return the value as a float. Raises ValueError, which starts with the name, unless it is in (0, 1]."""
+    number = real_number(name, value)
+    if not 0 < number <= 1:
+        raise ValueError(f"{name} must lie in (0, 1], not {number!r}")
+    return number
+
+
+def shown(value: Any) -> str:
+    """A value in a message: its repr on one line, at most 60 characters of it."""
+    try:
+        return " ".join(repr(value).split())[:60]
+    except ValueError:  # Python writes no whole number of more than 4300 digits
+        return type(value).__name__
+
+
 class ReadOnlyArrays:
     """Base of frozen dataclasses: fields declared as arrays become read-only ones, and are compared as a whole.
 
-    Where a class has a text (`__str__`), notebooks show it, too, in place of all numbers of the arrays.
+    Fields declared as arrays, floats or ints take real numbers only (ValueError). Arrays stay read-only in copies and
+    through pickling. If a class has a text (`__str__`), notebooks show this text instead of all numbers of the arrays.
     """
+
+    # Without this, numpy compares an array with such an object entry by entry.
+    __array_ufunc__ = None
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
@@ -46,11 +169,61 @@ class ReadOnlyArrays:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(cast(Any, self)):
-            if field.type is np.ndarray:
-                object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
+            value, name = getattr(self, field.name), f"{type(self).__name__}: {field.name}"
+            kinds: Any = (field.type,) if field.type in _CONVERSIONS else get_args(field.type)
+            for kind in kinds if value is not None else ():
+                if kind in _CONVERSIONS:
+                    object.__setattr__(self, field.name, _CONVERSIONS[kind](name, value))
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for name, value in state.items():
+            object.__setattr__(self, name, value)
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
 
 
-class ForceHistory(NamedTuple):
+def _kept_numbers(name: str, values: Any) -> NDArray[Any]:
+    """Return a read-only array. Whole numbers and single precision keep their type, others become double precision."""
+    numbers = real_numbers(name, values)
+    array = read_only(values)
+    return array if array.dtype.kind in "iu" or array.dtype == np.float32 else numbers
+
+
+def _truth_values(name: str, values: Any) -> Mask:
+    """The values as a read-only array of truth values."""
+    array = read_only(values)
+    if array.dtype != bool:
+        raise ValueError(f"{name}: {array.dtype}; truth values are needed")
+    return array
+
+
+class ReadOnlyTuple(tuple[Any, ...]):
+    """Base of named tuples of arrays: arrays become read-only, also in copies, and are compared as a whole.
+
+    A result inherits from this class first and then from a NamedTuple of its fields.
+    """
+
+    __slots__ = ()
+    __array_ufunc__ = None
+
+    def __new__(cls, *arrays: Any, **named: Any) -> Any:
+        made = super().__new__(cls, *arrays, **named)  # of the named tuple
+        return tuple.__new__(cls, [read_only(array) for array in made])
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and all(map(_are_equal, self, cast(Any, other)))
+
+    def __ne__(self, other: object) -> bool:  # a tuple has its own
+        return not self == other
+
+
+class _ForceHistory(NamedTuple):
+    times: np.ndarray
+    force: np.ndarray
+    impulse: np.ndarray
+
+
+class ForceHistory(ReadOnlyTuple, _ForceHistory):
     """A force over time, linear between samples, and its integral; read-only arrays of shape (samples,).
 
     Attributes
@@ -62,6 +235,11 @@ class ForceHistory(NamedTuple):
     impulse : array
         ∫F dt up to t.
 
+    Raises
+    ------
+    ValueError
+        For times that decrease, for a negative force, and for an impulse that is not the integral of the force.
+
     Examples
     --------
     >>> import viscorough
@@ -70,9 +248,20 @@ class ForceHistory(NamedTuple):
     [0.0, 1.0]
     """
 
-    times: np.ndarray
-    force: np.ndarray
-    impulse: np.ndarray
+    __slots__ = ()
+
+    def __new__(cls, times: Any, force: Any, impulse: Any) -> Any:
+        times = increasing("ForceHistory: times", times, steps="the force")
+        force = samples("ForceHistory: force", force, times)
+        impulse = samples("ForceHistory: impulse", impulse, times)
+        exact = integral(times, force, times)
+        # A constant force acts from time 0 on, also before the first sample.
+        before = 0.0 if impulse[0] == 0 else force[0] * times[0]
+        if (wrong := ~(abs(impulse - before - exact) <= _IMPULSE_ROUNDING * impulse[-1])).any():
+            where = int(np.argmax(wrong))
+            text = f"sample {where} is {impulse[where]:g} and the integral of the force {exact[where] + before:g}"
+            raise ValueError(f"ForceHistory: impulse: {text}; viscorough.impulses computes it from force and times")
+        return super().__new__(cls, times, force, impulse)
 
 
 def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:
@@ -80,9 +269,8 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
 
     steps : quantity that steps at a time given twice, for the message; None if no value may be given twice
     """
-    values = read_only(values)
-    if values.dtype.kind in "iuf" and values.ndim == 1 and values.size and np.isfinite(values).all():
-        values = values.astype(float)
+    values = real_numbers(name, values)
+    if values.ndim == 1 and values.size and np.isfinite(values).all():
         rises = np.diff(values)
         apart = rises if steps is None else rises[1:] + rises[:-1]  # from the one before, or the one before that
         if (rises >= 0).all() and (apart > 0).all() and (values[0] > 0 or not above_zero):
@@ -96,7 +284,7 @@ def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "")
 
     reason : why it must be, for the message
     """
-    values = read_only(values).astype(float)
+    values = real_numbers(name, values)
     if values.shape != times.shape:
         raise ValueError(f"{name}: samples of shape {values.shape}; allowed: one per time, shape {times.shape}")
     if not (allowed := np.isfinite(values) & (values >= 0)).all():
@@ -129,11 +317,30 @@ def integral(times: Array, values: Array, until: Any) -> Array:
     return at_samples[place] + after * (values[place] + 0.5 * slopes[place] * after)
 
 
+def _holds_truth_value(values: Any) -> bool:
+    """Whether a truth value is in a list, or in an array of objects, which numpy would count as 0 or 1."""
+    if type(values) is np.ndarray and values.dtype.kind == "O":
+        values = list(values.flat)
+    if isinstance(values, list | tuple):
+        return any(map(_holds_truth_value, values))
+    return isinstance(values, bool | np.bool_)
+
+
 def _are_equal(one: Any, other: Any) -> bool:
-    """Whether two values are equal; nan equals nan in arrays."""
-    if not isinstance(one, np.ndarray):
-        return one == other
-    return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+    """Whether two values of a field are equal; nan equals nan."""
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return np.array_equal(one, other, equal_nan=one.dtype.kind == other.dtype.kind == "f")
+    if isinstance(one, float) and isinstance(other, float):
+        return one == other or (math.isnan(one) and math.isnan(other))
+    return one is other or (type(one) is type(other) and bool(one == other))
+
+
+_CONVERSIONS: dict[Any, Any] = {
+    np.ndarray: _kept_numbers,
+    Mask: _truth_values,
+    float: _float,
+    int: functools.partial(whole_number, at_least=0),
+}
 
 
 def _cannot_change(array: NDArray[Any] | None) -> bool:

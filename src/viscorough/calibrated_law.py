@@ -30,6 +30,7 @@ from importlib import resources
 
 import numpy as np
 
+from viscorough.arrays import real_number, real_numbers
 from viscorough.reference import one_element_stiffness
 from viscorough.types import Array, Numbers
 
@@ -133,7 +134,7 @@ class PenetrationLaw:
 
     def _inside(self, x: Numbers) -> Array:
         """X as an array. Raises ValueError outside the range of the law."""
-        x = np.asarray(x, dtype=float)
+        x = real_numbers("X of the law", x)
         if not np.all((x >= self.x_low) & (x <= self.x_high)):
             raise ValueError(
                 f"X of the law for H = {self.hurst:g}: from {x.min():.3g} to {x.max():.3g}; "
@@ -192,6 +193,7 @@ def penetration_law(hurst: float) -> PenetrationLaw:
     """
     table, beyond = calibration(), interface_calibration()
     low, high = table["hurst"][[0, -1]]
+    hurst = real_number("hurst of the penetration law", hurst)
     if not low <= hurst <= high:
         raise ValueError(f"hurst of the penetration law: must be from {low:g} to {high:g}, not {hurst!r}")
 
@@ -205,7 +207,7 @@ def penetration_law(hurst: float) -> PenetrationLaw:
         return float(below * (above / below) ** (place - first))  # exactly the same value where both ends have it
 
     return PenetrationLaw(
-        hurst=float(hurst),
+        hurst=hurst,
         beta=linear("beta"),
         beta_interval=(linear("beta_low"), linear("beta_high")),
         zeta=linear("zeta"),

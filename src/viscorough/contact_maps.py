@@ -5,16 +5,22 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import ReadOnlyArrays
+from viscorough.arrays import ReadOnlyArrays, ReadOnlyTuple, real_number
 from viscorough.saved import Saved
 from viscorough.summaries import si_unit, unit_power, with_unit
+from viscorough.types import Mask
 from viscorough.units import square_metres
 
 # Mean area by which a whole element exceeds the contact, per change of contact between two elements, over dx dy.
 EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 
 
-class Patches(NamedTuple):
+class _Patches(NamedTuple):
+    labels: np.ndarray
+    areas: np.ndarray
+
+
+class Patches(ReadOnlyTuple, _Patches):
     """The contact patches of a map: connected regions of elements in contact.
 
     Attributes
@@ -25,8 +31,7 @@ class Patches(NamedTuple):
         Of the patches in this order, shape (n,) [length²].
     """
 
-    labels: np.ndarray
-    areas: np.ndarray
+    __slots__ = ()
 
 
 @dataclass(frozen=True)
@@ -73,7 +78,7 @@ class Contact(ReadOnlyArrays, Saved):
 
     pressure: np.ndarray
     gap: np.ndarray
-    contact: np.ndarray
+    contact: Mask
     depth: float
     force: float
     stiffness: float
@@ -83,6 +88,16 @@ class Contact(ReadOnlyArrays, Saved):
     row_spacing: float
     length_unit: str = "1"
     shear_modulus: float | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("depth", "force", "stiffness", "residual", "tolerance", "spacing", "row_spacing"):
+            real_number(f"Contact: {name}", getattr(self, name))
+        if self.shear_modulus is not None:
+            real_number("Contact: shear_modulus", self.shear_modulus)
+        if not self.pressure.shape == self.gap.shape == self.contact.shape:
+            shapes = f"{self.pressure.shape}, {self.gap.shape} and {self.contact.shape}"
+            raise ValueError(f"Contact: pressure, gap and contact have the shapes {shapes}; one shape is needed")
 
     def __str__(self) -> str:
         """What it is; depth, force and stiffness; contact and pressure."""

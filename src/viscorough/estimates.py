@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscorough.arrays import ReadOnlyArrays, increasing
+from viscorough.arrays import ReadOnlyArrays, increasing, real_numbers
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
 from viscorough.summaries import span
@@ -98,7 +98,7 @@ def estimate(
     """
     law, medium = penetration_law(hurst), medium_of(medium)
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
-    times = increasing("times", np.atleast_1d(times), above_zero=True)
+    times = increasing("times", np.atleast_1d(real_numbers("times", times)), above_zero=True)
     times, creep, rate = creep_and_rate(force, medium, times)
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         x = creep / (4 * rms * diameter)

@@ -1,13 +1,14 @@
 """Rigid indenters: height maps and lines, with the spacing of their points."""
 
 import math
+import sys
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, read_only
+from viscorough.arrays import ReadOnlyArrays, is_whole, named, read_only, real_numbers, shown, unit_attribute
 from viscorough.saved import Saved
 from viscorough.summaries import with_unit
 from viscorough.types import Array
@@ -58,7 +59,19 @@ class Indenter(ReadOnlyArrays, Saved):
     length_unit: str = "1"
 
     def __post_init__(self) -> None:
-        heights = read_only(self.heights)
+        unit = self.length_unit
+        if not isinstance(unit, str) or not unit.strip():
+            raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {shown(unit)}")
+        if unit_attribute(self.heights):
+            object.__setattr__(self, "heights", units.numbers(self.heights, unit, unit, "indenter heights"))
+        with named("indenter heights"):
+            heights = read_only(self.heights)
+        if heights.dtype.kind == "O" or not isinstance(self.heights, np.ndarray):
+            numbers = real_numbers("indenter heights", self.heights)
+            if heights.dtype.kind == "O":
+                if any(is_whole(height) and abs(height) > _LARGEST_WHOLE for height in heights.flat):
+                    raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
+                heights = numbers
         if heights.dtype.kind not in "fiu":
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
         if heights.ndim not in (1, 2):
@@ -80,13 +93,11 @@ class Indenter(ReadOnlyArrays, Saved):
         if heights.ndim == 1 and np.isnan(heights.min()):
             raise ValueError("indenter heights: must not be nan on a line")
         object.__setattr__(self, "heights", heights)
-        spacing, row_spacing = _spacings(self.spacing, self.row_spacing)
+        spacing, row_spacing = _spacings(self.spacing, self.row_spacing, unit)
         if heights.ndim == 1 and row_spacing != spacing:
             raise ValueError("indenter row_spacing: a line has no rows, only one spacing is allowed")
         object.__setattr__(self, "spacing", spacing)
         object.__setattr__(self, "row_spacing", row_spacing)
-        if not isinstance(self.length_unit, str) or not self.length_unit.strip():
-            raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {self.length_unit!r}")
 
     def __str__(self) -> str:
         """What it is; distances of its points; the difference of its heights."""
@@ -124,13 +135,15 @@ class Indenter(ReadOnlyArrays, Saved):
     @property
     def rms_slope(self) -> float:
         """Root mean square of the slope `|∇h|` [1], from differences between neighbours; 0 for a single element."""
-        squares = 0.0
-        with np.errstate(over="ignore"):  # a slope that overflows is infinite
+        slopes = [0.0]
+        with np.errstate(over="ignore", under="ignore"):  # a slope that overflows is infinite
             for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):
-                difference = np.diff(self.heights.astype(float), axis=axis) / spacing
-                if not np.isnan(difference).all():
-                    squares += np.nanmean(difference**2)
-        return float(np.sqrt(squares))
+                slope = np.abs(np.diff(self.heights.astype(float), axis=axis)) / spacing
+                largest = np.fmax.reduce(slope, axis=None, initial=0.0)
+                # Squares are of the slope over the largest: those of slopes below 1e-162 would be 0.
+                relative = slope / largest if 0 < largest < np.inf else np.ones(1)
+                slopes.append(largest * np.sqrt(np.nanmean(relative**2)))
+        return float(np.hypot.reduce(slopes))
 
     @property
     def initial_gap(self) -> Array:
@@ -138,12 +151,18 @@ class Indenter(ReadOnlyArrays, Saved):
         return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
 
 
-def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
-    """Both spacings (dx, dy) as floats."""
+def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, float]:
+    """Both spacings (dx, dy) as floats, in the unit of length."""
+    if unit_attribute(spacing):
+        spacing = units.numbers(spacing, length_unit, length_unit, "indenter spacing")
+    if unit_attribute(row_spacing):
+        row_spacing = units.numbers(row_spacing, length_unit, length_unit, "indenter row_spacing")
     if row_spacing is None and np.shape(spacing) == (2,):
         spacing, row_spacing = spacing
     spacing = positive("indenter spacing", spacing)
     row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
+    if min(spacing, row_spacing) < sys.float_info.min:
+        raise ValueError(f"indenter spacing: {spacing:g} is too small to represent; a smaller unit of length is needed")
     largest = LARGEST_ASPECT * (1 + 1e-9)  # spacings that were computed may miss it by rounding
     if not 1 / largest <= row_spacing / spacing <= largest:
         raise ValueError(
@@ -153,15 +172,15 @@ def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
     return spacing, row_spacing
 
 
-def check_indenter(caller: str, indenter: object, dimensions: int) -> None:
+def check_indenter(caller: str, indenter: object, dimensions: int | None = None) -> None:
     """Raise TypeError, which starts with the caller, for anything but an Indenter, such as an array of heights.
 
-    dimensions : of the heights, 2 for a map, 1 for a line; ValueError is raised for others
+    dimensions : of the heights, 2 for a map, 1 for a line, None for either; ValueError is raised for others
     """
     if not isinstance(indenter, Indenter):
         text = "an Indenter is needed, as viscorough.Indenter(heights, spacing) or viscorough.read_heights makes it"
         raise TypeError(f"{caller}: {type(indenter).__name__}; {text}")
-    if indenter.heights.ndim != dimensions:
+    if dimensions is not None and indenter.heights.ndim != dimensions:
         needed = {1: "one-dimensional (maps are for indent)", 2: "two-dimensional (lines are for reduce)"}[dimensions]
         raise ValueError(f"{caller}: the indenter's heights must be {needed}")
 
@@ -169,9 +188,9 @@ def check_indenter(caller: str, indenter: object, dimensions: int) -> None:
 def positive(name: str, value: float) -> float:
     """The value as a float. Raises ValueError with the name unless it is finite and above 0."""
     try:
-        number = float(value)
+        number = float(real_numbers(name, value))
     except (TypeError, ValueError):
-        raise ValueError(f"{name}: must be a positive number, not {value!r}") from None
-    if not (np.isfinite(number) and number > 0):
+        raise ValueError(f"{name}: must be a positive number, not {shown(value)}") from None
+    if not (math.isfinite(number) and number > 0):
         raise ValueError(f"{name}: must be positive and finite, not {number}")
     return number

@@ -15,6 +15,7 @@ from ducc0 import fft
 from numpy.typing import DTypeLike
 
 from viscorough import line_waves, memory, spectrum
+from viscorough.arrays import whole_number
 from viscorough.indenter import positive
 from viscorough.types import Array, Integers, Seed
 
@@ -44,7 +45,7 @@ class SelfAffineLines:
         amplitudes: str = "random",
         dtype: DTypeLike = np.float32,
     ) -> None:
-        self._points = points = spectrum.whole("points", points, at_least=2)
+        self._points = points = whole_number("points", points, at_least=2)
         self._exponent = spectrum.hurst_exponent(hurst) + 0.5
         self._rms, length = positive("rms", rms), positive("length", length)
         self._roll_off = spectrum.roll_off(roll_off_wavelength, roll_off_level, period=1)

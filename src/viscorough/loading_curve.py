@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.arrays import ReadOnlyArrays, increasing
+from viscorough import units
+from viscorough.arrays import ReadOnlyArrays, increasing, read_only
 from viscorough.saved import Saved
 from viscorough.summaries import span, unit_power
 from viscorough.types import Array, Pair
@@ -79,9 +80,19 @@ class LoadingCurve(ReadOnlyArrays, Saved):
     def __post_init__(self) -> None:
         super().__post_init__()
         for name in ("depth", "force"):
-            increasing(f"loading curve: {name}", getattr(self, name), above_zero=True)
-        if not (np.isfinite(self.stiffness).all() and (self.stiffness > 0).all()):
+            values = increasing(f"loading curve: {name}", getattr(self, name), above_zero=True)
+            object.__setattr__(self, name, read_only(values))
+        for name in ("force", "stiffness", "contact_count", "residual"):
+            if (shape := getattr(self, name).shape) != self.depth.shape:
+                text = f"loading curve: {name} has the shape {shape} and depth {self.depth.shape}"
+                raise ValueError(f"{text}; one value for each level is needed")
+            if not np.isfinite(getattr(self, name)).all():
+                raise ValueError(f"loading curve: {name} must be finite")
+        if not (self.stiffness > 0).all():
             raise ValueError("loading curve: stiffness must be finite and positive")
+        if self.elements < 1 or not 0 <= self.tolerance < np.inf:
+            text = f"{self.elements} elements and a tolerance of {self.tolerance:g}"
+            raise ValueError(f"loading curve: {text}; at least 1 and a finite number from 0 on are needed")
 
     def __str__(self) -> str:
         """What it is; the range of depths, forces and stiffnesses; that of the contact fraction."""
@@ -100,6 +111,8 @@ class LoadingCurve(ReadOnlyArrays, Saved):
 
     def normalised(self, rms: float, diameter: float) -> tuple[Array, Array]:
         """X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) for rms height h and diameter L; both of shape (levels,)."""
+        unit = self.length_unit
+        rms, diameter = units.number(rms, unit, unit, "rms"), units.number(diameter, unit, unit, "diameter")
         return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
 
     def at_force(self, force: ArrayLike) -> tuple[Array, Array]:
@@ -122,7 +135,8 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         depth, stiffness : array
             Of the same shape [length].
         """
-        force = np.asarray(force, dtype=float)
+        unit = self.length_unit
+        force = units.numbers(force, unit_power(unit, 2), unit, "force")
         # A force computed back from a level may miss it by rounding.
         for end in (self.force[0], self.force[-1]):
             force = np.where(np.abs(force - end) <= _ROUNDING * end, end, force)
@@ -140,6 +154,13 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         joined = self.contact_count[j] - self.contact_count[j - 1]
         depth[inside], stiffness[inside] = interpolate_between(forces, depths, stiffnesses, joined, force[inside])
         return depth, stiffness
+
+
+def check_curve(caller: str, curve: object) -> None:
+    """Raise TypeError, which starts with the caller, for anything but a LoadingCurve, such as a path or an Indenter."""
+    if not isinstance(curve, LoadingCurve):
+        text = "a LoadingCurve is needed, as viscorough.indent, reduce or load_curve returns it"
+        raise TypeError(f"{caller}: {type(curve).__name__}; {text}")
 
 
 def interpolate_between(

@@ -12,9 +12,13 @@ import numpy as np
 from ducc0 import fft
 from numpy.typing import NDArray
 
+from viscorough import units
+from viscorough.arrays import fraction, real_numbers
 from viscorough.compilation import njit
 from viscorough.indenter import Indenter, check_indenter
 from viscorough.loading_curve import LoadingCurve
+from viscorough.spectrum import seed_sequence
+from viscorough.summaries import unit_power
 from viscorough.types import Array, Integers, Seed
 
 _BINS_PER_OCTAVE = 64  # a power of 2; bins are 0.8 to 1.6 % wide
@@ -87,10 +91,12 @@ def reduce_heights(
 
     Raises ValueError as `reduce`, and for heights that are not finite.
     """
-    if not 0 < until_fraction <= 1:
-        raise ValueError(f"reduce: until_fraction must lie in (0, 1], not {until_fraction!r}")
-    if until_force is not None and not 0 < until_force < np.inf:
-        raise ValueError(f"reduce: until_force must be positive and finite, not {until_force!r}")
+    until_fraction = fraction("reduce: until_fraction", until_fraction)
+    if until_force is not None:
+        area = unit_power(length_unit, 2)
+        until_force = units.number(until_force, area, length_unit, "reduce: until_force")
+        if not until_force > 0:
+            raise ValueError(f"reduce: until_force must be positive, not {until_force!r}")
 
     depth, force, stiffness, contact_count = _levels(heights, spacing)
     if until_force is not None and force[-1] < until_force:
@@ -162,8 +168,9 @@ def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
     >>> viscorough.line_of_surface(heights, 1.0, seed=2).heights.shape
     (16,)
     """
-    n = len(square)
-    if square.shape != (n, n):
+    square = real_numbers("line_of_surface: square", square)
+    n = len(square) if square.ndim else 0
+    if n == 0 or square.shape != (n, n):
         raise ValueError(f"line_of_surface: the map must be square, its shape is {square.shape}")
     power = np.abs(np.fft.fft2(square)) ** 2 / n**4
     wavenumber = np.fft.fftfreq(n, 1 / n)
@@ -244,7 +251,7 @@ def _random_line(power: Array, points: int, seed: Seed) -> Array:
     amplitude = np.sqrt(power / 2)
     if points % 2 == 0:
         amplitude[-1] *= np.sqrt(2)  # its own mirror image
-    phase = np.random.default_rng(seed).uniform(0, 2 * np.pi, amplitude.size)
+    phase = np.random.default_rng(seed_sequence(seed)).uniform(0, 2 * np.pi, amplitude.size)
     spectrum = amplitude * (np.exp(1j * phase) if points % 2 else np.append(np.exp(1j * phase[:-1]), 1.0))
     spectrum[0] = 0
     return fft.c2r(spectrum, lastsize=points, forward=False)

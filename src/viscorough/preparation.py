@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from viscorough.arrays import real_numbers, shown, whole_number
 from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array, Mask
 
@@ -68,12 +69,16 @@ def prepare(
     check_indenter("prepare", indenter, 2)
     if detrend not in DETREND or fill not in FILL:
         raise ValueError(f"detrend {detrend!r}, fill {fill!r}; allowed: {', '.join(DETREND)}; {', '.join(FILL)}")
-    if not (np.size(nodata) or crop or flip) and (detrend, fill) == ("none", "none"):
+    marks = real_numbers("nodata", nodata)
+    if not (marks.size or crop is not None or flip) and (detrend, fill) == ("none", "none"):
         return indenter
     heights = indenter.heights.copy()
     with np.errstate(over="ignore"):
-        heights[np.isin(heights, np.asarray(nodata).astype(heights.dtype))] = np.nan
+        heights[np.isin(heights, marks.astype(heights.dtype))] = np.nan
     if crop is not None:
+        if np.shape(crop) != (2, 2):
+            raise ValueError(f"crop: {shown(crop)}; ((first column, end), (first row, end)) is needed")
+        crop = [[whole_number("crop", point, at_least=0) for point in pair] for pair in crop]
         for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
             if not 0 <= first < end <= size:
                 raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
@@ -106,16 +111,18 @@ def doubts(indenter: Indenter) -> list[str]:
 def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
     """The form that fits a map best in least squares, at its points; that of a sphere by Gauss-Newton.
 
-    All lengths are divided by the distance of the corners from the middle.
+    All lengths are divided by the distance of the corners from the middle, `reach` times the larger spacing.
     """
-    (rows, columns), known = heights.shape, ~np.isnan(heights)
+    (rows, columns), known, largest = heights.shape, ~np.isnan(heights), max(dx, dy)
+    dx, dy = dx / largest, dy / largest  # else the size of the map could overflow
     reach = np.hypot(dx * columns, dy * rows) / 2
     x = dx * (np.arange(columns) - (columns - 1) / 2) / reach
     y = dy * (np.arange(rows)[:, None] - (rows - 1) / 2) / reach
     plane = np.stack(np.broadcast_arrays(1.0, x, y)[: 1 if form == "mean" else 3])
-    target = heights[known].astype(float) / reach
+    target = heights[known].astype(float)
     if form != "sphere":
-        return reach * np.tensordot(_factors(plane[:, known], target), plane, 1)
+        return np.tensordot(_factors(plane[:, known], target), plane, 1)
+    target = target / reach / largest
     curvature, squared = 0.0, x**2 + y**2
     for _ in range(_MAX_ITERATIONS):
         root = np.sqrt(1 - curvature**2 * squared)
@@ -128,7 +135,7 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
             raise ValueError("detrend sphere: the sphere that fits is smaller than the map; crop to a cap of it")
         if abs(curvature - last) <= 1e-12 * abs(curvature):
             break
-    return reach * (np.tensordot(values[:3], plane, 1) + _sag(curvature, squared))
+    return largest * (reach * (np.tensordot(values[:3], plane, 1) + _sag(curvature, squared)))
 
 
 def _factors(functions: Array, target: Array) -> Array:

@@ -18,6 +18,7 @@ import numpy as np
 from scipy.special import ellipk
 from scipy.special import gamma as gamma_function
 
+from viscorough.arrays import float_or_array, whole_number
 from viscorough.indenter import Indenter, positive
 from viscorough.types import Array, Numbers
 
@@ -57,7 +58,7 @@ class PowerLawBody:
 
     def __post_init__(self) -> None:
         for name in ("coefficient", "exponent"):
-            positive(f"{name} of a power-law body", getattr(self, name))
+            object.__setattr__(self, name, positive(f"{name} of a power-law body", getattr(self, name)))
 
     def mdr_profile(self, x: Numbers) -> Numbers:
         """One-dimensional profile `g(x) = κ_n c |x|ⁿ` with κ_n = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
@@ -113,8 +114,7 @@ def sphere(radius: float) -> PowerLawBody:
     >>> round(float(reference.sphere(radius=1.0).contact_radius(0.01)), 12)  # √(Ru)
     0.1
     """
-    positive("radius of a sphere", radius)
-    return PowerLawBody(1 / (2 * radius), 2)
+    return PowerLawBody(1 / (2 * positive("radius of a sphere", radius)), 2)
 
 
 def cone(slope: float) -> PowerLawBody:
@@ -146,7 +146,8 @@ def flat_ellipse_stiffness(major: float, minor: float) -> float:
     >>> round(float(reference.flat_ellipse_stiffness(1.0, 1.0)), 6)  # a disc: 8a
     8.0
     """
-    if not np.all((np.asarray(minor) > 0) & (np.asarray(major) >= minor) & np.isfinite(major)):
+    major, minor = float_or_array("semi-axis of an ellipse", major), float_or_array("semi-axis of an ellipse", minor)
+    if not np.all((np.asarray(minor) > 0) & (np.asarray(major) >= minor)):
         raise ValueError(f"semi-axes of an ellipse: {major}, {minor}; allowed: finite, major >= minor > 0")
     return 4 * np.pi * major / ellipk(1 - (minor / major) ** 2)
 
@@ -175,7 +176,7 @@ def zeta_elastic(hurst: Numbers) -> Numbers:
     >>> round(float(reference.zeta_elastic(0.5)), 4)
     0.7854
     """
-    return np.pi * (3 - hurst) / 10
+    return np.pi * (3 - float_or_array("hurst", hurst)) / 10
 
 
 def exponent_alpha(hurst: Numbers) -> Numbers:
@@ -187,7 +188,7 @@ def exponent_alpha(hurst: Numbers) -> Numbers:
     >>> reference.exponent_alpha(1.0)
     0.5
     """
-    return 1 / (1 + hurst)
+    return 1 / (1 + float_or_array("hurst", hurst))
 
 
 def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
@@ -204,6 +205,7 @@ def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False)
     >>> reference.depth_law(4.0, zeta=0.5, alpha=0.5)
     8.0
     """
+    alpha = float_or_array("alpha", alpha)
     if not np.all(np.asarray(alpha) < 1):
         raise ValueError(f"exponent alpha of the depth law: {alpha}; allowed: below 1")
     return velocity_law(x, zeta, alpha, gamma=gamma) / (1 - alpha)
@@ -218,6 +220,7 @@ def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = Fal
     >>> reference.velocity_law(4.0, zeta=0.5, alpha=0.5)
     4.0
     """
+    x, zeta, alpha = float_or_array("x", x), float_or_array("zeta", zeta), float_or_array("alpha", alpha)
     return x ** (1 - alpha) / (zeta * (gamma_function(2 - alpha) if gamma else 1))
 
 
@@ -230,6 +233,7 @@ def exponent_beta(hurst: Numbers) -> Numbers:
     >>> reference.exponent_beta(1.0)
     0.5
     """
+    hurst = float_or_array("hurst", hurst)
     return hurst / (1 + hurst)
 
 
@@ -242,7 +246,7 @@ def zeta_viscous(hurst: Numbers) -> Numbers:
     >>> reference.zeta_viscous(0.5)
     1.5
     """
-    return 2 - hurst
+    return 2 - float_or_array("hurst", hurst)
 
 
 def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
@@ -268,7 +272,8 @@ def line_spectrum(wavenumber: Numbers, spectrum: Numbers, transfer: Numbers = np
     >>> round(float(reference.line_spectrum(2.0, 1.0)), 4)  # π q C2D
     6.2832
     """
-    return transfer * wavenumber * spectrum
+    transfer, spectrum = float_or_array("transfer", transfer), float_or_array("spectrum", spectrum)
+    return transfer * float_or_array("wavenumber", wavenumber) * spectrum
 
 
 def one_element_stiffness(elements_across: int) -> float:
@@ -282,7 +287,7 @@ def one_element_stiffness(elements_across: int) -> float:
     >>> round(float(reference.one_element_stiffness(11)), 3)
     0.081
     """
-    return np.pi / (UNIT_SQUARE_DEFLECTION * elements_across)
+    return np.pi / (UNIT_SQUARE_DEFLECTION * whole_number("elements_across", elements_across, at_least=1))
 
 
 def _element_centres(number: int, width: float) -> Array:

@@ -1,10 +1,10 @@
 """The power-law spectrum of self-affine surfaces and lines, and checks of the arguments that describe it."""
 
-from numbers import Integral
 from typing import Any
 
 import numpy as np
 
+from viscorough.arrays import real_number, whole_number
 from viscorough.indenter import positive
 from viscorough.types import Array, Seed
 
@@ -26,7 +26,8 @@ def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) 
 
 def roll_off(wavelength: float | None, level: float, period: float) -> tuple[float, float]:
     """Wavenumber per period (0 if there is no roll-off) and level of the roll-off at a wavelength, in one unit."""
-    if not 0 <= level < np.inf:
+    level = real_number("roll_off_level", level)
+    if level < 0:
         raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
     if wavelength is None:
         return 0.0, level
@@ -42,15 +43,19 @@ def scale_factor(rms: float, mean_square: Any) -> float:
 
 
 def seed_sequence(seed: Seed) -> np.random.SeedSequence:
-    """The SeedSequence of a whole number, or the one given."""
-    return seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(whole("seed", seed, at_least=0))
+    """The SeedSequence of a whole number or of several, or the one given."""
+    if isinstance(seed, np.random.SeedSequence):
+        return seed
+    parts = seed if isinstance(seed, list | tuple) and seed else [seed]
+    return np.random.SeedSequence([whole_number("seed", part, at_least=0, at_most=np.inf) for part in parts])
 
 
 def hurst_exponent(hurst: float) -> float:
     """The Hurst exponent as a float. Raises ValueError unless it is from 0 to 1."""
+    hurst = real_number("hurst", hurst)
     if not 0 <= hurst <= 1:
         raise ValueError(f"hurst: must be from 0 to 1, not {hurst!r}")
-    return float(hurst)
+    return hurst
 
 
 def fixed_amplitudes(amplitudes: str) -> bool:
@@ -58,10 +63,3 @@ def fixed_amplitudes(amplitudes: str) -> bool:
     if amplitudes not in ("random", "fixed"):
         raise ValueError(f"amplitudes: must be 'random' or 'fixed', not {amplitudes!r}")
     return amplitudes == "fixed"
-
-
-def whole(name: str, value: Any, at_least: int) -> int:
-    """The value as an int. Raises ValueError with the name unless it is a whole number of at least `at_least`."""
-    if not isinstance(value, Integral) or value < at_least:
-        raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {value!r}")
-    return int(value)

@@ -12,20 +12,22 @@ interface's part of vt/h, g(X) = X/κ − X/κ_c, over ln X and over X. No conta
 that they check levels, stiffness and interpolation of a curve together.
 """
 
+import sys
 import warnings
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from viscorough.arrays import ReadOnlyArrays
+from viscorough.arrays import ReadOnlyArrays, real_number
 from viscorough.contact.complete_contact import joined_surface
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.parallel import require_threads
 from viscorough.contact.ranking import elements_of
 from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, check_indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.summaries import unit_power, with_unit
 from viscorough.types import Array, Progress
@@ -47,7 +49,7 @@ _TINY = 1e-300
 
 
 @dataclass(frozen=True)
-class CompleteContact:
+class CompleteContact(ReadOnlyArrays):
     """Where the loading curve of an indenter ends, and its two integrals, from linear solutions alone.
 
     Attributes
@@ -132,7 +134,7 @@ class SumRules(ReadOnlyArrays):
 
 
 @dataclass(frozen=True)
-class Audit:
+class Audit(ReadOnlyArrays):
     """A loading curve with levels added until its integrals are known to a tolerance, and what they are.
 
     Attributes
@@ -182,8 +184,6 @@ class Audit:
             text += f"\n{name} {exact}, {deviations}, estimated error {integral.error:.1e}"
         return text
 
-    __repr__ = __str__  # not that of a dataclass, with all numbers of its arrays
-
 
 def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
     """The complete contact of an indenter, from two linear problems without a contact problem.
@@ -221,15 +221,16 @@ def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
     >>> round(float(end.mean_gap), 12)  # the four elements are equivalent
     0.5
     """
+    check_indenter("complete_contact", indenter)
+    require_threads("complete_contact", threads)
     if indenter.heights.ndim == 1:
         gap, stiffness = indenter.initial_gap, 4 * indenter.spacing * indenter.elements
-        return CompleteContact(gap.mean(), stiffness / 2 * gap.var(), stiffness, gap.max(), indenter.length_unit)
+        largest = gap.max()
+        energy = _energy(stiffness / 2 * (gap / (largest or 1.0)).var(), largest)
+        return CompleteContact(float(gap.mean()), energy, stiffness, float(largest), indenter.length_unit)
     elements, units = elements_of(indenter, threads)
     joined = joined_surface(elements, threads=threads)
-    with np.errstate(over="ignore"):
-        energy = units.stiffness / 2 * joined.load @ (elements.initial_gap - joined.mean_gap) * np.square(units.length)
-    if not np.isfinite(energy):
-        raise ValueError("the energy of complete contact is too large to represent; a larger unit of length is needed")
+    energy = _energy(units.stiffness / 2 * joined.load @ (elements.initial_gap - joined.mean_gap), units.length)
     return CompleteContact(
         mean_gap=joined.mean_gap * units.length,
         energy=energy,
@@ -237,6 +238,17 @@ def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
         depth=joined.depth * units.length,
         length_unit=indenter.length_unit,
     )
+
+
+def _energy(reduced: float, length: float) -> float:
+    """The energy `reduced` · length². Raises ValueError if double precision cannot represent it."""
+    with np.errstate(over="ignore", under="ignore"):
+        energy = float(reduced * np.square(length))
+    if not np.isfinite(energy) or 0 < abs(energy) < sys.float_info.min or (energy == 0 and reduced * length != 0):
+        size, unit = ("large", "larger") if energy > 1 else ("small", "smaller")
+        text = f"the energy of complete contact is too {size} to represent; a {unit} unit of length is needed"
+        raise ValueError(text)
+    return energy
 
 
 def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
@@ -342,6 +354,8 @@ def audit(
     >>> bool(viscorough.audit(disc, tolerance=1e-9).agrees)
     True
     """
+    check_indenter("audit", indenter, 2)
+    tolerance = real_number("audit: tolerance", tolerance)
     if not 1e-10 <= tolerance <= 0.1:
         raise ValueError(f"audit: tolerance must be between 1e-10 and 0.1, not {tolerance!r}")
     progress = progress or (lambda done: None)

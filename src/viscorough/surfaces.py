@@ -13,6 +13,7 @@ from ducc0 import fft
 from numpy.typing import DTypeLike
 
 from viscorough import memory, spectrum
+from viscorough.arrays import real_numbers, whole_number
 from viscorough.indenter import Indenter, positive
 from viscorough.lines import SelfAffineLines
 from viscorough.types import Array, Seed
@@ -82,7 +83,7 @@ def self_affine_disc(
     >>> disc.heights.shape, round(disc.spacing, 4)
     ((33, 33), 0.0606)
     """
-    n = spectrum.whole("elements_across", elements_across, at_least=3)
+    n = whole_number("elements_across", elements_across, at_least=3)
     rms, diameter, period = positive("rms", rms), positive("diameter", diameter), positive("period", period)
     if period < 1:
         raise ValueError(f"period: must be at least 1 diameter, not {period}")
@@ -131,7 +132,7 @@ def self_affine_square(
     White noise is filtered: its spectrum has the symmetry of real heights, also where a wave is its own mirror
     image. Raises ValueError for values outside the allowed ranges.
     """
-    points = spectrum.whole("points", points, at_least=2)
+    points = whole_number("points", points, at_least=2)
     memory.require(_BYTES_PER_POINT * points**2, f"a surface of {points} x {points} points")
     exponent = spectrum.hurst_exponent(hurst) + 1
     longest, level = spectrum.roll_off(roll_off_wavelength, roll_off_level, points)
@@ -193,7 +194,7 @@ def cut_disc(square: Array, elements_across: int) -> Array:
     >>> int(np.isfinite(viscorough.cut_disc(np.zeros((5, 5)), 5)).sum())
     13
     """
-    n = spectrum.whole("elements_across", elements_across, at_least=1)
+    n, square = whole_number("elements_across", elements_across, at_least=1), real_numbers("cut_disc: square", square)
     if square.ndim != 2 or min(square.shape) < n:
         raise ValueError(f"cut_disc: the map must have at least {n} x {n} points, its shape is {square.shape}")
     twice = 2 * np.arange(n) - (n - 1)  # twice the distance from the centre: whole numbers for odd and even n

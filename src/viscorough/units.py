@@ -18,7 +18,7 @@ _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 # Patterns are compiled at first use, so that the command line starts faster.
 _ALLOWED = r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}"
 _POWER = r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])"
-_LONG_POWER = r"(\*\*|\^)\s*(?![+-]?\d(?![\d.eE]|\s*(\*\*|\^)))"
+_LONG_POWER = r"(\*\*|\^)(?!\s*[+-]?\d(?![\d.eE]|\s*(\*\*|\^)))"
 _POINTS = r"(?i:px|pix|pixels?|pts?|points?|dots?|samples?|punkte?|bildpunkte?)"
 # Lengths of printers that pint knows by names that elsewhere mean the points of a picture.
 _PRINTED = ("pixel", "point", "pica", "didot", "cicero")
@@ -56,53 +56,74 @@ def with_unit(value: Any) -> Any:
 
     Raises ValueError as `quantity`.
     """
+    from viscorough.arrays import real_number  # numpy takes long to import, and reading the options does not need it
+
     if hasattr(value, "magnitude") and hasattr(value, "units"):
-        value = f"{float(value.magnitude)!r} {value.units}"
+        return Quantity(real_number(str(value.units), value.magnitude), str(value.units))
     return quantity(value) if isinstance(value, str) else value
 
 
 def number(value: Any, unit: str, length_unit: str, name: str) -> float:
-    """A number in `unit`, of a plain number, which is returned unchanged, a Quantity, also of pint, or "5 mN".
+    """Return a finite number in `unit`, given as a plain number, a Quantity, also of pint, or a text as "5 mN".
 
-    Raises ValueError, which starts with the name, for what is no number in such a unit, and for one with a unit
-    although the unit of length is not known: numbers are then in consistent units.
+    Raises ValueError, which starts with the name, for anything else, and for a number with a unit although the unit of
+    length is not known: numbers are then in consistent units.
     """
-    try:
-        value = with_unit(value)
-        if not isinstance(value, Quantity):
-            return value
-        if not value.unit or length_unit != UNKNOWN:
-            return value.to(unit)
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}; a number in {unit}, or with such a unit, is needed") from error
-    text = f"{name} {value}: needs a plain number, since the unit of length is not known"
-    raise ValueError(f"{text}; state it with the lengths, or by --unit where heights are read")
+    from viscorough.arrays import real_number
+
+    return real_number(name, numbers(value, unit, length_unit, name))
 
 
 def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
-    """Numbers in `unit`, as of `number`, of one or of a list of them; an array is returned unchanged."""
-    if isinstance(values, list | tuple):
-        return [number(value, unit, length_unit, name) for value in values]
-    return number(values, unit, length_unit, name)
+    """Return real numbers in `unit` as an array of the same shape; the values may have units as in `number`.
+
+    values : a number, an array, also of pint, or a list whose entries may have different units
+    """
+    from viscorough.arrays import read_only, real_numbers, unit_attribute
+
+    if isinstance(values, list | tuple) and any(isinstance(v, str | Quantity) or unit_attribute(v) for v in values):
+        for value in values:
+            if isinstance(value, str) and not quantity(value).unit:
+                raise ValueError(f"{name}: {value!r} is a text without a unit; a plain number is needed")
+        return real_numbers(name, [numbers(value, unit, length_unit, name) for value in values])
+    try:
+        values = quantity(values) if isinstance(values, str) else values
+        if isinstance(values, Quantity):
+            stated, own, magnitude = f"{name} {values}", values.unit, values.number
+        elif hasattr(values, "magnitude") and hasattr(values, "units"):
+            stated, own, magnitude = f"{name} in {values.units}", str(values.units), values.magnitude
+        else:
+            stated, own, magnitude = name, "", values
+        conversion = factor(own, unit) if own and length_unit != UNKNOWN else 1.0
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}; a number in {unit}, or with such a unit, is needed") from error
+    if own and length_unit == UNKNOWN:
+        text = f"{stated}: needs a plain number, since the unit of length is not known"
+        raise ValueError(f"{text}; state it with the lengths, or by --unit where heights are read")
+    converted = real_numbers(name, magnitude)
+    return converted if conversion == 1 else read_only(converted * conversion)
 
 
 def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: str, name: str) -> Any:
-    """F/G [length²] of one force or several.
+    """F/G [length²] of one force or several, as an array of their shape.
 
     shear_modulus : G in Pa, forces then are in N, or both are in consistent units if the unit of length is not known;
         None if the forces are F/G
 
-    Raises ValueError, which starts with the name, as `number` does, and for a force with a unit where G is not known.
+    Raises ValueError, which starts with the name, as `numbers` does, and for a force with a unit where G is not known.
     """
+    from viscorough.arrays import unit_attribute
+
     if shear_modulus is not None:
         newtons, divisor = numbers(forces, "N", length_unit, name), shear_modulus * square_metres(length_unit)
         if not divisor:
             raise ValueError(f"{name}: the shear modulus {shear_modulus:g} is too small; a larger one is needed")
-        return [force / divisor for force in newtons] if isinstance(newtons, list) else newtons / divisor
+        return newtons / divisor
     for force in forces if isinstance(forces, list | tuple) else [forces]:
-        if isinstance(force, str) or getattr(with_unit(force), "unit", None):
+        if isinstance(force, str) or unit_attribute(force):
             text = "a force needs --shear-modulus or --young (shear_modulus in Python); a plain number is F/G"
-            raise ValueError(f"{name} {force}: {text}")
+            shown = force if isinstance(force, str | Quantity) else f"in {unit_attribute(force)}"
+            raise ValueError(f"{name} {shown}: {text}")
     return numbers(forces, "N", length_unit, name)
 
 

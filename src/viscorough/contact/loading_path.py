@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.arrays import increasing
+from viscorough.arrays import fraction, increasing, real_number
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
@@ -26,7 +26,7 @@ from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
 from viscorough.indenter import Indenter, positive
 from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Progress
+from viscorough.types import Array, Progress
 
 # The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
 # until their ratio is the last number.
@@ -109,18 +109,19 @@ def indent(
     >>> curve.depth.tolist(), bool(curve.force[0] < curve.force[1])
     ([0.005, 0.01], True)
     """
-    check_solvable("indent", indenter, tolerance, threads)
+    tolerance = check_solvable("indent", indenter, tolerance, threads, options)
     if depths is not None and forces is not None:
         raise ValueError("indent: depths and forces exclude each other; one of them is allowed")
-    if not 0 < until_fraction <= 1:
-        raise ValueError(f"indent: until_fraction must lie in (0, 1], not {until_fraction!r}")
+    until_fraction = fraction("indent: until_fraction", until_fraction)
+    start_fraction = real_number("indent: start_fraction", start_fraction)
     if not 0 <= start_fraction < until_fraction:
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
     unit = indenter.length_unit
     if shear_modulus is not None:
         shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
-    if until_force != np.inf:
+    if not (isinstance(until_force, float | np.floating) and until_force == np.inf):
         until_force = units.forces_over_modulus(until_force, shear_modulus, unit, "until_force")
+        until_force = real_number("until_force", until_force)
     if not until_force > 0:
         raise ValueError(f"indent: until_force must be positive, not {until_force!r}")
     progress = progress or (lambda done: None)
@@ -141,6 +142,10 @@ def indent(
         levels = _LoadingPath(solver, until_fraction, until_force, progress).levels_from(start_fraction)
     depth = solver.units.length * np.array([level.depth for level in levels])
     force = solver.units.force * np.array([level.pressure_sum for level in levels])
+    if not np.isfinite(force).all():
+        raise ValueError("indent: forces are too large to represent; a larger unit of length is needed")
+    _check_distance(depths, force, "depths", "forces")
+    _check_distance(forces, depth, "forces", "depths")
     warn_beyond_theory("indent", indenter, depth[-1])
     return LoadingCurve(
         depth=depth if depths is None else np.asarray(depths),
@@ -154,6 +159,16 @@ def indent(
         residual=np.array([level.residual for level in levels]),
         length_unit=indenter.length_unit,
     )
+
+
+def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str) -> None:
+    """Raise ValueError if given depths or forces are so close that what was found at them does not increase."""
+    if given is not None and (closer := np.diff(found) <= 0).any():
+        level, values = int(np.argmax(closer)), np.asarray(given)
+        pair = f"{name}: {values[level]:.17g} and {values[level + 1]:.17g} are closer than the accuracy"
+        raise ValueError(
+            f"indent: {pair}, so that {other} do not increase; fewer levels or a smaller tolerance are needed"
+        )
 
 
 def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:

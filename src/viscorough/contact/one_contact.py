@@ -80,7 +80,7 @@ def contact_at(
     >>> round(contact.force, 6)
     0.005
     """
-    check_solvable("contact_at", indenter, tolerance, threads)
+    tolerance = check_solvable("contact_at", indenter, tolerance, threads, options)
     if (depth is None) == (force is None):
         raise ValueError("contact_at: either depth or force must be given")
     by_depth, unit = force is None, indenter.length_unit

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from viscorough.arrays import real_number, shown, whole_number
+
 # The first set is without elements that touch in this last part of a step from the unloaded state, and less of smaller
 # steps: the load of those that touch before bends the surface away from them.
 LATE = 0.5
@@ -55,13 +57,17 @@ class SolverOptions:
     padding: bool = True
 
     def __post_init__(self) -> None:
-        if self.precision not in ("single", "double"):
-            raise ValueError(f"precision: must be one of single, double, not {self.precision!r}")
-        for name in ("exact_gap_below", "operator_rounding", "dense_contacts", "dense_interactions"):
-            if not getattr(self, name) >= 0:
-                raise ValueError(f"{name}: must not be negative, not {getattr(self, name)!r}")
-        if self.max_iterations < 1:
-            raise ValueError(f"max_iterations: must be at least 1, not {self.max_iterations!r}")
+        if not isinstance(self.precision, str) or self.precision not in ("single", "double"):
+            raise ValueError(f"precision: must be one of single, double, not {shown(self.precision)}")
+        for name in ("exact_gap_below", "operator_rounding"):
+            number = real_number(name, getattr(self, name))
+            if not number >= 0:
+                raise ValueError(f"{name}: must not be negative, not {number!r}")
+            object.__setattr__(self, name, number)
+        for name, least in (("max_iterations", 1), ("dense_contacts", 0), ("dense_interactions", 0)):
+            object.__setattr__(self, name, whole_number(name, getattr(self, name), least))
+        if not isinstance(self.padding, bool):
+            raise ValueError(f"padding: must be True or False, not {shown(self.padding)}")
 
 
 DEFAULT = SolverOptions()

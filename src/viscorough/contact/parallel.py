@@ -10,11 +10,12 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
-from numbers import Integral
 from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
+
+from viscorough.arrays import is_whole, shown
 
 # Entries of a block: those of a map of 257 x 257 elements are one block, so that such maps take no more time.
 BLOCK = 1 << 17
@@ -25,9 +26,8 @@ _CACHE_LINE = 64
 
 def require_threads(name: str, threads: Any) -> None:
     """Raise ValueError, which starts with the name, unless `threads` is a whole number from 1 to MOST_THREADS."""
-    whole = isinstance(threads, Integral) and not isinstance(threads, bool)
-    if not whole or not 1 <= threads <= MOST_THREADS:
-        raise ValueError(f"{name}: threads must be a whole number from 1 to {MOST_THREADS}, not {threads!r}")
+    if not is_whole(threads) or not 1 <= threads <= MOST_THREADS:
+        raise ValueError(f"{name}: threads must be a whole number from 1 to {MOST_THREADS}, not {shown(threads)}")
 
 
 def run_blocks(

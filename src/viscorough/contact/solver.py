@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscorough import units
+from viscorough.arrays import real_number
 from viscorough.contact import dense
 from viscorough.contact.complete_contact import EXACT, joined_surface
 from viscorough.contact.dense import ContactEvents
@@ -52,15 +53,25 @@ _OPEN_GAP = 1.1
 _LARGEST_RATIO_OF_START = 2.0
 
 
-def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int = 1) -> None:
-    """Raise ValueError, which starts with the name, unless an indenter is a map, and tolerance and threads in range."""
+def check_solvable(
+    name: str, indenter: Indenter, tolerance: float, threads: int = 1, options: SolverOptions = DEFAULT
+) -> float:
+    """Return the tolerance as a float.
+
+    Raises ValueError, which starts with the name, unless an indenter is a map, and tolerance and threads are in range,
+    and TypeError for other options than SolverOptions.
+    """
     check_indenter(name, indenter, 2)
     if indenter.spacing * indenter.row_spacing < sys.float_info.min:
         text = f"a spacing of {indenter.spacing:g} is too small to represent areas"
         raise ValueError(f"{name}: {text}; a smaller unit of length is needed")
+    tolerance = real_number(f"{name}: tolerance", tolerance)
     if not 1e-12 <= tolerance <= 0.1:
         raise ValueError(f"{name}: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
     require_threads(name, threads)
+    if not isinstance(options, SolverOptions):
+        raise TypeError(f"{name}: options: {type(options).__name__}; viscorough.SolverOptions(...) is needed")
+    return tolerance
 
 
 def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:

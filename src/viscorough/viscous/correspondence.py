@@ -26,8 +26,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.arrays import ForceHistory, ReadOnlyArrays, increasing, integral, read_only, samples
-from viscorough.loading_curve import LoadingCurve
+from viscorough.arrays import ForceHistory, ReadOnlyArrays, increasing, integral, real_numbers, samples
+from viscorough.loading_curve import LoadingCurve, check_curve
 from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span
 from viscorough.types import Array, Integers
@@ -85,15 +85,15 @@ def kinetics(
     force : array_like or ForceHistory
         a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in between,
         applied from times[0] on, with a time given twice where the force steps; or a ForceHistory (`impulses`), whose
-        samples need not be those of `times`. Forces are in N, or texts with a unit as "5 mN", if the curve's unit of
-        length is known.
+        samples need not be those of `times`. Forces are in N, or have a unit (texts as "5 mN", quantities of pint, also
+        arrays of them), if the curve's unit of length is known.
     medium : Medium or float or str
         Medium, as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian one; in Pa, s and Pa s, or a text as "2 kPa
         s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a length².
     times : array_like, optional
-        Increasing, and not negative if the force is constant; the default, for a constant force only, is a hundred
-        times at equal ratios from the curve's first level to its last, or until creep has nearly ended; in a
-        medium that responds elastically at t = 0, after time 0.
+        Increasing, and not negative if the force is constant; in s, or with a unit. The default, for a constant force
+        only, is a hundred times at equal ratios from the curve's first level to its last, or until creep has nearly
+        ended; in a medium that responds elastically at t = 0, after time 0.
 
     Returns
     -------
@@ -118,15 +118,18 @@ def kinetics(
     >>> bool(motion.depth[0] < motion.depth[1]), bool(motion.velocity[0] > motion.velocity[1])
     (True, True)
     """
+    check_curve("kinetics", curve)
     medium = medium_of(medium, curve.length_unit)
     load = consistent_force(force, curve.length_unit)
-    constant = np.ndim(load) == 0
+    constant = isinstance(load, float)
     if constant and not (np.isfinite(load) and load > 0):
         raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
-    if times is None and not isinstance(load, ForceHistory):
-        if not constant:
-            raise ValueError("times: missing; a force given as samples needs the time of each sample")
+    if times is None and constant:
         times = _spread_times(curve, load, medium)
+    elif times is None and not isinstance(load, ForceHistory):
+        raise ValueError("times: missing; a force given as samples needs the time of each sample")
+    elif times is not None:
+        times = units.numbers(times, "s", curve.length_unit, "times")
     times, creep, rate = creep_and_rate(load, medium, times)
     depth, stiffness = _at_elastic_force(curve, creep, times)
     # Where nothing moves the velocity is 0 even before the first level, where the stiffness is nan.
@@ -141,8 +144,9 @@ def consistent_force(force: Any, length_unit: str) -> Any:
     """
     area = units.square_metres(length_unit)
     if isinstance(force, ForceHistory):
-        return ForceHistory(force.times, read_only(force.force / area), read_only(force.impulse / area))
-    return units.number(force, "N", length_unit, "force") / area if np.ndim(force) == 0 else read_only(force) / area
+        return force if area == 1 else ForceHistory(force.times, force.force / area, force.impulse / area)
+    forces = units.numbers(force, "N", length_unit, "force") / area
+    return forces if forces.ndim else float(forces)
 
 
 def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
@@ -173,7 +177,7 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
 
 def creep_and_rate(force: Any, medium: Medium, times: Any) -> tuple[Array, Array, Array]:
     """Times, Φ and dΦ/dt there."""
-    if np.ndim(force) > 0:
+    if not isinstance(force, float):
         history, place = resampled(force, times)
         creep, rate = creep_response(medium, history)
         return history.times[place], creep[place], rate[place]
@@ -201,8 +205,8 @@ def resampled(force: ForceHistory | Any, times: Any) -> tuple[ForceHistory, Inte
         )
     new = np.setdiff1d(times, force.times)
     place = np.searchsorted(force.times, new)
-    samples = np.insert(force.times, place, new), np.insert(force.force, place, np.interp(new, *force[:2]))
-    history = impulses(samples[1], samples[0])
+    added = np.interp(new, force.times, force.force)
+    history = impulses(np.insert(force.force, place, added), np.insert(force.times, place, new))
     return history, np.searchsorted(history.times, times, side="right") - 1
 
 
@@ -211,10 +215,12 @@ def impulses(force: Any, times: ArrayLike) -> ForceHistory:
 
     Parameters
     ----------
-    force : Any
-        a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on.
+    force : array_like
+        a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on; plain numbers
+        in N, or in consistent units if the unit of length is not known. Quantities with a unit are refused, since a
+        history states none.
     times : array_like
-        Strictly increasing; those of samples may be given twice, where the force steps.
+        Strictly increasing, plain numbers; those of samples may be given twice, where the force steps.
 
     Raises
     ------
@@ -228,16 +234,19 @@ def impulses(force: Any, times: ArrayLike) -> ForceHistory:
     >>> viscorough.impulses(2.0, [0.0, 1.0, 3.0]).impulse.tolist()
     [0.0, 2.0, 6.0]
     """
-    constant = np.ndim(force) == 0
+    force = real_numbers("force", force)
+    constant = force.ndim == 0
     times = increasing("times", times, steps=None if constant else "the force")
     if constant:
+        if not 0 < force < np.inf:
+            raise ValueError(f"constant force: {force}; allowed: a finite number above 0")
         if times[0] < 0:
             raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
-        force, impulse = np.full(times.shape, float(force)), force * times
+        force, impulse = np.full(times.shape, force), force * times
     else:
         force = samples("force", force, times, " (without adhesion a pull opens the contact)")
         impulse = integral(times, force, times)
-    return ForceHistory(*map(read_only, (times, force, impulse)))
+    return ForceHistory(times, force, impulse)
 
 
 def _at_elastic_force(curve: LoadingCurve, creep: Array, times: Array) -> tuple[Array, Array]:

@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma, stdtrit
 
+from viscorough import units
 from viscorough.arrays import ForceHistory, ReadOnlyArrays, increasing, integral
-from viscorough.loading_curve import LoadingCurve
+from viscorough.loading_curve import LoadingCurve, check_curve
 from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span, with_unit
 from viscorough.types import Array, Integers
-from viscorough.units import UNKNOWN
 from viscorough.viscous.correspondence import consistent_force, impulses, resampled
 from viscorough.viscous.creep_response import branch_states
 from viscorough.viscous.media import CreepTable, Prony, Springpot
@@ -77,7 +77,7 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
     low: np.ndarray
     high: np.ndarray
     scatter: float
-    length_unit: str = UNKNOWN
+    length_unit: str = units.UNKNOWN
 
     def __str__(self) -> str:
         """What it is; J over time."""
@@ -133,6 +133,7 @@ def identify_medium(
     """
     if kind not in KINDS:
         raise ValueError(f"kind {kind!r}; allowed: {', '.join(KINDS)}")
+    check_curve("identify_medium", curve)
     times, depth = _checked_record(curve, times, depth)
     force = consistent_force(force, curve.length_unit)
     if np.ndim(force) == 0:
@@ -174,7 +175,9 @@ def identify_medium(
 
 def _checked_record(curve: LoadingCurve, times: ArrayLike, depth: ArrayLike) -> tuple[Array, Array]:
     """The record as arrays of floats."""
-    times, depth = increasing("record, times", times), np.array(depth, dtype=float)
+    unit = curve.length_unit
+    times = increasing("record, times", units.numbers(times, "s", unit, "record, times"))
+    depth = units.numbers(depth, unit, unit, "record, depth")
     if depth.shape != times.shape or depth.size < 5 or not np.isfinite(depth).all():
         raise ValueError(
             f"record: {times.size} times, depths of shape {depth.shape}; allowed: five or more rows of finite numbers"

@@ -8,10 +8,10 @@ and compliances in the inverse of the modulus; a text with a unit, as "2 MPa", i
 passive: J does not decrease and is concave.
 """
 
+import contextlib
 from abc import abstractmethod
 from dataclasses import dataclass, fields
 from functools import cached_property
-from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,16 @@ from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, samples
+from viscorough.arrays import (
+    ReadOnlyArrays,
+    increasing,
+    integral,
+    read_only,
+    real_number,
+    samples,
+    shown,
+    unit_attribute,
+)
 from viscorough.types import Array
 from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
 from viscorough.viscous.spectra import retardation_spectrum
@@ -240,9 +249,10 @@ class Prony(_Exponential):
         object.__setattr__(self, "relaxed_modulus", relaxed)
         for name in ("moduli", "relaxation_times"):
             values = getattr(self, name)
-            if np.ndim(values) != 1 or len(values) == 0:
-                raise ValueError(f"Prony: {name} {values!r}; allowed: a list of one or more numbers above 0")
-            numbers = tuple(_number(self, f"{name}[{i}]", value) for i, value in enumerate(values))
+            entries = list(values) if isinstance(values, list | tuple) or np.ndim(values) == 1 else []
+            if not entries:
+                raise ValueError(f"Prony: {name} {shown(values)}; allowed: a list of one or more numbers above 0")
+            numbers = tuple(_number(self, f"{name}[{i}]", value) for i, value in enumerate(entries))
             object.__setattr__(self, name, numbers)
         if len(self.moduli) != len(self.relaxation_times):
             raise ValueError(
@@ -350,10 +360,11 @@ class CreepTable(ReadOnlyArrays, Medium):
     compliances: np.ndarray
 
     def __post_init__(self) -> None:
-        times = increasing("CreepTable: times", self.times)
-        if times[0] != 0 or times.size < 2 or read_only(self.compliances).dtype.kind not in "iuf":
-            raise ValueError("CreepTable: allowed are two or more times that start with 0, and real compliances")
-        values = samples("CreepTable: compliances", self.compliances, times)
+        times = increasing("CreepTable: times", units.numbers(self.times, "s", "m", "CreepTable: times"))
+        if times[0] != 0 or times.size < 2:
+            raise ValueError("CreepTable: allowed are two or more times that start with 0")
+        values = units.numbers(self.compliances, "1/Pa", "m", "CreepTable: compliances")
+        values = samples("CreepTable: compliances", values, times)
         for name, array in (("times", times), ("compliances", values)):
             object.__setattr__(self, name, read_only(array))
         slopes = self._slopes
@@ -396,12 +407,14 @@ def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) ->
     """
     if isinstance(medium, Medium):
         return medium
-    viscosity = units.number(medium, "Pa s", length_unit, "viscosity")
+    viscosity: Any = medium
+    if isinstance(medium, str) or unit_attribute(medium):
+        viscosity = units.number(medium, "Pa s", length_unit, "viscosity")
     try:
         return Newtonian(viscosity)
     except ValueError as error:
         raise ValueError(
-            f"medium: {repr(medium)[:60]}; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian "
+            f"medium: {shown(medium)}; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian "
             "one, a finite number above 0"
         ) from error
 
@@ -427,8 +440,9 @@ def _number(medium: Medium, name: str, value: Any, *, zero: bool = False) -> flo
     unit = UNITS.get(name.partition("[")[0])
     if unit and (isinstance(value, str) or hasattr(value, "units")):
         value = units.number(value, unit, "m", f"{type(medium).__name__}: {name}")
-    real = isinstance(value, Real) and not isinstance(value, bool)
-    if not (real and abs(value) <= np.finfo(float).max and (value > 0 or (zero and value == 0))):
-        allowed = "0 or a finite number above 0" if zero else "a finite number above 0"
-        raise ValueError(f"{type(medium).__name__}: {name} {repr(value)[:60]}; allowed: {allowed}")
-    return float(value)
+    with contextlib.suppress(ValueError):
+        number = real_number(name, value)
+        if number > 0 or (zero and number == 0):
+            return number
+    allowed = "0 or a finite number above 0" if zero else "a finite number above 0"
+    raise ValueError(f"{type(medium).__name__}: {name} {shown(value)}; allowed: {allowed}")

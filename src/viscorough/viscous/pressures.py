@@ -16,7 +16,7 @@ import numpy as np
 from scipy.special import betainc
 
 from viscorough import units
-from viscorough.arrays import ForceHistory, jumps_and_slopes
+from viscorough.arrays import ForceHistory, jumps_and_slopes, whole_number
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.indenter import Indenter
@@ -83,8 +83,9 @@ def pressure_at(
     >>> pressure.shape
     (17, 17)
     """
-    medium = medium_of(medium, indenter.length_unit)
-    check_solvable("pressure_at", indenter, tolerance)
+    tolerance = check_solvable("pressure_at", indenter, tolerance)
+    medium, contacts = medium_of(medium, indenter.length_unit), whole_number("contacts", contacts, at_least=1)
+    time = units.number(time, "s", indenter.length_unit, "time")
     if not isinstance(force, ForceHistory):
         force = impulses(np.full(2, units.number(force, "N", indenter.length_unit, "force")), [0.0, time])
     force = consistent_force(force, indenter.length_unit)
@@ -93,7 +94,6 @@ def pressure_at(
         raise ValueError(
             f"time: {time}; allowed: within those of the force, above {start:g}, up to {force.times[-1]:g}"
         )
-    contacts = max(int(contacts), 1)
     times, load, creep, carried = _loading(medium, force, time, contacts)
     has_dashpot = medium.relaxation is not None and medium.relaxation.viscosity > 0
     nodes = np.array([times.size - 1]) if has_dashpot else _nodes(times, creep, carried, contacts)

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.arrays import increasing, jumps_and_slopes, read_only, samples
-from viscorough.loading_curve import LoadingCurve
+from viscorough.arrays import ReadOnlyTuple, increasing, jumps_and_slopes, samples
+from viscorough.loading_curve import LoadingCurve, check_curve
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import branch_states, sums_over_the_past
 from viscorough.viscous.media import medium_of
@@ -19,7 +19,13 @@ from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import zero_of_increasing
 
 
-class DepthHistory(NamedTuple):
+class _DepthHistory(NamedTuple):
+    time: np.ndarray
+    depth: np.ndarray
+    force: np.ndarray
+
+
+class DepthHistory(ReadOnlyTuple, _DepthHistory):
     """A depth over time and the force that it takes; read-only arrays of shape (times,).
 
     Attributes
@@ -32,9 +38,7 @@ class DepthHistory(NamedTuple):
         Force F.
     """
 
-    time: np.ndarray
-    depth: np.ndarray
-    force: np.ndarray
+    __slots__ = ()
 
 
 def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | float, times: ArrayLike) -> DepthHistory:
@@ -73,9 +77,11 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
     >>> round(float(held.force[0] / held.force[-1]), 6)  # it relaxes from one modulus to the other
     4.0
     """
-    medium, area = medium_of(medium, curve.length_unit), units.square_metres(curve.length_unit)
-    times = increasing("times", times, steps="the depth")
-    depth = samples("depth", depth, times)
+    check_curve("force_under_depth", curve)
+    unit = curve.length_unit
+    medium, area = medium_of(medium, unit), units.square_metres(unit)
+    times = increasing("times", units.numbers(times, "s", unit, "times"), steps="the depth")
+    depth = samples("depth", units.numbers(depth, unit, unit, "depth"), times)
     if not (rises := np.diff(depth, prepend=0) >= 0).all():
         where = int(np.argmin(rises))
         raise ValueError(
@@ -93,7 +99,7 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
     if medium.relaxation is None:
         unit_loads = medium.relaxation_modulus, medium.relaxation_integral
         force = np.add(*sums_over_the_past(node_times, elastic, place, np.zeros(place.size), *unit_loads))
-        return DepthHistory(*map(read_only, (times, depth, force * area)))
+        return DepthHistory(times, depth, force * area)
     viscosity, relaxed, moduli, relaxation_times = medium.relaxation
     _, left = branch_states(np.diff(node_times), elastic, relaxation_times)
     force = relaxed * elastic + left @ moduli
@@ -107,7 +113,7 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
         before, after = np.append(0.0, speed), np.append(speed, 0.0)
         last = np.append(np.diff(node_times) == 0, True)  # before a time that is given again, and at the end
         force = force + viscosity * stiffness * np.where(last, before, after)
-    return DepthHistory(*map(read_only, (times, depth, force[place] * area)))
+    return DepthHistory(times, depth, force[place] * area)
 
 
 def _with_levels(curve: LoadingCurve, times: Array, depth: Array) -> tuple[Array, Array, Integers]:

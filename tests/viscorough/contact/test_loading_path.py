@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from support.contract import refused
 from viscorough import Indenter, SolverOptions, contact_at, indent, march_events, reference, self_affine_disc
 from viscorough.errors import ConvergenceError
 
@@ -192,3 +193,11 @@ def test_an_element_that_touches_late_in_a_step_joins_even_where_nothing_else_is
     curve = indent(pit, depths=[0.5 * touch, 1.05 * touch], options=on_grid)
     np.testing.assert_array_equal(curve.contact_count, [80, 81])
     assert curve.residual[-1] <= 1e-3
+
+
+def test_levels_closer_than_the_accuracy_are_refused_with_their_values():
+    disc, steps = self_affine_disc(0.7, 65, rms=0.01, seed=1), np.arange(12)
+    with refused(r"indent: depths: 0\.02000002\d* and 0\.02000004\d* are closer than the accuracy"):
+        indent(disc, depths=0.02 * (1 + 1e-6 * steps), tolerance=0.1)
+    for name in ("depths", "forces"):
+        assert indent(disc, **{name: 0.02 * (1 + 1e-3 * steps)}, tolerance=0.1).depth.size == steps.size

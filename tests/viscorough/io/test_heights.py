@@ -189,3 +189,43 @@ def test_a_spacing_may_be_a_text_with_a_unit(tmp_path):
         read_heights(tmp_path / "a.npy", "0.5 Pa", unit="nm")
     with refused(r"--spacing 0.5 um: needs a plain number, since the unit of length is not known; .* --unit"):
         read_heights(tmp_path / "a.npy", "0.5 um")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"spacing": 1e-320}, "too small to represent"),
+        ({"spacing": 10**400}, "spacing: a number beyond double precision"),
+        ({"spacing": 1j}, "spacing: complex numbers"),
+        ({"spacing": True}, "spacing: truth values"),
+        ({"spacing": pint.Quantity([1.0, 2.0], "um"), "unit": "um"}, "an array of shape"),
+        ({"spacing": 1.0, "scale": 1j}, "scale: must be a positive number"),
+        ({"spacing": 1.0, "scale": 10**400}, "scale: must be a positive number"),
+        ({"spacing": 1.0, "nodata": 1j}, "nodata: 1j; real numbers"),
+        ({"spacing": 1.0, "crop": 5}, "crop: 5"),
+        ({"spacing": 1.0, "crop": [[0, 1.5], [0, 2]]}, "crop: must be a whole number"),
+    ],
+)
+def test_numbers_that_are_none_are_refused_for_what_they_are(tmp_path, options, message):
+    np.save(tmp_path / "heights.npy", np.arange(16.0).reshape(4, 4) % 5)
+    with refused(rf"heights.npy: .*{message}"):
+        read_heights(tmp_path / "heights.npy", **options)
+
+
+def test_spacings_of_every_type_count_as_floats(tmp_path):
+    np.save(tmp_path / "heights.npy", np.arange(16.0).reshape(4, 4) % 5)
+    nanometres = pint.Quantity(500.0, "nm")
+    for spacing in (0.5, np.float16(0.5), np.longdouble(0.5), "0.5 um", nanometres, [0.5, nanometres]):
+        assert read_heights(tmp_path / "heights.npy", spacing, unit="um").spacing == 0.5
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("spacing", [1e308, 1e-300])
+@pytest.mark.parametrize("detrend", ["none", "plane"])
+def test_a_map_whose_size_or_area_has_no_number_is_prepared_as_any_other(tmp_path, spacing, detrend):
+    np.save(tmp_path / "heights.npy", np.random.default_rng(1).normal(size=(8, 8)))
+    extreme, usual = (read_heights(tmp_path / "heights.npy", each, detrend=detrend) for each in (spacing, 1.0))
+    np.testing.assert_allclose(extreme.heights, usual.heights, rtol=0, atol=1e-12)
+    with pytest.raises(ValueError, match="unit of length is needed"):
+        viscorough.indent(extreme)

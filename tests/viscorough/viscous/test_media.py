@@ -119,10 +119,10 @@ def test_table():
         (lambda: CreepTable([0.5, 1], [1, 2]), "start with 0"),
         (lambda: CreepTable([0, 1, 1], [1, 2, 3]), "each larger than the one before"),
         (lambda: CreepTable([0, 1, 2], [1, 2]), r"samples of shape \(2,\); allowed: one per time"),
-        (lambda: CreepTable([0, 1], ["1", "2"]), "real compliances"),
+        (lambda: CreepTable([0, 1], ["1", "2"]), "compliances: '1' is a text without a unit"),
         (lambda: CreepTable([0, 1], [2, 1]), "never decreases"),
         (lambda: CreepTable([0, 1], [1, np.nan]), "finite"),
-        (lambda: CreepTable(["0", "1"], ["1", "2"]), "finite numbers"),
+        (lambda: CreepTable(["0", "1"], ["1", "2"]), "times: '0' is a text without a unit"),
         (lambda: CreepTable([0, 1, 2], [0, 1, 3]), "after time 1 than before; allowed: a concave J"),
     ],
 )

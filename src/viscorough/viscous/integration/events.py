@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import memory
-from viscorough.arrays import ReadOnlyArrays
+from viscorough.arrays import ReadOnlyArrays, fraction, real_numbers
 from viscorough.compilation import njit
 from viscorough.contact.halfspace.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
@@ -51,12 +51,21 @@ class Events(ReadOnlyArrays):
 
     def depth_at(self, impulse: ArrayLike) -> Array:
         """Depth [length] at impulses ∫F dt/η [length²] of any shape; linear between events and beyond the last one."""
+        impulse = _impulses(impulse)
         i = self.event_at(impulse)
         return self.depth[i] + (impulse - self.impulse[i]) / self.resistance[i]
 
     def event_at(self, impulse: ArrayLike) -> Integers:
         """Index of the last event at or before impulses ∫F dt/η [length²] of any shape."""
-        return np.searchsorted(self.impulse, impulse, side="right") - 1
+        return np.searchsorted(self.impulse, _impulses(impulse), side="right") - 1
+
+
+def _impulses(values: ArrayLike) -> Array:
+    """The values as an array. Raises ValueError unless they are finite and 0 or more."""
+    impulses = real_numbers("impulse", values)
+    if not (np.isfinite(impulses) & (impulses >= 0)).all():
+        raise ValueError("impulse: finite numbers of at least 0 are allowed; some are not")
+    return impulses
 
 
 def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
@@ -96,8 +105,7 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     20
     """
     elements = elements_of_map(indenter, "march_events")
-    if not 0 < until_fraction <= 1:
-        raise ValueError(f"march_events: until_fraction must lie in (0, 1], not {until_fraction!r}")
+    until_fraction = fraction("march_events: until_fraction", until_fraction)
     order = np.argsort(elements.initial_gap, kind="stable")
     row, column, gap = (values[order] for values in (elements.row, elements.column, elements.initial_gap))
     most = max(1, int(np.ceil(until_fraction * gap.size)))
@@ -108,7 +116,10 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
         raise ConvergenceError(
             f"march_events: tension on element {tension_index} of the contact set; contact would open"
         )
-    impulse, resistance = elements.units.force * impulse, elements.units.stiffness * resistance
+    with np.errstate(over="ignore"):
+        impulse, resistance = elements.units.force * impulse, elements.units.stiffness * resistance
+    if not np.isfinite(impulse).all():
+        raise ValueError("march_events: impulses are too large to represent; a larger unit of length is needed")
     return Events(impulse, depth, resistance, np.arange(1, most + 1), gap.size, indenter.length_unit)
 
 

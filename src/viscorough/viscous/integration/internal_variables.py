@@ -21,7 +21,7 @@ from scipy.special import exprel
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array, Integers, Mask, Progress
 from viscorough.viscous.integration.elements import MapElements, elements_of_map
 from viscorough.viscous.media import medium_of
@@ -157,13 +157,17 @@ def checked_input(
 
     The load is a depth, or a force over that area. Raises ValueError that starts with the caller.
     """
-    medium, area = medium_of(medium, indenter.length_unit), units.square_metres(indenter.length_unit)
+    check_indenter(caller, indenter, 2)
+    unit = indenter.length_unit
+    medium, area = medium_of(medium, unit), units.square_metres(unit)
     if medium.relaxation is None:
         raise ValueError(f"{caller}: {type(medium).__name__}; allowed: media of springs and dashpots")
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
-    name, load = ("depth", depth) if force is None else ("force", force)
+    name, load, unit_of_load = ("depth", depth, unit) if force is None else ("force", force, "N")
+    times = units.numbers(times, "s", unit, f"{caller}: times")
     times = increasing(f"{caller}: times", times, steps=f"the {name}")
+    load = units.numbers(load, unit_of_load, unit, f"{caller}: {name}")
     load = samples(f"{caller}: {name}", load, times) / (area if depth is None else 1.0)
     return medium.relaxation, area, times, load
 

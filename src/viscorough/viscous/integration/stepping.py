@@ -13,12 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.arrays import ReadOnlyArrays, increasing
+from viscorough import units
+from viscorough.arrays import ReadOnlyArrays, increasing, real_number
 from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
+from viscorough.summaries import unit_power
 from viscorough.types import Progress
 from viscorough.viscous.integration.elements import elements_of_map
 
@@ -116,8 +118,12 @@ def march_steps(
     """
     if scheme not in SCHEMES:
         raise ValueError(f"march_steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
-    impulses = increasing("march_steps: impulses", np.atleast_1d(impulses), above_zero=True)
-    scale = elements_of_map(indenter, "march_steps").units.stiffness
+    scale, unit = elements_of_map(indenter, "march_steps").units.stiffness, indenter.length_unit
+    tolerance = real_number("march_steps: tolerance", tolerance)
+    if not 1e-12 <= tolerance <= 0.1:
+        raise ValueError(f"march_steps: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
+    impulses = np.atleast_1d(units.numbers(impulses, unit_power(unit, 2), unit, "march_steps: impulses"))
+    impulses = increasing("march_steps: impulses", impulses, above_zero=True)
     integrator = _INTEGRATORS[scheme](indenter, tolerance)
     rows = []
     for step in np.diff(impulses / scale, prepend=0.0):

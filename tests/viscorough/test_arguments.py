@@ -1,0 +1,441 @@
+"""Numbers that public functions are given: of any real type and unit they count as plain floats, others are refused."""
+
+import dataclasses
+import inspect
+from fractions import Fraction
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pint
+import pytest
+
+import viscorough
+from support.contract import refused
+from viscorough import reference
+
+UREG = pint.UnitRegistry()
+# Numbers of the calls are sums of few powers of two, so that single and half precision hold them exactly.
+HEIGHTS = np.array([[0.0, -0.5, -0.25], [-1.0, -0.125, -2.0], [-0.75, -1.5, -0.5]])
+DISC = viscorough.Indenter(HEIGHTS, 1.0, length_unit="um")
+LINE = viscorough.Indenter(HEIGHTS[0], 1.0, length_unit="um")
+CURVE = viscorough.indent(DISC, until_fraction=1.0)
+SOLID = viscorough.StandardLinearSolid(2.0**16, 2.0**14, 0.5)
+FORCES = [2.0**-24, 2.0**-23]  # N; with moduli of 10 kPa F/G is some µm²
+RECORD = viscorough.kinetics(CURVE, FORCES[0], SOLID, np.arange(1.0, 7.0))
+DEPTHS = RECORD.depth.astype(np.float16).tolist()
+POINTS = [0.0, 0.5, 1.0, 2.0, 4.0]
+
+
+@dataclasses.dataclass(frozen=True)
+class Call:
+    """A valid call: arguments that hold numbers, with values and units (None: there is no unit), and all others."""
+
+    function: object
+    numbers: dict
+    others: dict
+
+    def result(self, **changed):
+        plain = {name: value for name, (value, _) in self.numbers.items()}
+        return self.function(**(plain | self.others | changed))
+
+
+def call(function, numbers, **others):
+    return Call(function, {name: v if isinstance(v, tuple) else (v, None) for name, v in numbers.items()}, others)
+
+
+OPTIONS = {"threads": 1}
+DISC_NUMBERS = {"hurst": 0.5, "elements_across": 5, "rms": 0.5, "diameter": 8.0, "period": 1.5, "seed": 1}
+ROLL_OFF = {"roll_off_wavelength": 0.5, "roll_off_level": 0.5}
+LENGTH, AREA = "um", "um**2"
+CALLS = {
+    "indent": [
+        call(viscorough.indent, {"depths": ([0.5, 1.0], LENGTH), "tolerance": 0.0625, **OPTIONS}, indenter=DISC),
+        call(
+            viscorough.indent,
+            {"forces": (FORCES, "N"), "shear_modulus": (2.0**14, "Pa"), "tolerance": 0.0625},
+            indenter=DISC,
+        ),
+        call(viscorough.indent, {"forces": ([0.5, 1.0], AREA)}, indenter=DISC),
+        call(
+            viscorough.indent,
+            {"start_fraction": 0.25, "until_fraction": 0.5, "until_force": (4.0, AREA)},
+            indenter=DISC,
+        ),
+    ],
+    "contact_at": [
+        call(viscorough.contact_at, {"depth": (0.5, LENGTH), "tolerance": 0.0625, **OPTIONS}, indenter=DISC),
+        call(
+            viscorough.contact_at,
+            {"force": (FORCES[0], "N"), "shear_modulus": (2.0**14, "Pa")},
+            indenter=DISC,
+        ),
+    ],
+    "SolverOptions": [
+        call(
+            viscorough.SolverOptions,
+            {
+                "exact_gap_below": 0.5,
+                "operator_rounding": 4.0,
+                "max_iterations": 8,
+                "dense_contacts": 8,
+                "dense_interactions": 8,
+            },
+        )
+    ],
+    "Contact": [
+        call(
+            viscorough.Contact,
+            {
+                "pressure": ([[0.5, 0.0]], None),
+                "gap": ([[0.0, 1.0]], None),
+                "depth": 0.5,
+                "force": 0.5,
+                "stiffness": 0.5,
+                "residual": 0.5,
+                "tolerance": 0.5,
+                "spacing": 1.0,
+                "row_spacing": 1.0,
+                "shear_modulus": 2.0,
+            },
+            contact=np.array([[True, False]]),
+        )
+    ],
+    "LoadingCurve": [
+        call(
+            viscorough.LoadingCurve,
+            {
+                "depth": [1.0, 2.0],
+                "force": [1.0, 4.0],
+                "stiffness": [2.0, 4.0],
+                "contact_count": [1.0, 2.0],
+                "residual": [0.0, 0.5],
+                "elements": 4,
+                "tolerance": 0.5,
+                "operator_applications": 2,
+            },
+            method="none",
+        )
+    ],
+    "ForceHistory": [call(viscorough.ForceHistory, {"times": [0.0, 2.0], "force": [1.0, 1.0], "impulse": [0.0, 2.0]})],
+    "Indenter": [
+        call(
+            viscorough.Indenter,
+            {"heights": (HEIGHTS.tolist(), LENGTH), "spacing": (1.0, LENGTH), "row_spacing": (2.0, LENGTH)},
+            length_unit="um",
+        ),
+        call(viscorough.Indenter, {"spacing": ([1.0, 2.0], LENGTH)}, heights=HEIGHTS, length_unit="um"),
+    ],
+    "IdentifiedMedium": [
+        call(
+            viscorough.IdentifiedMedium,
+            {"time": [0.0, 1.0], "compliance": [0.5, 1.0], "low": [0.5, 0.5], "high": [1.0, 1.0], "scatter": 0.5},
+            medium=SOLID,
+        )
+    ],
+    "penetration_law": [call(viscorough.penetration_law, {"hurst": 0.5})],
+    "estimate": [
+        call(
+            viscorough.estimate,
+            {"hurst": 0.5, "rms": 0.125, "diameter": 1.0, "force": 1.0, "medium": 1.0, "times": [0.03125, 0.0625]},
+        )
+    ],
+    "prepare": [
+        call(viscorough.prepare, {"nodata": [-2.0, -9999.0], "crop": [[0, 2], [0, 3]]}, indenter=DISC),
+    ],
+    "line_of_map": [call(viscorough.line_of_map, {"seed": 1}, surface=DISC)],
+    "line_of_surface": [call(viscorough.line_of_surface, {"square": HEIGHTS.tolist(), "spacing": 0.5, "seed": 1})],
+    "reduce": [call(viscorough.reduce, {"until_fraction": 0.75, "until_force": (0.5, AREA)}, line=LINE)],
+    "audit": [call(viscorough.audit, {"tolerance": 0.0625, **OPTIONS}, indenter=DISC)],
+    "complete_contact": [call(viscorough.complete_contact, OPTIONS, indenter=indenter) for indenter in (DISC, LINE)],
+    "cut_disc": [call(viscorough.cut_disc, {"square": HEIGHTS.tolist(), "elements_across": 3})],
+    "self_affine_disc": [
+        call(viscorough.self_affine_disc, DISC_NUMBERS | ROLL_OFF, length_unit="um"),
+    ],
+    "self_affine_line": [
+        call(
+            viscorough.self_affine_line,
+            {"hurst": 0.5, "points": 8, "rms": 0.5, "length": 8.0, "seed": 1} | ROLL_OFF,
+            length_unit="um",
+        )
+    ],
+    "impulses": [
+        call(viscorough.impulses, {"force": 2.0, "times": [0.0, 1.0]}),
+        call(viscorough.impulses, {"force": [1.0, 2.0], "times": [0.0, 1.0]}),
+    ],
+    "kinetics": [
+        call(
+            viscorough.kinetics,
+            {"force": (FORCES[0], "N"), "medium": (2.0**14, "Pa s"), "times": ([0.5, 1.0], "s")},
+            curve=CURVE,
+        ),
+        call(viscorough.kinetics, {"force": (FORCES, "N"), "times": ([0.5, 1.0], "s")}, curve=CURVE, medium=SOLID),
+    ],
+    "identify_medium": [
+        call(
+            viscorough.identify_medium,
+            {"force": (FORCES[0], "N"), "times": (RECORD.time.tolist(), "s"), "depth": (DEPTHS, LENGTH)},
+            curve=CURVE,
+        )
+    ],
+    "march_events": [call(viscorough.march_events, {"until_fraction": 0.5}, indenter=DISC)],
+    "march_medium_events": [
+        call(
+            viscorough.march_medium_events,
+            {"times": ([0.0, 1.0], "s"), "force": (FORCES, "N"), "until_fraction": 1.0},
+            indenter=DISC,
+            medium=SOLID,
+        )
+    ],
+    "march_medium": [
+        call(
+            viscorough.march_medium,
+            {"times": ([0.0, 1.0], "s"), "force": (FORCES, "N"), "medium": (2.0**14, "Pa s")},
+            indenter=DISC,
+        ),
+        call(
+            viscorough.march_medium,
+            {"times": ([0.0, 1.0], "s"), "depth": ([0.5, 1.0], LENGTH)},
+            indenter=DISC,
+            medium=SOLID,
+        ),
+    ],
+    "march_steps": [
+        call(
+            viscorough.march_steps,
+            {"impulses": ([0.5, 1.0], AREA), "tolerance": 2.0**-10},
+            indenter=DISC,
+            scheme=scheme,
+        )
+        for scheme in ("heun", "implicit")
+    ],
+    "CreepTable": [call(viscorough.CreepTable, {"times": (POINTS, "s"), "compliances": (POINTS, "1/Pa")})],
+    "KelvinVoigt": [call(viscorough.KelvinVoigt, {"shear_modulus": (2.0, "Pa"), "viscosity": (4.0, "Pa s")})],
+    "Maxwell": [call(viscorough.Maxwell, {"shear_modulus": (2.0, "Pa"), "viscosity": (4.0, "Pa s")})],
+    "Newtonian": [call(viscorough.Newtonian, {"viscosity": (4.0, "Pa s")})],
+    "Prony": [
+        call(
+            viscorough.Prony,
+            {"relaxed_modulus": (1.0, "Pa"), "moduli": ([1.0, 2.0], "Pa"), "relaxation_times": ([1.0, 4.0], "s")},
+        )
+    ],
+    "Springpot": [call(viscorough.Springpot, {"modulus": 2.0, "exponent": 0.5})],
+    "StandardLinearSolid": [
+        call(
+            viscorough.StandardLinearSolid,
+            {"instantaneous_modulus": (4.0, "Pa"), "relaxed_modulus": (1.0, "Pa"), "relaxation_time": (0.5, "s")},
+        )
+    ],
+    "pressure_at": [
+        call(
+            viscorough.pressure_at,
+            {
+                "force": (FORCES[0], "N"),
+                "time": (1.0, "s"),
+                "contacts": 4,
+                "tolerance": 0.0625,
+                "medium": (2.0**14, "Pa s"),
+            },
+            indenter=DISC,
+        )
+    ],
+    "force_under_depth": [
+        call(
+            viscorough.force_under_depth,
+            {"depth": ([0.5, 1.0], LENGTH), "times": ([0.0, 1.0], "s")},
+            curve=CURVE,
+            medium=SOLID,
+        )
+    ],
+}
+# Arguments that hold no numbers and are not needed for the calls.
+OPTIONAL = {
+    *("progress", "options", "precision", "padding", "length_unit", "corners", "amplitudes", "rms_over", "dtype"),
+    *("detrend", "fill", "flip", "kind", "scheme", "medium", "method"),
+}
+# Public names without numbers among their arguments, and functions of files, whose numbers test_heights.py covers.
+WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "Medium", "reference", "read_medium", "read_force_history"}
+WITHOUT_NUMBERS |= {"load_curve", "save", "plot", "read_heights", "read_line"}
+METHODS = {
+    "at_force": call(CURVE.at_force, {"force": ([0.5, 1.0], AREA)}),
+    "normalised": call(CURVE.normalised, {"rms": (0.5, LENGTH), "diameter": (8.0, LENGTH)}),
+    "depth_at": call(viscorough.march_events(DISC).depth_at, {"impulse": [0.5, 1.0]}),
+    "event_at": call(viscorough.march_events(DISC).event_at, {"impulse": [0.5, 1.0]}),
+    "law.velocity": call(viscorough.penetration_law(0.5).velocity, {"x": [0.5, 1.0]}),
+    "law.depth": call(viscorough.penetration_law(0.5).depth, {"x": [0.5, 1.0]}),
+}
+LAWS = {
+    "PowerLawBody": {"coefficient": 1.0, "exponent": 2.0},
+    "cone": {"slope": 0.5},
+    "depth_law": {"x": [0.5, 1.0], "zeta": 0.5, "alpha": 0.5},
+    "exponent_alpha": {"hurst": 0.5},
+    "exponent_beta": {"hurst": [0.5, 1.0]},
+    "flat_disc_stiffness": {"radius": 1.0},
+    "flat_ellipse_stiffness": {"major": 2.0, "minor": 1.0},
+    "line_spectrum": {"wavenumber": [0.5, 1.0], "spectrum": 1.0, "transfer": 3.0},
+    "one_element_stiffness": {"elements_across": 11},
+    "rate_law": {"x": 1.0, "hurst": 0.5},
+    "sphere": {"radius": 1.0},
+    "velocity_law": {"x": [0.5, 1.0], "zeta": 0.5, "alpha": 0.5},
+    "zeta_elastic": {"hurst": 0.5},
+    "zeta_viscous": {"hurst": 0.5},
+}
+ALL = {f"{name}_{i}": each for name, calls in CALLS.items() for i, each in enumerate(calls)} | METHODS
+ALL |= {f"reference.{name}": call(getattr(reference, name), numbers) for name, numbers in LAWS.items()}
+CASES = [pytest.param(each, name, id=f"{key}-{name}") for key, each in ALL.items() for name in each.numbers]
+
+WRONG = {
+    "complex": 1 + 2j,
+    "complex without imaginary part": np.complex128(1),
+    "truth value": True,
+    "object": object(),
+    "huge": 10**400,
+    "more digits than Python writes": 10**5000,
+    "long double beyond double": np.longdouble("1e4000"),
+    "nan": np.nan,
+    "infinite": -np.inf,
+    "text": "abc",
+    "bytes": b"1",
+    "mapping": {"1": 1},
+    "set": {1.0},
+    "date": np.datetime64("2013-01-01"),
+    "duration": np.timedelta64(1, "s"),
+    "curve": CURVE,
+    "path": Path("curve.nc"),
+    "temperature": UREG.Quantity(1.0, "kelvin"),
+    "complex quantity": UREG.Quantity(1j, "mN"),
+    "rows of different lengths": [1.0, [2.0, 3.0]],
+}
+
+
+def assert_same(one, other):
+    """Assert that two results hold the same numbers, up to the rounding of units."""
+    if dataclasses.is_dataclass(one):
+        assert type(one) is type(other)
+        for field in dataclasses.fields(one):
+            assert_same(getattr(one, field.name), getattr(other, field.name))
+    elif isinstance(one, list | tuple):
+        for a, b in zip(one, other, strict=True):
+            assert_same(a, b)
+    elif isinstance(one, dict):
+        assert_same(list(one.items()), list(other.items()))
+    elif isinstance(one, str | None):
+        assert one == other
+    else:
+        np.testing.assert_allclose(np.asarray(one, float), np.asarray(other, float), rtol=1e-9, atol=1e-15)
+
+
+def one_line(error):
+    assert len(str(error).splitlines()) == 1, str(error)
+    assert len(str(error)) < 600
+
+
+def test_every_public_function_and_its_numbers_are_covered():
+    assert set(CALLS) == set(viscorough.__all__) - WITHOUT_NUMBERS
+    for name, calls in CALLS.items():
+        covered = set().union(*({*each.numbers, *each.others} for each in calls))
+        assert set(inspect.signature(getattr(viscorough, name)).parameters) - covered <= OPTIONAL, name
+    laws = {n for n, value in vars(reference).items() if getattr(value, "__module__", "") == reference.__name__}
+    assert set(LAWS) == {name for name in laws if not name.startswith("_")}
+    for name, numbers in LAWS.items():
+        assert set(inspect.signature(getattr(reference, name)).parameters) - set(numbers) <= {"gamma"}, name
+
+
+@pytest.mark.parametrize(("each", "name"), CASES)
+def test_real_numbers_of_every_type_count_as_floats(each, name):
+    expected, value = each.result(), each.numbers[name][0]
+    whole = np.array(value).dtype.kind == "i"
+    for kind in (np.int16, np.uint64) if whole else (np.float16, np.float32, np.float64, np.longdouble):
+        typed = np.array(value, dtype=kind)
+        assert_same(each.result(**{name: typed if typed.ndim else typed[()]}), expected)
+    if not whole:
+        objects = np.array([Fraction(number) for number in np.ravel(value)], dtype=object).reshape(np.shape(value))
+        assert_same(each.result(**{name: objects if objects.ndim else objects[()]}), expected)
+
+
+@pytest.mark.parametrize("wrong", WRONG)
+@pytest.mark.parametrize(("each", "name"), CASES)
+def test_everything_else_is_refused_in_one_line(each, name, wrong):
+    value = each.numbers[name][0]
+    given = [WRONG[wrong]]
+    if isinstance(value, list):
+        given.append([value[0], WRONG[wrong], *value[2:]])
+    for values in given:
+        if is_allowed(each, name, wrong):
+            continue
+        with pytest.raises((ValueError, TypeError)) as error:
+            each.result(**{name: values})
+        one_line(error.value)
+
+
+def is_allowed(each, name, wrong):
+    """Whether a value is not wrong for this argument."""
+    if wrong in ("huge", "more digits than Python writes"):
+        return name == "seed"
+    # Points outside a map and values that are not known; marks of missing points; forces beyond a curve.
+    may_be_nan = {"nodata", "heights", "pressure", "gap", "compliance", "low", "high", "time", "scatter"}
+    return wrong in ("nan", "infinite") and (name in may_be_nan or each is METHODS["at_force"])
+
+
+@pytest.mark.parametrize(("each", "name"), [case for case in CASES if case.values[0].numbers[case.values[1]][1]])
+def test_quantities_with_a_unit_are_converted(each, name):
+    expected, (value, unit) = each.result(), each.numbers[name]
+    quantity = UREG.Quantity(np.array(value) if isinstance(value, list) else value, unit)
+    given = [quantity, quantity.to_base_units()]
+    given += [quantity.to(f"milli{UREG.Unit(unit):~}")] if unit in ("N", "s", "Pa") else []
+    given += [list(quantity)] if isinstance(value, list) and np.ndim(value) == 1 else []
+    for each_given in given:
+        if unit == AREA and each.function is viscorough.indent:
+            with refused("a force needs"):
+                each.result(**{name: each_given})
+        else:
+            assert_same(each.result(**{name: each_given}), expected)
+
+
+@pytest.mark.parametrize(
+    ("each", "name"), [case for case in CASES if case.values[0].numbers[case.values[1]][1] is None]
+)
+def test_numbers_without_a_unit_are_no_quantities(each, name):
+    value = each.numbers[name][0]
+    for unit in ("mN", "ms", "um", "percent"):
+        with pytest.raises((ValueError, TypeError), match=r"^[^\n]*$"):
+            each.result(**{name: UREG.Quantity(np.array(value) if isinstance(value, list) else value, unit)})
+
+
+INDENTERS = [name for name, calls in CALLS.items() if {"indenter", "line", "surface", "curve"} & set(calls[0].others)]
+
+
+@pytest.mark.parametrize("wrong", ["heights.npy", Path("curve.nc"), HEIGHTS, None, 3.0, DISC, LINE, CURVE], ids=repr)
+@pytest.mark.parametrize("name", INDENTERS)
+def test_a_path_or_an_array_is_no_indenter_and_no_curve(name, wrong):
+    each = CALLS[name][0]
+    (argument,) = {"indenter", "line", "surface", "curve"} & set(each.others)
+    if type(wrong) is type(each.others[argument]) and (name == "complete_contact" or wrong is each.others[argument]):
+        return
+    with pytest.raises((TypeError, ValueError), match=name) as error:
+        each.result(**{argument: wrong})
+    one_line(error.value)
+
+
+@pytest.mark.parametrize("wrong", ["abc", [1.0], np.array([1.0, 2.0]), None, True, 1j, CURVE, 10**400], ids=repr)
+@pytest.mark.parametrize(
+    "name", [name for name, calls in CALLS.items() if "medium" in calls[0].others | calls[0].numbers]
+)
+def test_what_is_no_medium_is_refused(name, wrong):
+    if name == "IdentifiedMedium":
+        return
+    with pytest.raises((TypeError, ValueError)) as error:
+        CALLS[name][0].result(medium=wrong)
+    one_line(error.value)
+
+
+@pytest.mark.parametrize("options", [{}, {"precision": "double"}, 1e-3, "single"], ids=repr)
+@pytest.mark.parametrize("name", ["indent", "contact_at", "audit"])
+def test_other_options_than_solver_options_are_refused(name, options):
+    with pytest.raises(TypeError, match="SolverOptions"):
+        CALLS[name][0].result(options=options)
+
+
+def test_never_is_a_force_that_is_not_reached():
+    indent = partial(viscorough.indent, DISC, until_fraction=0.5)
+    assert indent(until_force=np.float32(np.inf)) == indent(until_force=float("inf")) == indent()

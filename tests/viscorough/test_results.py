@@ -1,0 +1,148 @@
+"""Results as values: equal to themselves, unequal to arrays, and read-only however they were copied."""
+
+import copy
+import dataclasses
+import pickle
+
+import numpy as np
+import pytest
+
+import viscorough
+from support.contract import refused
+from viscorough.arrays import ReadOnlyArrays
+from viscorough.viscous.integration.internal_variables import MediumMotion
+
+DISC = viscorough.self_affine_disc(0.7, 9, rms=1e-8, diameter=1e-6, length_unit="m", seed=1)
+CURVE = viscorough.indent(DISC, until_fraction=1.0)
+SOLID = viscorough.StandardLinearSolid(4e6, 1e6, 0.5)
+FORCE = 2e-8
+TIMES = np.arange(1.0, 7.0)
+MOTION = viscorough.kinetics(CURVE, FORCE, SOLID, TIMES)
+
+
+def results():
+    """A new result of every kind."""
+    yield DISC.to("um")
+    yield viscorough.indent(DISC, until_fraction=0.5)
+    yield viscorough.contact_at(DISC, depth=1e-9)
+    yield viscorough.contact_at(DISC, depth=1e-9).patches()
+    yield viscorough.kinetics(CURVE, FORCE, SOLID, TIMES)
+    yield viscorough.kinetics(CURVE, FORCE, SOLID)
+    yield viscorough.impulses([1.0, 2.0], [0.0, 1.0])
+    yield viscorough.force_under_depth(CURVE, [1e-9, 1e-9], SOLID, [0.0, 1.0])
+    yield viscorough.identify_medium(CURVE, FORCE, MOTION.time, MOTION.depth)
+    yield viscorough.march_events(DISC)
+    yield viscorough.march_steps(DISC, [1e-16])
+    for force in ([FORCE, FORCE], [FORCE, 0.1 * FORCE]):
+        yield viscorough.march_medium(DISC, SOLID, [0.0, 1.0], force=force)
+    yield viscorough.march_medium_events(DISC, SOLID, [0.0, 1.0], force=[FORCE, FORCE])
+    yield viscorough.complete_contact(DISC)
+    yield viscorough.audit(DISC)
+    yield viscorough.estimate(0.7, 0.1, 1.0, 1.0, 1.0, [0.01, 0.1])
+    yield viscorough.CreepTable([0.0, 1.0], [0.0, 1.0])
+
+
+PAIRS = [pytest.param(*pair, id=type(pair[0]).__name__) for pair in zip(results(), results(), strict=True)]
+
+
+def arrays_in(result):
+    """All arrays of a result, also of results within it."""
+    values = result if isinstance(result, tuple) else [getattr(result, f.name) for f in dataclasses.fields(result)]
+    for value in values:
+        if isinstance(value, np.ndarray):
+            yield value
+        elif isinstance(value, ReadOnlyArrays):
+            yield from arrays_in(value)
+
+
+@pytest.mark.parametrize(("one", "same"), PAIRS)
+def test_a_result_equals_itself_and_one_of_equal_numbers(one, same):
+    assert (one == one) is True
+    assert (one == same) is True
+    assert (one != same) is False
+    for other in (np.arange(3.0), np.array(1.0), [1.0], None, "text", CURVE.depth):
+        assert (one == other) is False
+        assert (other == one) is False
+        assert (one != other) is True
+
+
+def test_results_of_other_numbers_differ():
+    assert viscorough.impulses(1.0, [0.0, 1.0]) != viscorough.impulses(2.0, [0.0, 1.0])
+    assert viscorough.impulses(1.0, [0.0, 1.0]) != tuple(viscorough.impulses(1.0, [0.0, 1.0]))
+    numbers = (np.array([0.0]), np.array([1.0]), np.array([1.0]), np.array([1]))
+    without = MediumMotion(*numbers)
+    assert without == MediumMotion(*numbers)
+    for pressure, receding in ((np.array([[1.0]]), np.nan), (None, 1.0)):
+        assert MediumMotion(*numbers, pressure=pressure, receding_from=receding) != without
+
+
+@pytest.mark.parametrize("copied", [copy.deepcopy, copy.copy, lambda result: pickle.loads(pickle.dumps(result))])
+@pytest.mark.parametrize(("one", "same"), PAIRS)
+def test_copies_are_equal_and_read_only(one, same, copied):
+    made = copied(one)
+    assert made == one == same
+    for array in arrays_in(made):
+        assert not array.flags.writeable
+
+
+CURVE_OF_TWO = {
+    "depth": [1.0, 2.0],
+    "force": [1.0, 4.0],
+    "stiffness": [2.0, 4.0],
+    "contact_count": [1, 2],
+    "elements": 4,
+    "method": "none",
+    "tolerance": 0.1,
+    "operator_applications": 0,
+    "residual": [0.0, 0.0],
+}
+
+
+@pytest.mark.parametrize("name", ["depth", "force", "stiffness", "contact_count", "residual"])
+@pytest.mark.parametrize("values", [[1.0], [1.0, 2.0, 3.0], [[1.0, 2.0]], 1.0], ids=repr)
+def test_arrays_of_a_curve_have_one_value_for_each_level(name, values):
+    assert viscorough.LoadingCurve(**CURVE_OF_TWO).depth.size == 2
+    with refused("loading curve: "):
+        viscorough.LoadingCurve(**CURVE_OF_TWO | {name: values})
+
+
+@pytest.mark.parametrize("changed", [{"elements": 0}, {"tolerance": -0.1}, {"tolerance": np.inf}], ids=repr)
+def test_a_curve_has_elements_and_a_tolerance(changed):
+    with refused("loading curve|LoadingCurve"):
+        viscorough.LoadingCurve(**CURVE_OF_TWO | changed)
+
+
+def test_the_impulse_of_a_force_history_is_its_integral():
+    times, force = [0.0, 1.0, 1.0, 3.0], [0.0, 2.0, 1.0, 1.0]
+    history = viscorough.ForceHistory(times, force, [0.0, 1.0, 1.0, 3.0])
+    assert history == viscorough.impulses(force, times)
+    constant = viscorough.impulses(2.0, [1.0, 3.0])  # from time 0 on
+    assert viscorough.ForceHistory(*constant) == constant
+    for impulse in ([0.0, 1.0, 1.0, 3.1], [1.0, 2.0, 2.0, 4.0], [0.0, 1.0, 1.0], [0.0, 1.0, 1.0, -3.0]):
+        with refused("ForceHistory: impulse"):
+            viscorough.ForceHistory(times, force, impulse)
+
+
+@pytest.mark.parametrize("force", [-2.0, 0.0, np.nan, np.inf, [-1.0, 1.0], [np.inf, 1.0], [1j, 1.0]], ids=repr)
+def test_a_force_that_pulls_or_is_not_finite_has_no_history(force):
+    with refused("force"):
+        viscorough.impulses(force, [0.0, 1.0])
+
+
+@pytest.mark.parametrize("tolerance", [1.0, np.inf, np.nan, 0.0, 1e-13, 1j])
+@pytest.mark.parametrize("scheme", ["explicit", "heun", "implicit"])
+def test_tolerances_of_steps_are_those_of_contacts(scheme, tolerance):
+    with refused("march_steps: tolerance"):
+        viscorough.march_steps(DISC, [1e-16], scheme=scheme, tolerance=tolerance)
+
+
+@pytest.mark.parametrize("heights", [[[0.0, 1.0], [0.5, 0.25]], [0.0, 1.0, 0.5]])
+def test_energies_beyond_double_precision_are_refused(heights):
+    def end(scale):
+        return viscorough.complete_contact(viscorough.Indenter(scale * np.array(heights), 1.0))
+
+    assert end(1e-120).energy == pytest.approx(1e-240 * end(1.0).energy, rel=1e-12)
+    for scale, what in ((1e-221, "too small"), (1e-160, "too small"), (1e160, "too large")):
+        with refused(f"energy of complete contact is {what}"):
+            end(scale)
+    assert viscorough.complete_contact(viscorough.Indenter(np.zeros((2, 2)), 1.0)).energy == 0

@@ -230,7 +230,8 @@ def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
         return CompleteContact(float(gap.mean()), energy, stiffness, float(largest), indenter.length_unit)
     elements, units = elements_of(indenter, threads)
     joined = joined_surface(elements, threads=threads)
-    energy = _energy(units.stiffness / 2 * joined.load @ (elements.initial_gap - joined.mean_gap), units.length)
+    above_mean = elements.initial_gap - joined.mean_gap
+    energy = _energy(float(units.stiffness / 2 * joined.load @ above_mean), units.length)
     return CompleteContact(
         mean_gap=joined.mean_gap * units.length,
         energy=energy,

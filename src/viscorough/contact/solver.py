@@ -44,8 +44,8 @@ _GROWTH_OF_BOX = 1.3
 _LOST_CONTACT = 3
 # Largest reduced depth: single precision holds numbers a thousand times as large and more.
 _LARGEST_DEPTH = 1e25
-# Residual of the linear problems of complete contact, over the tolerance. The relative error of the depth is a few times
-# as large as this residual, and the largest residual of an element is below it times the root of their number.
+# Residual of the linear problems of complete contact, over the tolerance. The relative error of the depth is a few
+# times as large as this residual, and the largest residual of an element is below it times the root of their number.
 _JOINED_SHARE = 1e-4
 # A gap is open beyond doubt if it is larger than the residual by this factor: a margin for rounding.
 _OPEN_GAP = 1.1

@@ -18,6 +18,8 @@ from viscorough.types import Array, Pair
 
 # Relative rounding error of forces and depths that is allowed for.
 _ROUNDING = 1e-12
+# Rounding error of the difference of two depths, over the larger one.
+_CANCELLATION = 4 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -173,11 +175,13 @@ def interpolate_between(
     wanted : forces, shape (n,). Returns (depth, stiffness) of that shape.
     """
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
-    left, right = u0 + (wanted - f0) / k0, u1 - (f1 - wanted) / k1
-    tangents = np.minimum(left, right)
+    # Far below the level after, its tangent is lost in rounding: it must not be the lower one there.
+    left, right = u0 + (wanted - f0) / k0, u1 - (f1 - wanted) / k1 + _CANCELLATION * u1
+    is_left = left <= right
+    tangents = np.clip(np.minimum(left, right), u0, u1)
     chord = u0 + (u1 - u0) * (wanted - f0) / (f1 - f0)
     cubic, cubic_stiffness = _hermite_in_logarithms(wanted, forces, depths, stiffnesses)
-    tangent_stiffness = np.where(left <= right, k0, k1)
+    tangent_stiffness = np.where(is_left & (wanted < f1), k0, k1)
 
     # Tangents where at most one element joined; elsewhere the cubic, or the side of the triangle that it crosses.
     on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))

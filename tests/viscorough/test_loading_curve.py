@@ -39,6 +39,28 @@ def test_one_joining_element_makes_two_tangents():
     np.testing.assert_array_equal(stiffness, [1, 1, 1, 2, 2, 2, 3, 3])
 
 
+def test_levels_many_decades_apart_are_exact_where_no_element_joins():
+    """Both tangents are the same line, but the one at the upper level cancels near the lower one."""
+    gaps = np.array([0.0, 1e-16])
+    for last in np.random.default_rng(1).uniform(0.5, 1.0, 100):
+        curve = springs(gaps, [3e-16, last])
+        depth = np.geomspace(3e-16, last, 80)
+        interpolated, stiffness = curve.at_force(np.maximum(depth[:, None] - gaps, 0).sum(axis=1))
+        np.testing.assert_allclose(interpolated, depth, rtol=1e-14)
+        assert (np.diff(interpolated) > 0).all()
+        np.testing.assert_array_equal(stiffness, 2)
+
+
+def test_stiffness_at_a_level_is_that_of_the_level():
+    """A contact event is a level: the stiffness jumps there, and the curve stores the one beyond it."""
+    gaps = np.array([0.0, 1.0, 3.0, 3.5])
+    levels = springs(gaps, [1.0, 3.0, 3.5, 4.0])
+    curve = curve_of_levels(levels.depth, levels.force, [2, 3, 4, 4], [2, 3, 4, 4])
+    depth, stiffness = curve.at_force(curve.force)
+    np.testing.assert_allclose(depth, curve.depth, rtol=1e-15)
+    np.testing.assert_array_equal(stiffness, curve.stiffness)
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_convexity_confines_coarse_levels(seed):
     """The interpolant lies between chord and tangents and rises, however coarse the levels."""

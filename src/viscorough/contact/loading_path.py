@@ -189,7 +189,7 @@ class _LoadingPath:
         self._until_count = until_fraction * solver.elements.count
         self._complete: ContactState | None = None  # computed when the path may have reached it
         # A little more, so that rounding does not leave the last level below the force.
-        self._until_pressure_sum = (1 + ROUNDING) * until_force / solver.units.force
+        self._until_pressure_sum = (1 + ROUNDING / 2) * until_force / solver.units.force
         self._contact = solver.first_contact()
         self._levels = [Level.of(self._contact)]
         self._ahead = ContactsAhead()
@@ -278,8 +278,10 @@ class _LoadingPath:
     def _advance(self, ratio: float) -> ContactState:
         """The contact at a depth larger by a ratio, or by less where the force at which to stop is reached before."""
         contact, last_depth = self._contact, self._contact.reduced_depth
-        # The curve lies above its tangent: at this depth the force at which to stop is reached or just exceeded.
-        sufficient_depth = last_depth + (self._until_pressure_sum - contact.pressure_sum) / contact.tangent_sum
+        # The curve lies above its tangent: at this depth the force at which to stop is reached, or exceeded at least by
+        # the rounding error of the contact.
+        sufficient = (1 + ROUNDING) * self._until_pressure_sum
+        sufficient_depth = last_depth + (sufficient - contact.pressure_sum) / contact.tangent_sum
         depth = max(min(last_depth * ratio, sufficient_depth), last_depth * self._control.min_ratio)
         if self._complete and depth * self._control.min_ratio >= self._complete.reduced_depth:
             return self._complete

@@ -200,7 +200,8 @@ class ForceSearch:
         depth = below.reduced_depth + (target - below.pressure_sum) / below.tangent_sum
         if not ends_at_force or depth > self._solver.elements.ranked_depth:
             return None
-        pressure = loads.pressure + (depth - below.reduced_depth) * loads.tangent
+        # An element that touches at this force has no pressure: rounding must not put it under tension.
+        pressure = np.maximum(loads.pressure + (depth - below.reduced_depth) * loads.tangent, 0.0)
         return replace(below, reduced_depth=depth, pressure_sum=target, loads=loads._replace(pressure=pressure))
 
     def _guess(self, target: float, attempt: int) -> tuple[float, tuple[float, float] | None]:

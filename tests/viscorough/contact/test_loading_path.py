@@ -105,6 +105,18 @@ def test_stops_at_fraction_or_force():
     assert by_force.force[-2] < 2.0
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_curve_until_a_force_has_one_level_at_it(seed):
+    """Rounding neither leaves the last level below the force nor adds a second one just beyond it."""
+    random = np.random.default_rng(seed)
+    disc = self_affine_disc(random.random(), 33, rms=0.05, seed=seed)
+    for force in (10.0 ** random.uniform(-4, 0), np.float32(10.0 ** random.uniform(-4, -1))):
+        for tolerance in (1e-2, 1e-5):
+            curve = indent(disc, tolerance=tolerance, until_force=force)
+            assert curve.force[-1] >= float(force)
+            assert (curve.force[:-1] < float(force) * (1 - 1e-6)).all()
+
+
 @pytest.mark.parametrize("end", [{"until_fraction": 1e-300}, {"until_fraction": 1.0, "until_force": 1e-300}])
 def test_a_curve_that_ends_at_once_has_its_first_level(end):
     disc = self_affine_disc(0.6, 33, seed=1)

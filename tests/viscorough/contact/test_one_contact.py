@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough import Indenter, SolverOptions, contact_at, indent, self_affine_disc
+from viscorough import Indenter, SolverOptions, contact_at, indent, march_events, self_affine_disc
 from viscorough.contact.halfspace.influence import influence_coefficient
 
 DISC = self_affine_disc(0.7, 33, seed=4)
@@ -98,3 +98,14 @@ def test_a_force_that_overflows_is_refused():
     huge = Indenter(np.array([[0.0, -1e307], [-1e306, -1e307]]), 1e10)
     with pytest.raises(ValueError, match="too large to represent"):
         contact_at(huge, depth=1e306)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_element_is_under_tension_at_forces_of_contact_events(seed):
+    """An element that touches at exactly this force has no pressure, to rounding of either sign."""
+    indenter = Indenter(np.random.default_rng(seed).random((5, 6)), 1.0, 1.7)
+    forces = march_events(indenter).impulse[1:]
+    for force in (forces * (1 + np.finfo(float).eps * np.arange(-2, 3)[:, None])).ravel():
+        contact = contact_at(indenter, force=force, tolerance=1e-8)
+        assert contact.pressure.min() >= 0
+        np.testing.assert_allclose(contact.pressure.sum() * 1.7, force, rtol=2e-12)

@@ -107,10 +107,8 @@ def _float(name: str, value: Any) -> float:
 
 
 def float_or_array(name: str, values: Any) -> Numbers:
-    """Return finite real numbers for a formula: a float, or an array. Raises ValueError as `real_numbers`."""
+    """Return real numbers for a formula: a float, or an array. Raises ValueError as `real_numbers`."""
     numbers = real_numbers(name, values)
-    if not np.isfinite(numbers).all():
-        raise ValueError(f"{name}: {shown(values)}; finite numbers are needed")
     return numbers if numbers.ndim else float(numbers)
 
 
@@ -171,7 +169,7 @@ class ReadOnlyArrays:
         for field in dataclasses.fields(cast(Any, self)):
             value, name = getattr(self, field.name), f"{type(self).__name__}: {field.name}"
             kinds: Any = (field.type,) if field.type in _CONVERSIONS else get_args(field.type)
-            for kind in kinds if value is not None else ():
+            for kind in kinds if value is not None or type(None) not in kinds else ():
                 if kind in _CONVERSIONS:
                     object.__setattr__(self, field.name, _CONVERSIONS[kind](name, value))
 

@@ -115,6 +115,8 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         """X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) for rms height h and diameter L; both of shape (levels,)."""
         unit = self.length_unit
         rms, diameter = units.number(rms, unit, unit, "rms"), units.number(diameter, unit, unit, "diameter")
+        if not (rms > 0 and diameter > 0):
+            raise ValueError(f"normalised: rms {rms:g}, diameter {diameter:g}; numbers above 0 are needed")
         return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
 
     def at_force(self, force: ArrayLike) -> tuple[Array, Array]:

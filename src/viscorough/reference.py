@@ -15,10 +15,10 @@ Johnson 1985, Contact Mechanics (flat ellipse); Popov and Heß 2015 (method of d
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ellipk
+from scipy.special import ellipkm1
 from scipy.special import gamma as gamma_function
 
-from viscorough.arrays import float_or_array, whole_number
+from viscorough.arrays import float_or_array, shown, whole_number
 from viscorough.indenter import Indenter, positive
 from viscorough.types import Array, Numbers
 
@@ -149,7 +149,7 @@ def flat_ellipse_stiffness(major: float, minor: float) -> float:
     major, minor = float_or_array("semi-axis of an ellipse", major), float_or_array("semi-axis of an ellipse", minor)
     if not np.all((np.asarray(minor) > 0) & (np.asarray(major) >= minor)):
         raise ValueError(f"semi-axes of an ellipse: {major}, {minor}; allowed: finite, major >= minor > 0")
-    return 4 * np.pi * major / ellipk(1 - (minor / major) ** 2)
+    return 4 * np.pi * major / ellipkm1((minor / major) ** 2)
 
 
 def flat_disc_stiffness(radius: float) -> float:
@@ -176,7 +176,7 @@ def zeta_elastic(hurst: Numbers) -> Numbers:
     >>> round(float(reference.zeta_elastic(0.5)), 4)
     0.7854
     """
-    return np.pi * (3 - float_or_array("hurst", hurst)) / 10
+    return np.pi * (3 - _hurst_exponent(hurst)) / 10
 
 
 def exponent_alpha(hurst: Numbers) -> Numbers:
@@ -188,7 +188,7 @@ def exponent_alpha(hurst: Numbers) -> Numbers:
     >>> reference.exponent_alpha(1.0)
     0.5
     """
-    return 1 / (1 + float_or_array("hurst", hurst))
+    return 1 / (1 + _hurst_exponent(hurst))
 
 
 def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
@@ -207,7 +207,7 @@ def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False)
     """
     alpha = float_or_array("alpha", alpha)
     if not np.all(np.asarray(alpha) < 1):
-        raise ValueError(f"exponent alpha of the depth law: {alpha}; allowed: below 1")
+        raise ValueError(f"exponent alpha of the depth law: {shown(alpha)}; allowed: below 1")
     return velocity_law(x, zeta, alpha, gamma=gamma) / (1 - alpha)
 
 
@@ -221,6 +221,8 @@ def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = Fal
     4.0
     """
     x, zeta, alpha = float_or_array("x", x), float_or_array("zeta", zeta), float_or_array("alpha", alpha)
+    if np.any(np.asarray(x) < 0) or np.any(np.asarray(zeta) <= 0):
+        raise ValueError(f"velocity law: x {shown(x)}, zeta {shown(zeta)}; allowed: x of at least 0, zeta above 0")
     return x ** (1 - alpha) / (zeta * (gamma_function(2 - alpha) if gamma else 1))
 
 
@@ -233,7 +235,7 @@ def exponent_beta(hurst: Numbers) -> Numbers:
     >>> reference.exponent_beta(1.0)
     0.5
     """
-    hurst = float_or_array("hurst", hurst)
+    hurst = _hurst_exponent(hurst)
     return hurst / (1 + hurst)
 
 
@@ -246,7 +248,7 @@ def zeta_viscous(hurst: Numbers) -> Numbers:
     >>> reference.zeta_viscous(0.5)
     1.5
     """
-    return 2 - float_or_array("hurst", hurst)
+    return 2 - _hurst_exponent(hurst)
 
 
 def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
@@ -288,6 +290,14 @@ def one_element_stiffness(elements_across: int) -> float:
     0.081
     """
     return np.pi / (UNIT_SQUARE_DEFLECTION * whole_number("elements_across", elements_across, at_least=1))
+
+
+def _hurst_exponent(hurst: Numbers) -> Numbers:
+    """H as a float or an array. Raises ValueError for negative numbers."""
+    exponent = float_or_array("hurst", hurst)
+    if np.any(np.asarray(exponent) < 0):
+        raise ValueError(f"hurst: {shown(hurst)}; allowed: numbers of at least 0")
+    return exponent
 
 
 def _element_centres(number: int, width: float) -> Array:

@@ -98,6 +98,13 @@ CURVE_OF_TWO = {
 }
 
 
+def test_a_contact_has_three_maps_of_one_shape():
+    contact = viscorough.contact_at(DISC, depth=1e-9)
+    for changed in ({"contact": None}, {"gap": None}, {"pressure": [[1.0]]}, {"contact": contact.pressure}):
+        with refused("Contact: "):
+            dataclasses.replace(contact, **changed)
+
+
 @pytest.mark.parametrize("name", ["depth", "force", "stiffness", "contact_count", "residual"])
 @pytest.mark.parametrize("values", [[1.0], [1.0, 2.0, 3.0], [[1.0, 2.0]], 1.0], ids=repr)
 def test_arrays_of_a_curve_have_one_value_for_each_level(name, values):

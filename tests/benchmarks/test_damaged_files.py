@@ -9,7 +9,7 @@ import pytest
 
 from viscorough.io import netcdf
 
-KINDS = {"curve", "batch", "pool", "surfaces", "table", "NetCDF of the table"}
+KINDS = ("curve", "batch", "pool", "surfaces", "table", "NetCDF of the table")
 
 
 @pytest.fixture(scope="module")

@@ -66,9 +66,10 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
         heading = rows.pop(0)
     else:
         heading = above[-1] if above and _TWO_NAMES.fullmatch(above[-1]) else None
+    if heading is not None and heading.count(",") > 1 and {row.count(",") for row in rows} == {heading.count(",")}:
+        # Only the first two are read: unknown ends of intervals are empty.
+        heading, *rows = (",".join(row.split(",")[:2]) for row in [heading, *rows])
     table = np.loadtxt(rows, delimiter=",", ndmin=2) if rows else np.empty((0, 0))
-    if heading is not None and 2 < heading.count(",") + 1 == table.shape[1]:
-        table, heading = table[:, :2], ",".join(heading.split(",")[:2])
     for comment in comments:
         stated = None if comment is heading else _unit_in(comment.strip("# "))
         if stated is not None and any(_is_another(stated, unit) for unit in wanted):

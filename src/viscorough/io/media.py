@@ -32,8 +32,8 @@ KINDS: dict[str, Any] = {
 _TABLE: Quantities = {
     "time": ("time since a step of the force", "s"),
     "compliance": ("creep compliance J", "1/Pa"),
-    "low": ("creep compliance J, lower end of 95 %", "1/Pa"),
-    "high": ("creep compliance J, upper end of 95 %", "1/Pa"),
+    "low": ("creep compliance J, lower end of 95 %, missing if the scatter is unknown", "1/Pa"),
+    "high": ("creep compliance J, upper end of 95 %, missing if the scatter is unknown", "1/Pa"),
 }
 _LARGEST_FILE = 1_000_000  # bytes
 
@@ -111,7 +111,8 @@ def creep_table_of(path: FilePath) -> Path | None:
 def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: Any) -> None:
     """Write an IdentifiedMedium as YAML for `read_medium`, atomically; of a creep table, J stands in a table beside it.
 
-    The table, with the suffix .csv, has the columns time, compliance, and the ends of its interval, low and high.
+    The table, with the suffix .csv, has the columns time, compliance, and the ends of its interval, low and high, which
+    are empty if the scatter of the record is unknown.
 
     Parameters
     ----------

@@ -4,40 +4,59 @@ By the correspondence (viscous.correspondence) the elastic force at the measured
 
     F_el(u(t))/G = Φ(t) = ∫₀ᵗ J(t − s) dF(s),
 
-which for a step of force is F J(t), and otherwise a Volterra equation of the first kind for J. It is solved by least
-squares in depth over all compliances that a passive medium can have: J does not decrease and is concave, which is a sum
-J₀ + Σ c_k min(t, τ_k) with J₀, c_k ≥ 0, and under the impulse I(t) = ∫F dt min(t, τ) creeps by I(t) − I(t − τ).
+which for a step of force is F J(t), and otherwise a Volterra equation of the first kind for J. Two families of
+compliances are fitted to the depth by least squares:
+
+1. Media of springs and dashpots, J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)) with amounts ≥ 0. Their grid of retardation times
+   is refined about those found. Few of the amounts are positive, so that the residuals show the scatter of the record.
+2. All compliances that a passive medium can have: J does not decrease and is concave. This is a sum
+   J₀ + Σ c_k min(t, τ_k) with J₀, c_k ≥ 0, and under the impulse I(t) = ∫F dt min(t, τ) creeps by I(t) − I(t − τ).
+   It can pass through every row of a short or precise record, so that its own residuals show nothing. The intervals
+   of J are those of this family, at the scatter found with the first one or given by the user.
+
+Between its knots τ_k the second family is straight. What the first family differs from its chords between the knots is
+subtracted from the record, so that this does not shift the fit.
 """
 
+import warnings
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import gamma, stdtrit
+from scipy.special import fdtri, gamma, stdtrit
 
 from viscorough import units
 from viscorough.arrays import ForceHistory, ReadOnlyArrays, increasing, integral
+from viscorough.errors import AccuracyWarning
 from viscorough.loading_curve import LoadingCurve, check_curve
 from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span, with_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.correspondence import consistent_force, impulses, resampled
-from viscorough.viscous.creep_response import branch_states
+from viscorough.viscous.creep_response import branch_states, by_sums, creep_response
 from viscorough.viscous.media import CreepTable, Prony, Springpot
 from viscorough.viscous.medium import Medium
+from viscorough.viscous.non_negative import extremes, non_negative
 from viscorough.viscous.relaxation import elastic_force
 
 KINDS = ("table", "prony", "springpot")
 _KNOTS = 60  # of J, at most
 _EARLIER = 64  # ratio of the first row to the first knot under a ramp of force
-_RETARDATION_TIMES_PER_DECADE = 10
+# Grid of retardation times: its first and last time relative to those of the record, and its density. Around the times
+# found it is refined once, by this factor.
+_BEYOND, _TIMES_PER_DECADE, _FINER = 3.0, 10, 10
 _ITERATIONS = 6  # of Gauss and Newton; the elastic curve bends little over the scatter of the depth
 _LARGEST_DROP = 5  # standard deviations of the depth that scatter may explain
 _ROUNDING = 1e-9  # scatter relative to the depth below which a record is exact
 _FIRST_LEVEL = 1e-3  # of the largest depth: up to there the curve may be taken for straight
-_FIXED = 1e4  # weight of a prescribed J, in units of the weight of the record
-_TRIALS, _CLOSE = 8, 0.02  # for an end of an interval: of its distance from the fit, and its relative accuracy
+# Degrees of freedom per positive amount. The mean of the sum of squares lies between those for 1 and for 2 (Meyer and
+# Woodroofe 2000), and 1.5 keeps the intervals from being too narrow. Fewer degrees of freedom than the second number
+# leave the scatter undetermined.
+_PER_AMOUNT, _LEAST_FREEDOM = 1.5, 2
+_LEVEL = 0.95  # of the intervals
+# A misfit is larger than the scatter if the chance of it is below 1 - this; without known scatter, if it is larger than
+# this share of the largest depth.
+_SIGNIFICANT, _SMALL_MISFIT = 0.999, 1e-3
 
 
 @dataclass(frozen=True)
@@ -51,14 +70,16 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
     time : array
         0 and the times at which J was determined, shape (times,).
     compliance : array
-        J there, of the table, whichever kind was fitted.
+        J at these times, of the table, also if another kind was fitted.
     low, high : array
-        Ends of the interval of J at each time at the level of 95 %, from the scatter of the record; before its first
-        row from 0 on.
+        Ends of the interval of J at each time, at the level of 95 %; before the first row `low` is 0. Both are nan if
+        the scatter is not known.
     scatter : float
-        Standard deviation of the measured depth about that of the table [length].
+        Standard deviation of the measured depth [length], as given or as found from the record; nan if it is not known.
+    misfit : float
+        Root mean square of the difference between the measured depth and that in `medium` [length].
     length_unit : str
-        Of the depth; if it is known, moduli are in Pa and times in s.
+        Unit of the depth; if it is known, moduli are in Pa and times in s.
 
     Examples
     --------
@@ -66,9 +87,9 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
     >>> import viscorough
     >>> curve = viscorough.indent(viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1))
     >>> record = viscorough.kinetics(curve, 5e-6, 1e6, np.geomspace(0.1, 100, 50))
-    >>> identified = viscorough.identify_medium(curve, 5e-6, record.time, record.depth)
-    >>> bool((identified.low <= identified.compliance).all())
-    True
+    >>> identified = viscorough.identify_medium(curve, 5e-6, record.time, record.depth, scatter=1e-9)
+    >>> print(f"{1e6 * identified.low[-1]:.1f} to {1e6 * identified.high[-1]:.1f}")
+    99.9 to 100.1
     """
 
     medium: Medium
@@ -77,22 +98,39 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
     low: np.ndarray
     high: np.ndarray
     scatter: float
+    misfit: float
     length_unit: str = units.UNKNOWN
 
     def __str__(self) -> str:
-        """What it is; J over time."""
+        """Kind of medium, J over time, scatter and misfit."""
+        unit = self.length_unit
         return (
             f"{type(self.medium).__name__} identified from a record of depth\n"
-            f"time t {span(self.time, si_unit('s', self.length_unit))}\n"
-            f"compliance J {span(self.compliance, si_unit('1/Pa', self.length_unit))}\n"
-            f"scatter of depth {with_unit(self.scatter, self.length_unit, 3)}"
+            f"time t {span(self.time, si_unit('s', unit))}\n"
+            f"compliance J {span(self.medium.creep_compliance(self.time), si_unit('1/Pa', unit))}\n"
+            f"{self.quality}"
         )
+
+    @property
+    def quality(self) -> str:
+        """Scatter and misfit in words, on one line."""
+        if np.isnan(self.scatter):
+            scatter = "scatter of depth unknown, so that J has no intervals (scatter or --scatter states it)"
+        else:
+            scatter = f"scatter of depth {with_unit(self.scatter, self.length_unit, 3)}"
+        return f"{scatter}, misfit of the medium {with_unit(self.misfit, self.length_unit, 3)} (rms)"
 
 
 def identify_medium(
-    curve: LoadingCurve, force: ArrayLike | ForceHistory, times: ArrayLike, depth: ArrayLike, *, kind: str = "table"
+    curve: LoadingCurve,
+    force: ArrayLike | ForceHistory,
+    times: ArrayLike,
+    depth: ArrayLike,
+    *,
+    kind: str = "table",
+    scatter: float | str | None = None,
 ) -> IdentifiedMedium:
-    """The medium of a half-space from the measured depth of an indenter with the given loading curve.
+    """Identify the medium of a half-space from the measured depth of an indenter with the given loading curve.
 
     Parameters
     ----------
@@ -106,19 +144,28 @@ def identify_medium(
     kind : str, optional
         "table": a CreepTable, the concave J that fits best; "prony" or "springpot": that medium, fitted by least
         squares in depth.
+    scatter : float or str, optional
+        Standard deviation of the measured depth [length], or a text as "2 nm". State it if it is known from the
+        instrument: short or very precise records do not determine it, and without it J has no intervals then.
 
     Returns
     -------
     IdentifiedMedium
-        , in Pa and s if the curve's unit of length is known. The interval of J at a time holds all values for which the
-        best fit with that value is not significantly worse than the best of all (profile likelihood, 95 %), among the
-        concave J and among all that do not decrease.
+        Medium in Pa and s if the curve's unit of length is known. The interval of J at a time holds all values for
+        which the best fit with that value is not significantly worse than the best of all (profile likelihood, 95 %),
+        among the concave J and among all that do not decrease. Between two times J is at least the chord of `low`.
 
     Raises
     ------
     ValueError
         For a record of fewer than five rows, or that leaves the curve, or whose depth recedes by more than its scatter
-        explains, and for a kind that the record does not determine.
+        explains, for a kind that the record does not determine, and for a scatter that is not above 0.
+
+    Warns
+    -----
+    AccuracyWarning
+        If a Prony series or a springpot misses the record by more than the scatter, or, where the scatter is not known,
+        by more than 0.1 % of the largest depth (rms).
 
     Examples
     --------
@@ -134,47 +181,95 @@ def identify_medium(
     if kind not in KINDS:
         raise ValueError(f"kind {kind!r}; allowed: {', '.join(KINDS)}")
     check_curve("identify_medium", curve)
-    times, depth = _checked_record(curve, times, depth)
-    force = consistent_force(force, curve.length_unit)
+    unit = curve.length_unit
+    if scatter is not None:
+        scatter = units.number(scatter, unit, unit, "scatter")
+        if not (np.ndim(scatter) == 0 and 0 < scatter < np.inf):
+            raise ValueError(f"scatter: {scatter!r:.60}; allowed: a finite length above 0, or None to find it")
+    times, depth = _checked_record(curve, times, depth, scatter or 0.0)
+    force = consistent_force(force, unit)
     if np.ndim(force) == 0:
         if not (0 < force < np.inf and times[0] >= 0):
             raise ValueError(f"force: {force:g} from time 0 on, record from {times[0]:g} on; allowed: both above 0")
         force = impulses([force, force], [0.0, times[-1]])
     history, place = resampled(force, times)
     lags = times - history.times[0]
-    knots = lags[lags > 0]
-    if knots.size > _KNOTS:  # a subset at equal ratios
-        wanted = np.geomspace(knots[0], knots[-1], _KNOTS)
-        knots = knots[np.unique(np.clip(np.searchsorted(knots, wanted * (1 - 1e-12)), 0, knots.size - 1))]
-    if history.force[0] == 0:  # a ramp shows J before the first row, too
-        knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
-    # The creep of J = min(t, τ) is I(t) − I(t − τ), shape (times, knots).
-    impulse, earlier = (integral(history.times, history.force, t) for t in (times[:, None], times[:, None] - knots))
-    record = _Record(curve, depth, np.column_stack([history.force[place], impulse - earlier]))
-    coefficients = record.fit(record.responses)
-    freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
-    scatter = np.sqrt((record.residual(record.responses @ coefficients) ** 2).sum() / freedom)
+    record = _Record(curve, depth)
+    spectrum = _Spectrum(record, history, place, lags[lags > 0])
+    freedom = np.inf
+    if scatter is None:
+        scatter, freedom = _scatter(record, spectrum)
+    knots, responses = _knots(history, place, lags)
     time = np.append(0.0, knots)
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
+    bend = spectrum.creep - responses @ _amounts(spectrum.compliance(time), knots)
+    coefficients = record.fit(responses, bend)
     compliance = np.maximum.accumulate(values @ coefficients)  # where J is constant, its rounding is not
-    if scatter > _ROUNDING * depth.max():
-        low, high = record.intervals(coefficients, values, scatter * stdtrit(freedom, 0.975))
+    if np.isnan(scatter):
+        low = high = np.full(time.size, np.nan)
+    else:
+        distance = scatter * stdtrit(freedom, 0.5 + 0.5 * _LEVEL)
+        low, high = record.intervals(coefficients, responses, bend, values, distance)
         # Before the first row that shows J, all that is known is that J does not decrease.
         before = time < (0.0 if lags[0] == 0 < history.force[0] else lags[lags > 0][0])
         low[before], high[before] = 0.0, high[~before][0]
-    else:
-        low = high = compliance
     if kind == "prony":
-        medium = _prony(record, history, place, lags)
+        medium: Medium = spectrum.prony(history.force[place].max())
     elif kind == "springpot":
-        medium = _springpot(record, knots)
+        medium = _springpot(record, history, place)
     else:
         medium = CreepTable(time, compliance)
-    return IdentifiedMedium(medium, time, compliance, low, high, float(scatter), curve.length_unit)
+    misfit = float(np.sqrt(np.mean(record.residual(creep_response(medium, history)[0][place]) ** 2)))
+    if kind != "table":
+        _check_misfit(misfit, scatter, freedom, depth)
+    return IdentifiedMedium(medium, time, compliance, low, high, float(scatter), misfit, unit)
 
 
-def _checked_record(curve: LoadingCurve, times: ArrayLike, depth: ArrayLike) -> tuple[Array, Array]:
-    """The record as arrays of floats."""
+def _scatter(record: "_Record", spectrum: "_Spectrum") -> tuple[float, float]:
+    """Return the standard deviation of the depth about the fit of springs and dashpots, and its degrees of freedom.
+
+    Both are nan where the record does not determine them.
+    """
+    freedom = record.depth.size - _PER_AMOUNT * np.count_nonzero(spectrum.amounts)
+    if freedom < _LEAST_FREEDOM:
+        return np.nan, np.nan
+    scatter = np.sqrt((record.residual(spectrum.creep) ** 2).sum() / freedom)
+    return (scatter, freedom) if scatter > _ROUNDING * record.depth.max() else (np.nan, np.nan)
+
+
+def _check_misfit(misfit: float, scatter: float, freedom: float, depth: Array) -> None:
+    """Give an AccuracyWarning for a misfit of the medium that is larger than the scatter explains."""
+    largest = _SMALL_MISFIT * depth.max()
+    if not np.isnan(scatter):
+        largest = scatter * np.sqrt(fdtri(depth.size, min(freedom, 1e9), _SIGNIFICANT))
+    if misfit > largest:
+        size = f"{misfit:.3g} (rms), {100 * misfit / depth.max():.2g} % of the largest depth"
+        text = "the scatter is unknown" if np.isnan(scatter) else f"the scatter is {scatter:.3g}"
+        text = f"the medium misses the record by {size}; {text}: fit another kind, such as a table"
+        warnings.warn(text, AccuracyWarning, stacklevel=3)
+
+
+def _knots(history: ForceHistory, place: Integers, lags: Array) -> tuple[Array, Array]:
+    """Return the knots τ_k of J and the creep responses to 1 and to all min(t, τ_k), shape (rows, 1 + knots)."""
+    knots = lags[lags > 0]
+    if knots.size > _KNOTS:  # a subset at equal ratios
+        spread = np.geomspace(knots[0], knots[-1], _KNOTS)
+        knots = knots[np.unique(np.clip(np.searchsorted(knots, spread * (1 - 1e-12)), 0, knots.size - 1))]
+    if history.force[0] == 0:  # a ramp shows J before the first row, too
+        knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
+    times = history.times[place]
+    impulse, earlier = (integral(history.times, history.force, t) for t in (times[:, None], times[:, None] - knots))
+    return knots, np.column_stack([history.force[place], impulse - earlier])
+
+
+def _amounts(compliance: Array, knots: Array) -> Array:
+    """Return J₀ and c_k of the J that has these values at time 0 and at the knots, and is straight in between."""
+    slopes = np.diff(compliance) / np.diff(knots, prepend=0.0)
+    return np.append(compliance[0], slopes - np.append(slopes[1:], 0.0))
+
+
+def _checked_record(curve: LoadingCurve, times: ArrayLike, depth: ArrayLike, scatter: float) -> tuple[Array, Array]:
+    """Return the record as arrays of floats."""
     unit = curve.length_unit
     times = increasing("record, times", units.numbers(times, "s", unit, "record, times"))
     depth = units.numbers(depth, unit, unit, "record, depth")
@@ -195,14 +290,17 @@ def _checked_record(curve: LoadingCurve, times: ArrayLike, depth: ArrayLike) -> 
             f"record: depth {depth[where]:.6g} at time {times[where]:.6g} is before the curve's first level; allowed: "
             f"from {curve.depth[0]:.6g} on; indent from smaller depths, or leave these rows out"
         )
-    _check_growth(times, depth)
+    _check_growth(times, depth, scatter)
     return times, depth
 
 
-def _check_growth(times: Array, depth: Array) -> None:
-    """Raise ValueError where the depth recedes by more than scatter and resolution of the record explain."""
+def _check_growth(times: Array, depth: Array, scatter: float) -> None:
+    """Raise ValueError where the depth recedes by more than scatter and resolution of the record explain.
+
+    scatter : of the depth if it is stated, else 0; that of its second differences counts if it is larger
+    """
     steps = np.diff(depth)
-    scatter = 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6)
+    scatter = max(scatter, 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6))
     resolution = abs(steps[steps != 0]).min() if 0 < np.count_nonzero(steps) < steps.size else 0.0
     for size in (2**k for k in range(depth.size.bit_length() - 1)):
         count = depth.size // size
@@ -220,24 +318,29 @@ def _check_growth(times: Array, depth: Array) -> None:
 class _Record:
     """Least squares in depth: the creep of non-negative amounts of given compliances against the measured depth."""
 
-    def __init__(self, curve: LoadingCurve, depth: Array, responses: Array) -> None:
-        self.curve, self.depth, self.responses = curve, depth, responses
+    def __init__(self, curve: LoadingCurve, depth: Array) -> None:
+        self.curve, self.depth = curve, depth
+        self.creep, self.stiffness = elastic_force(curve, depth)  # F/G and k/G at the measured depth
 
-    def fit(self, responses: Array) -> Array:
-        """Amounts of compliances with these responses, shape (rows, amounts): Gauss-Newton, non-negative."""
-        creep, stiffness = elastic_force(self.curve, self.depth)
+    def fit(self, responses: Array, bend: Array | float = 0.0) -> Array:
+        """Return amounts ≥ 0 of compliances with these creep responses, by the Gauss-Newton method.
+
+        responses : shape (rows, amounts)
+        bend : creep that is added, shape (rows,)
+        """
+        creep, stiffness = self.creep, self.stiffness
         scale = abs(responses).max(axis=0)
         scale[scale == 0] = 1.0
         for _ in range(_ITERATIONS):
-            amounts = _non_negative(responses / scale / stiffness[:, None], creep / stiffness) / scale
-            last, (elastic_depth, stiffness) = creep, self._elastic(responses @ amounts)
-            creep = responses @ amounts + stiffness * (self.depth - elastic_depth)
+            amounts = non_negative(responses / scale / stiffness[:, None], (creep - bend) / stiffness) / scale
+            last, (elastic_depth, stiffness) = creep, self._elastic(responses @ amounts + bend)
+            creep = responses @ amounts + bend + stiffness * (self.depth - elastic_depth)
             if abs(creep - last).max() <= 1e-12 * abs(creep).max():
                 break
         return amounts
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
-        """Depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
+        """Return depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
         curve = self.curve
         creep = np.minimum(creep, curve.force[-1])
         depth, stiffness = curve.at_force(creep)
@@ -245,104 +348,90 @@ class _Record:
         line = curve.force[0] / curve.depth[0]
         return np.where(before, creep / line, depth), np.where(before, line, stiffness)
 
-    def intervals(self, amounts: Array, values: Array, distance: float) -> tuple[Array, Array]:
-        """Ends of the intervals of J, rows of `values` @ amounts: there the best fit is worse by `distance`².
+    def intervals(
+        self, amounts: Array, responses: Array, bend: Array, values: Array, distance: float
+    ) -> tuple[Array, Array]:
+        """Return the ends of the intervals of J, rows of `values` @ amounts: there the best fit is worse by distance².
 
-        They hold the intervals of concave compliances and those of all that do not decrease: of a J that hardly bends,
+        They hold the intervals of concave compliances and those of all that do not decrease. Of a J that hardly bends,
         as a fluid's, concave ones lie above the truth.
         """
-        creep = self.responses @ amounts
-        _, stiffness = self._elastic(creep)
-        rows = np.vstack([self.responses / stiffness[:, None], values])
-        target = creep / stiffness + self.residual(creep)
-        steps = np.column_stack([rows[:, 0], rows[:, 1], np.diff(rows[:, 1:], axis=1)])
-        low, high = ([_ends(one, target, side * distance) for one in (rows, steps)] for side in (-1, 1))
-        return np.minimum(*low), np.maximum(*high)
+        creep = responses @ amounts
+        _, stiffness = self._elastic(creep + bend)
+        target = creep / stiffness + self.residual(creep + bend)
+        concave = responses / stiffness[:, None], values
+        steps = (np.column_stack([one[:, :2], np.diff(one[:, 1:], axis=1)]) for one in concave)
+        lows, highs = zip(*(extremes(rows, target, row, distance) for rows, row in (concave, steps)), strict=True)
+        return np.maximum(np.minimum(*lows), 0.0), np.maximum(*highs)
 
     def residual(self, creep: Array) -> Array:
+        """Return the measured depth less that at the given creep."""
         return self.depth - self._elastic(creep)[0]
 
 
-def _ends(rows: Array, target: Array, distance: float) -> Array:
-    """Values at which the best non-negative fit is worse than the best of all by distance².
+class _Spectrum:
+    """The medium of springs and dashpots that fits a record best; its amounts are J₀, φ and J_j of the times θ_j."""
 
-    rows : responses, of as many rows as the target, and the values wanted; their columns are of amounts x ≥ 0
-    distance : negative for the values below those of the best fit
+    def __init__(self, record: _Record, history: ForceHistory, place: Integers, lags: Array) -> None:
+        first, last = lags[0] / _BEYOND, lags[-1] * _BEYOND
+        times = np.geomspace(first, last, 2 + int(_TIMES_PER_DECADE * np.log10(last / first)))
+        step = np.log(times[1] / times[0])
+        self._fit(record, history, place, times)
+        if (found := self.times[self.amounts[2:] > 0]).size:
+            finer = np.arange(-_FINER, _FINER + 1) / _FINER * step
+            # Points of neighbouring grids coincide up to rounding.
+            times = np.exp(np.unique(np.round(np.add.outer(np.log(found), finer), 9)))
+            self._fit(record, history, place, times)
 
-    A prescribed value is one more equation, of a large weight.
-    """
-    scale = np.linalg.norm(rows[: target.size], axis=0)
-    rows = rows / np.where(scale > 0, scale, 1.0)
-    reduced: Any = np.linalg.qr(np.column_stack([rows[: target.size], target]), mode="r")
-    matrix, target, wanted = reduced[:, :-1], reduced[:, -1], rows[target.size :]
-    start = _non_negative(matrix, target)
-    least = float(np.sum((matrix @ start - target) ** 2))
-    ends = np.empty(len(wanted))
-    for i, row in enumerate(wanted):
-        weight, best = _FIXED / np.linalg.norm(row), row @ start
-        value = best + distance * np.linalg.norm(np.linalg.lstsq(matrix.T, row, rcond=1e-10)[0])  # without x ≥ 0
-        for _ in range(_TRIALS):
-            value = max(value, 0.0)
-            x = _non_negative(np.vstack([matrix, weight * row]), np.append(target, weight * value))
-            excess = np.sqrt(max(float(np.sum((matrix @ x - target) ** 2)) - least, 0.0))
-            ratio = abs(distance) / max(excess, 1e-3 * abs(distance))
-            if abs(ratio - 1) < _CLOSE or (value == 0 and ratio > 1):
-                break
-            value = best + (value - best) * min(ratio, 4.0)
-        ends[i] = value
-    return ends
+    def _fit(self, record: _Record, history: ForceHistory, place: Integers, times: Array) -> None:
+        delayed, _ = branch_states(np.diff(history.times), history.force, times)
+        responses = np.column_stack([history.force[place], history.impulse[place], delayed[place]])
+        self.times, self.amounts = times, record.fit(responses)
+        self.creep = responses @ self.amounts
 
+    def compliance(self, time: Array) -> Array:
+        """Return J at these times."""
+        delayed = -np.expm1(-np.divide.outer(time, self.times)) @ self.amounts[2:]
+        return self.amounts[0] + self.amounts[1] * time + delayed
 
-def _non_negative(matrix: Array, target: Array) -> Array:
-    from scipy.optimize import nnls  # takes long to import
+    def prony(self, force: float) -> Prony:
+        """Return it as a Prony series. Raises ValueError where it has no compliance at once or no creep.
 
-    if matrix.shape[0] > matrix.shape[1] + 1:
-        reduced: Any = np.linalg.qr(np.column_stack([matrix, target]), mode="r")
-        matrix, target = reduced[:, :-1], reduced[:, -1]
-    return nnls(matrix, target, maxiter=30 * matrix.shape[1])[0]
+        force : largest force of the record
 
-
-def _prony(record: _Record, history: ForceHistory, place: Integers, lags: Array) -> Prony:
-    """The Prony series that fits best, with retardation times on a grid: of most of them there is none."""
-    first, last = lags[lags > 0][0] / 3, 3 * lags[-1]
-    count = 2 + int(_RETARDATION_TIMES_PER_DECADE * np.log10(last / first))
-    times = np.geomspace(first, last, count)
-    delayed, _ = branch_states(np.diff(history.times), history.force, times)
-    responses = np.column_stack([history.force[place], history.impulse[place], delayed[place]])
-    amounts = record.fit(responses)
-    instantaneous, fluidity, strengths = amounts[0], amounts[1], amounts[2:]
-    kept, at_once = strengths > 0, instantaneous * history.force[place].max()
-    if at_once <= _ROUNDING * (responses @ amounts).max() or not (fluidity or kept.any()):
-        raise ValueError(
-            "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
-            "table or springpot"
-        )
-    # J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)) is that of a Prony series, exactly: the rates of relaxation are the
-    # eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j), and the moduli (b·q)²/(λ J₀²), q the
-    # eigenvectors.
-    strengths, rates = strengths[kept], 1 / times[kept]
-    squares = strengths * rates
-    if fluidity:
-        squares, rates = np.append(fluidity, squares), np.append(0.0, rates)
-    b = np.sqrt(squares)
-    values, vectors = np.linalg.eigh(np.diag(rates) + np.outer(b, b) / instantaneous)
-    moduli = (b @ vectors) ** 2 / (values * instantaneous**2)
-    relaxed = 0.0 if fluidity else 1 / (instantaneous + strengths.sum())
-    return Prony(relaxed, tuple(moduli.tolist()), tuple((1 / values).tolist()))
+        J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)) is that of a Prony series, exactly: the rates of relaxation are the
+        eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j), and the moduli (b·q)²/(λ J₀²), q the
+        eigenvectors.
+        """
+        instantaneous, fluidity, strengths = self.amounts[0], self.amounts[1], self.amounts[2:]
+        kept = strengths > 0
+        if instantaneous * force <= _ROUNDING * self.creep.max() or not (fluidity or kept.any()):
+            raise ValueError(
+                "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
+                "table or springpot"
+            )
+        strengths, rates = strengths[kept], 1 / self.times[kept]
+        squares = strengths * rates
+        if fluidity:
+            squares, rates = np.append(fluidity, squares), np.append(0.0, rates)
+        b = np.sqrt(squares)
+        values, vectors = np.linalg.eigh(np.diag(rates) + np.outer(b, b) / instantaneous)
+        moduli = (b @ vectors) ** 2 / (values * instantaneous**2)
+        relaxed = 0.0 if fluidity else 1 / (instantaneous + strengths.sum())
+        return Prony(relaxed, tuple(moduli.tolist()), tuple((1 / values).tolist()))
 
 
-def _springpot(record: _Record, knots: Array) -> Springpot:
-    """The springpot that fits best; its J is sampled at the knots."""
+def _springpot(record: _Record, history: ForceHistory, place: Integers) -> Springpot:
+    """Return the springpot that fits best."""
     from scipy.optimize import minimize_scalar  # takes long to import
 
     def response(exponent: float) -> Array:
-        slopes = np.diff(np.append(0.0, knots**exponent)) / np.diff(knots, prepend=0.0)
-        return record.responses[:, 1:] @ (slopes - np.append(slopes[1:], 0.0))
+        return by_sums(Springpot(1 / gamma(1 + exponent), exponent), history)[0][place, None]  # of J = t^a
 
     def squares(exponent: float) -> float:
-        column = response(exponent)[:, None]
+        column = response(exponent)
         return float((record.residual(column @ record.fit(column)) ** 2).sum())
 
     exponent = float(minimize_scalar(squares, bounds=(0.001, 0.999), method="bounded", options={"xatol": 1e-7}).x)
-    (amount,) = record.fit(response(exponent)[:, None])
+    (amount,) = record.fit(response(exponent))
     return Springpot(1 / (amount * gamma(1 + exponent)), exponent)

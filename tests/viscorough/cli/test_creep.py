@@ -1,5 +1,7 @@
 """`viscorough creep`: a medium from a record of depth, in the units of its heading, and what is refused."""
 
+import re
+
 import numpy as np
 import pytest
 import yaml
@@ -25,11 +27,19 @@ def here(here):
     return here
 
 
+def compliances(line):
+    """First and last J in the closing line."""
+    return [float(number) for number in re.search(r"J (\S+) to (\S+) 1/Pa", line).groups()]
+
+
 @pytest.mark.parametrize("fit", ["table", "prony", "springpot"])
 def test_media_are_read_back(here, capsys, fit):
+    """The closing line has J of the medium, and a warning follows if this misses the record."""
     assert run(f"creep curve.nc record.csv --force '20 uN' --fit {fit} -o rubber.yaml") == 0
-    assert "rubber.yaml: J " in capsys.readouterr().out
+    lines = capsys.readouterr()
     medium = viscorough.read_medium("rubber.yaml", "um")
+    assert compliances(lines.out) == pytest.approx(medium.creep_compliance(TIMES[[0, -1]]), rel=1e-3)
+    assert ("misses the record by" in lines.err) == (fit == "springpot")
     error = 0.2 if fit == "springpot" else 0.003
     np.testing.assert_allclose(medium.creep_compliance(TIMES[1:]), MEDIUM.creep_compliance(TIMES[1:]), rtol=error)
     assert (here / "rubber.csv").exists() == (fit == "table")
@@ -53,3 +63,19 @@ def test_force_histories(here):
         assert run(f"creep curve.nc record.csv {force} -o {name}.yaml") == 0
     a, b = (read_table(f"{name}.csv")[0]["compliance"] for name in "ab")
     np.testing.assert_allclose(a, b, rtol=1e-9)
+
+
+def test_unknown_and_stated_scatter(here, capsys):
+    """Eight rows do not determine the scatter: the intervals are unknown, or those of the scatter that is stated."""
+    short = np.loadtxt("record.csv", delimiter=",", skiprows=1)[[0, 4, 8, 12, 16, 20, 25, 29]]
+    short[:, 1] += np.random.default_rng(1).normal(0, 2, 8) * [1, 2, 3, 1, 2, 1, 3, 2]
+    np.savetxt("short.csv", np.maximum.accumulate(short), "%.17g", ",", header="t_ms,u [nm]", comments="")
+    widths = []
+    for option, text in (("", "scatter of depth unknown"), ("--scatter '2 nm'", "scatter of depth 0.002 um")):
+        assert run(f"creep curve.nc short.csv --force 20e-6 {option} -o rubber.yaml") == 0
+        assert text in capsys.readouterr().out
+        table, _ = read_table("rubber.csv")
+        widths.append(table["high"] - table["low"])
+        assert viscorough.read_medium("rubber.yaml", "um").creep_compliance(1.0) > 0
+    assert np.isnan(widths[0]).all()
+    assert (widths[1] > 0).all()

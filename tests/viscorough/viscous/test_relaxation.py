@@ -41,6 +41,13 @@ def test_a_ramp_and_its_hold(name):
         assert result.force[k] == pytest.approx(expected, rel=3e-4, abs=1e-12)
 
 
+def test_force_of_a_dashpot_is_that_just_after_each_time_and_just_before_the_last_one():
+    medium, times, depth = MEDIA["newtonian"], np.arange(5.0), np.array([0.0, 0.1, 0.4, 0.4, 0.5])
+    result = force_under_depth(CURVE, depth, medium, times)
+    expected = medium.viscosity * SPHERE.stiffness(depth[1:]) * np.array([0.3, 0.0, 0.1, 0.1])
+    np.testing.assert_allclose(result.force[1:], expected, rtol=1e-4)
+
+
 def test_refusals():
     for arguments, message in (
         ({"medium": CreepTable([0, 1], [0, 1])}, "CreepTable; allowed: media whose relaxation is known"),

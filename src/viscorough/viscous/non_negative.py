@@ -1,0 +1,144 @@
+"""Least squares with non-negative unknowns, and the extreme values of linear functions of them.
+
+Let x ≥ 0 minimise ½ ‖A x − b‖². The extreme values of r·x over all x ≥ 0 with ‖A x − b‖² ≤ least + distance² are those
+of the minimiser of ½ ‖A x − b‖² − λ r·x, in which λ is adjusted. An active-set method finds it (Lawson and Hanson
+1974). It starts from the unknowns that were positive before, of which few change from one λ or r to the next.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from viscorough.compilation import njit
+from viscorough.types import Array
+
+_TRIALS, _CLOSE = 12, 0.01  # values of λ, and relative accuracy of the distance
+_LARGEST_FACTOR, _LEAST_SHARE = 4.0, 1e-3  # of λ from one trial to the next; of the distance, to limit this factor
+_ROUNDING = 1e-11  # of gradients, relative to the target; columns have norm 1
+_SINGULAR = 1e-13  # a column is taken for dependent on others if its remainder is shorter
+
+
+def non_negative(matrix: Array, target: Array) -> Array:
+    """Return x ≥ 0 that minimises ‖matrix x − target‖."""
+    from scipy.optimize import nnls  # takes long to import
+
+    if matrix.shape[0] > matrix.shape[1] + 1:
+        reduced: Any = np.linalg.qr(np.column_stack([matrix, target]), mode="r")
+        matrix, target = reduced[:, :-1], reduced[:, -1]
+    return nnls(matrix, target, maxiter=30 * matrix.shape[1])[0]
+
+
+def extremes(matrix: Array, target: Array, functions: Array, distance: float) -> tuple[Array, Array]:
+    """Return the least and largest values of linear functions of x ≥ 0 near the minimiser of ‖matrix x − target‖.
+
+    functions : coefficients of the functions, shape (functions, unknowns)
+    distance : the squared residual may exceed its least value by distance²
+    """
+    from scipy.optimize import nnls  # takes long to import
+
+    scale = np.linalg.norm(matrix, axis=0)
+    scale[scale == 0] = 1.0
+    reduced: Any = np.linalg.qr(np.column_stack([matrix / scale, target]), mode="r")
+    columns, target = np.ascontiguousarray(reduced[:, :-1].T), np.ascontiguousarray(reduced[:, -1])
+    best = nnls(columns.T, target, maxiter=30 * columns.shape[0])[0]
+    functions = np.ascontiguousarray(functions / scale)
+    # λ if no unknown were bounded, of the solution of least norm.
+    multiplier = distance / np.linalg.norm(np.linalg.lstsq(columns, functions.T, rcond=1e-10)[0], axis=0)
+    return tuple(_extremes(columns, target, functions, best, sign * multiplier, distance) for sign in (-1.0, 1.0))
+
+
+@njit
+def _extremes(columns, target, functions, best, multipliers, distance):
+    """Extreme values of functions, of the sign of the multipliers, which are first guesses."""
+    least, values = _square(columns, target, best), np.empty(functions.shape[0])
+    for k in range(values.size):
+        x, multiplier = best.copy(), multipliers[k]
+        for _ in range(_TRIALS):
+            _minimise(columns, target, multiplier * functions[k], x)
+            excess = np.sqrt(max(_square(columns, target, x) - least, 0.0))
+            ratio = distance / max(excess, _LEAST_SHARE * distance)
+            if abs(ratio - 1) < _CLOSE:
+                break
+            multiplier *= min(ratio, _LARGEST_FACTOR)
+        values[k] = functions[k] @ x
+    return values
+
+
+@njit
+def _square(columns, target, x):
+    """‖A x − b‖²."""
+    residual = target.copy()
+    for j in range(x.size):
+        if x[j] > 0:
+            residual -= x[j] * columns[j]
+    return residual @ residual
+
+
+@njit
+def _minimise(columns, target, tilt, x):
+    """Change x ≥ 0 into the minimiser of ½ ‖A x − b‖² − tilt·x.
+
+    columns : of A, of norm 1, as rows; those of positive x are independent
+    """
+    count, rounding = x.size, _ROUNDING * np.sqrt(target @ target)
+    passive = x > 0
+    for _ in range(3 * count):
+        for _ in range(count):
+            members = np.flatnonzero(passive)
+            solution = _unbounded(columns, target, tilt, members)
+            step, first = 1.0, -1
+            for i in range(members.size):
+                j = members[i]
+                if solution[i] <= 0 and x[j] < step * (x[j] - solution[i]):
+                    step, first = x[j] / (x[j] - solution[i]), i
+            for i in range(members.size):
+                x[members[i]] += step * (solution[i] - x[members[i]])
+            if first < 0:
+                break
+            x[members[first]] = 0.0
+            for j in members:
+                if x[j] <= 0:
+                    x[j], passive[j] = 0.0, False
+        residual = target.copy()
+        for j in range(count):
+            if passive[j]:
+                residual -= x[j] * columns[j]
+        steepest, new = rounding, -1
+        for j in range(count):
+            if not passive[j]:
+                gradient = columns[j] @ residual + tilt[j]
+                if gradient > steepest:
+                    steepest, new = gradient, j
+        if new < 0:
+            break
+        passive[new] = True
+
+
+@njit
+def _unbounded(columns, target, tilt, members):
+    """Minimiser with these members alone, of any sign, by the modified Gram-Schmidt method."""
+    count = members.size
+    basis, triangle = np.empty((count, target.size)), np.zeros((count, count))
+    residual, solution = target.copy(), np.empty(count)
+    for j in range(count):
+        basis[j] = columns[members[j]]
+        for i in range(j):
+            triangle[i, j] = basis[i] @ basis[j]
+            basis[j] -= triangle[i, j] * basis[i]
+        triangle[j, j] = max(np.sqrt(basis[j] @ basis[j]), _SINGULAR)
+        basis[j] /= triangle[j, j]
+        solution[j] = basis[j] @ residual
+        residual -= solution[j] * basis[j]
+    # The solution of R s = Qᵀ b + R⁻ᵀ tilt.
+    forward = np.empty(count)
+    for j in range(count):
+        value = tilt[members[j]]
+        for i in range(j):
+            value -= triangle[i, j] * forward[i]
+        forward[j] = value / triangle[j, j]
+    solution += forward
+    for j in range(count - 1, -1, -1):
+        for i in range(j + 1, count):
+            solution[j] -= triangle[j, i] * solution[i]
+        solution[j] /= triangle[j, j]
+    return solution

@@ -38,7 +38,7 @@ help:
 	@echo "make article     results/article.pdf, a replication report on the run; with the SETTINGS of the run"
 	@echo "make outside     our values beside numbers that others published; two minutes"
 	@echo "make fuzz        10000 bad files and options through the command line, 10000 text files of known maps, 1400 damaged files; 15 minutes"
-	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
+	@echo "make faults      200 random changes of the sources, one at a time in a copy: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
 	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
 	@echo "make chaos       a small reproduction killed 60 times, its results compared with those of an undisturbed run"
@@ -161,7 +161,7 @@ fuzz: environment
 	$(BIN)/python benchmarks/damaged_files.py --output results/damaged_files.json
 
 faults: environment
-	$(BIN)/python benchmarks/planted_faults.py --output results/planted_faults.json
+	$(BIN)/python benchmarks/mutants.py --cores $(CORES) --output results/mutants.json
 
 seeds: environment
 	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.csv

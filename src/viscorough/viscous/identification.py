@@ -33,7 +33,7 @@ from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span, with_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.correspondence import consistent_force, impulses, resampled
-from viscorough.viscous.creep_response import branch_states, by_sums, creep_response
+from viscorough.viscous.creep_response import branch_states, by_states, by_sums
 from viscorough.viscous.media import CreepTable, Prony, Springpot
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.non_negative import extremes, non_negative
@@ -219,7 +219,10 @@ def identify_medium(
         medium = _springpot(record, history, place)
     else:
         medium = CreepTable(time, compliance)
-    misfit = float(np.sqrt(np.mean(record.residual(creep_response(medium, history)[0][place]) ** 2)))
+    # The creep may decrease a little in the fitted medium, which `creep_response` would refuse.
+    spectra = medium.retardation
+    creep, _ = by_sums(medium, history) if spectra is None else by_states(spectra, history)
+    misfit = float(np.sqrt(np.mean(record.residual(creep[place]) ** 2)))
     if kind != "table":
         _check_misfit(misfit, scatter, freedom, depth)
     return IdentifiedMedium(medium, time, compliance, low, high, float(scatter), misfit, unit)

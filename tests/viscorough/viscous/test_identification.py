@@ -141,6 +141,19 @@ def test_records_that_no_growing_contact_can_have_are_refused():
             identify_medium(CURVE, force, TIMES, depth, scatter=scatter)
 
 
+@pytest.mark.parametrize("kind", ["table", "springpot"])
+@pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
+def test_force_may_step_down_in_a_record(kind):
+    """The depth in a fluid goes on growing, although that in the fitted medium recedes a little at the step."""
+    times, force = np.array([0.0, 5.0, 5.0, 60.0]), np.array([1.0, 1.0, 0.6, 0.6])
+    load = impulses(0.5 * force, times)
+    depth = kinetics(CURVE, load, MEDIA["newtonian"], TIMES).depth
+    noisy = depth + 1e-3 * depth[-1] * np.random.default_rng(0).standard_normal(TIMES.size)
+    found = identify_medium(CURVE, load, TIMES, noisy, kind=kind)
+    assert np.isfinite(found.misfit)
+    assert found.compliance[-1] == pytest.approx(20, rel=0.02)
+
+
 def test_slowly_receding_depths_are_refused():
     """Means over rows scatter less than single rows: a drop of three standard deviations in the mean is no noise."""
     times = np.geomspace(0.02, 60, 64)

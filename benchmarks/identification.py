@@ -3,8 +3,8 @@
     python benchmarks/identification.py --output results/tables/identification.csv
 
 A sphere is pressed into every medium by a step or a ramp of the force, the depth is recorded at times at equal ratios
-over 3.5 decades, and normal noise is added to it. The table has the columns of `COLUMNS`, pointwise: for each trial,
-every time of the record at which `identify_medium` gives an interval counts.
+over 3.5 decades, and normal noise is added to it. The table has the columns of `COLUMNS`. Coverage is pointwise: all
+intervals of a record count, from its first row on.
 """
 
 from functools import partial

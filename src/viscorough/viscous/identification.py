@@ -12,10 +12,10 @@ compliances are fitted to the depth by least squares:
 2. All compliances that a passive medium can have: J does not decrease and is concave. This is a sum
    J₀ + Σ c_k min(t, τ_k) with J₀, c_k ≥ 0, and under the impulse I(t) = ∫F dt min(t, τ) creeps by I(t) − I(t − τ).
    It can pass through every row of a short or precise record, so that its own residuals show nothing. The intervals
-   of J are those of this family, at the scatter found with the first one or given by the user.
+   of J are taken in this family, at the scatter found with the first one or given by the user.
 
-Between its knots τ_k the second family is straight. What the first family differs from its chords between the knots is
-subtracted from the record, so that this does not shift the fit.
+Between its knots τ_k the second family is straight. The creep due to the difference between the first family and its
+chords is subtracted from the record, so that the chords do not shift the fit.
 """
 
 import warnings
@@ -42,8 +42,8 @@ from viscorough.viscous.relaxation import elastic_force
 KINDS = ("table", "prony", "springpot")
 _KNOTS = 60  # of J, at most
 _EARLIER = 64  # ratio of the first row to the first knot under a ramp of force
-# Grid of retardation times: its first and last time relative to those of the record, and its density. Around the times
-# found it is refined once, by this factor.
+# Grid of retardation times: by this factor it begins before and ends after the record. Around the times found it is
+# refined once.
 _BEYOND, _TIMES_PER_DECADE, _FINER = 3.0, 10, 10
 _ITERATIONS = 6  # of Gauss and Newton; the elastic curve bends little over the scatter of the depth
 _LARGEST_DROP = 5  # standard deviations of the depth that scatter may explain
@@ -68,7 +68,7 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
     medium : Medium
         Of the kind that was asked for.
     time : array
-        0 and the times at which J was determined, shape (times,).
+        0 and the times where J was determined, shape (times,).
     compliance : array
         J at these times, of the table, also if another kind was fitted.
     low, high : array
@@ -137,7 +137,7 @@ def identify_medium(
     curve : LoadingCurve
         LoadingCurve of the indenter, to the largest depth of the record.
     force : array_like or ForceHistory
-        As of `kinetics`: the constant force applied at time 0, samples at `times`, or a ForceHistory.
+        As in `kinetics`: the constant force applied at time 0, samples at `times`, or a ForceHistory.
     times, depth : array_like
         The record, shape (rows,); times increase. The scatter of the depth is taken for independent from row to row and
         of one size.
@@ -164,8 +164,8 @@ def identify_medium(
     Warns
     -----
     AccuracyWarning
-        If a Prony series or a springpot misses the record by more than the scatter, or, where the scatter is not known,
-        by more than 0.1 % of the largest depth (rms).
+        If a Prony series or a springpot misses the record by more than the scatter, or by more than 0.1 % of the
+        largest depth if the scatter is not known (rms).
 
     Examples
     --------
@@ -204,7 +204,7 @@ def identify_medium(
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
     bend = spectrum.creep - responses @ _amounts(spectrum.compliance(time), knots)
     coefficients = record.fit(responses, bend)
-    compliance = np.maximum.accumulate(values @ coefficients)  # where J is constant, its rounding is not
+    compliance = np.maximum.accumulate(values @ coefficients)  # a constant J may decrease by rounding
     if np.isnan(scatter):
         low = high = np.full(time.size, np.nan)
     else:
@@ -300,7 +300,7 @@ def _checked_record(curve: LoadingCurve, times: ArrayLike, depth: ArrayLike, sca
 def _check_growth(times: Array, depth: Array, scatter: float) -> None:
     """Raise ValueError where the depth recedes by more than scatter and resolution of the record explain.
 
-    scatter : of the depth if it is stated, else 0; that of its second differences counts if it is larger
+    scatter : stated scatter of the depth, 0 if none is; the scatter of the second differences counts if it is larger
     """
     steps = np.diff(depth)
     scatter = max(scatter, 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6))
@@ -356,8 +356,8 @@ class _Record:
     ) -> tuple[Array, Array]:
         """Return the ends of the intervals of J, rows of `values` @ amounts: there the best fit is worse by distance².
 
-        They hold the intervals of concave compliances and those of all that do not decrease. Of a J that hardly bends,
-        as a fluid's, concave ones lie above the truth.
+        Each holds the intervals in two families: concave compliances, and all compliances that do not decrease. If J is
+        nearly straight, as in a fluid, concave fits lie above it.
         """
         creep = responses @ amounts
         _, stiffness = self._elastic(creep + bend)
@@ -402,7 +402,7 @@ class _Spectrum:
 
         force : largest force of the record
 
-        J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)) is that of a Prony series, exactly: the rates of relaxation are the
+        J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)) belongs to a Prony series, exactly: the rates of relaxation are the
         eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j), and the moduli (b·q)²/(λ J₀²), q the
         eigenvectors.
         """

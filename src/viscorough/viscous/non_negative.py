@@ -1,8 +1,8 @@
 """Least squares with non-negative unknowns, and the extreme values of linear functions of them.
 
-Let x ≥ 0 minimise ½ ‖A x − b‖². The extreme values of r·x over all x ≥ 0 with ‖A x − b‖² ≤ least + distance² are those
-of the minimiser of ½ ‖A x − b‖² − λ r·x, in which λ is adjusted. An active-set method finds it (Lawson and Hanson
-1974). It starts from the unknowns that were positive before, of which few change from one λ or r to the next.
+Let x ≥ 0 minimise ½ ‖A x − b‖². An extreme value of r·x over all x ≥ 0 with ‖A x − b‖² ≤ least + distance² is found at
+the minimiser of ½ ‖A x − b‖² − λ r·x, with λ adjusted to the distance. An active-set method finds this minimiser
+(Lawson and Hanson 1974). It starts from the unknowns that were positive before, since few of them change with λ or r.
 """
 
 from typing import Any
@@ -78,7 +78,7 @@ def _square(columns, target, x):
 def _minimise(columns, target, tilt, x):
     """Change x ≥ 0 into the minimiser of ½ ‖A x − b‖² − tilt·x.
 
-    columns : of A, of norm 1, as rows; those of positive x are independent
+    columns : columns of A as rows, of norm 1; the columns of positive x are independent
     """
     count, rounding = x.size, _ROUNDING * np.sqrt(target @ target)
     passive = x > 0

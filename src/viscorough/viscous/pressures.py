@@ -50,7 +50,7 @@ def pressure_at(
     indenter : Indenter
         Indenter with two-dimensional heights.
     medium : Medium or float or str
-        As in kinetics, except a CreepTable, for its ψ is not known.
+        Medium as in `kinetics`, except a CreepTable, for its ψ is not known.
     force : float or str or ForceHistory
         a number, the constant force F > 0 from t = 0 on; or a ForceHistory.
     time : float
@@ -147,7 +147,7 @@ def _loading(medium: Medium, force: ForceHistory, time: float, contacts: int) ->
 def _carried_by_branches(
     relaxation: RelaxationSpectrum, retardation: RetardationSpectrum, times: Array, force: Array, creep: Array
 ) -> Array:
-    """Return W at the times, of which the last is t, in a medium of springs and dashpots.
+    """Return W at the times, the last of them t, in a medium of springs and dashpots.
 
     The state of a Maxwell branch, ∫exp(−(s − s')/τ) dΦ(s'), is a sum of F and of the states z_j of the Kelvin-Voigt
     elements: φ τ F + Σ J_j τ/(θ_j − τ) z_j. A branch whose τ equals a θ_j to rounding has no strength.
@@ -161,7 +161,7 @@ def _carried_by_branches(
 
 
 def _carried_by_springpot(exponent: float, force: ForceHistory, times: Array) -> Array:
-    """Return W at the times, of which the last is t, in a springpot of exponent a.
+    """Return W at the times, the last of them t, in a springpot of exponent a.
 
     At the time s, a unit step of the force at t₀ has left 1 − I(y; 1 − a, a), with the regularised incomplete beta
     function I and y = (t − s)/(t − t₀), and a unit slope has left (t − t₀) (1 − I(y; 1 − a, 1 + a)).
@@ -177,7 +177,7 @@ def _carried_by_springpot(exponent: float, force: ForceHistory, times: Array) ->
 
 
 def _nodes(times: Array, creep: Array, carried: Array, contacts: int) -> Integers:
-    """Return the indices of the times at which elastic contacts are computed.
+    """Return the indices of the times of the elastic contacts.
 
     They lie at equal steps of the sum of Φ and W, both relative to their values at t. This grading keeps the error of
     second order although Φ and ψ are singular in a springpot. Both ends of a step of Φ are nodes.

@@ -50,7 +50,7 @@ def test_intervals_under_a_ramp_hold_the_compliance():
 
 
 def test_intervals_of_a_stated_scatter_are_those_of_normal_noise():
-    """Where the record bends more than its noise, J at a row is that of this row, with 1.96 standard deviations."""
+    """If the record bends more than its noise, a row is fitted exactly, with 1.96 standard deviations to each side."""
     force, depth = record(MEDIA["kelvin-voigt"])
     noise = 1e-5 * depth[-1]
     depth = depth + noise * np.random.default_rng(1).standard_normal(depth.size)
@@ -66,7 +66,7 @@ def test_intervals_of_a_stated_scatter_are_those_of_normal_noise():
 
 
 def test_intervals_that_the_record_does_not_determine_are_unknown():
-    """Springs and dashpots meet 8 rows of a medium with three branches nearly, whatever the noise is."""
+    """Springs and dashpots with eight parameters meet 8 rows of a Prony series, noise included."""
     times = TIMES[::7]
     force, _ = record(MEDIA["prony"])
     depth = kinetics(CURVE, force, MEDIA["prony"], times).depth

@@ -30,6 +30,16 @@ def test_nodata_crop_and_flip():
     assert (surface.spacing, surface.row_spacing, surface.length_unit) == (DX, DY, "nm")
 
 
+def test_a_crop_reaches_the_ends_of_the_map():
+    (rows, columns), surface = ROUGH.shape, indenter(ROUGH)
+    for first, end in ((0, 1), (0, columns), (columns - 1, columns)):
+        cropped = prepare(surface, crop=((first, end), (0, rows)))
+        np.testing.assert_array_equal(cropped.heights, ROUGH[:, first:end])
+    for first, end in ((-1, 3), (3, 3), (4, 3), (0, columns + 1)):
+        with refused(f"crop to columns {first}:{end}; within 0:{columns} is allowed"):
+            prepare(surface, crop=((first, end), (0, rows)))
+
+
 @pytest.mark.parametrize("form", ["mean", "plane"])
 def test_detrended_heights_have_no_mean_and_no_tilt(form):
     heights = ROUGH + PLANE

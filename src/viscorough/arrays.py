@@ -107,9 +107,15 @@ def _float(name: str, value: Any) -> float:
 
 
 def float_or_array(name: str, values: Any) -> Numbers:
-    """Return real numbers for a formula: a float, or an array. Raises ValueError as `real_numbers`."""
+    """Return real numbers for a formula: a float or an array; a Series of pandas or similar object stays what it is.
+
+    Raises ValueError as `real_numbers`.
+    """
     numbers = real_numbers(name, values)
-    return numbers if numbers.ndim else float(numbers)
+    if not numbers.ndim:
+        return float(numbers)
+    keeps_labels = not isinstance(values, np.ndarray) and getattr(values, "dtype", None) == numbers.dtype
+    return values if keeps_labels else numbers
 
 
 def whole_number(name: str, value: Any, at_least: int, at_most: float = 2**63 - 1) -> int:

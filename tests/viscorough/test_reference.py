@@ -3,7 +3,9 @@
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
+import xarray as xr
 import yaml
 from scipy.integrate import quad
 from scipy.special import gamma as gamma_function
@@ -137,3 +139,10 @@ def test_laws_of_negative_numbers_are_refused(x, zeta):
         with pytest.raises(ValueError, match="hurst: -1; allowed"):
             law(-1)
         assert np.isnan(law(np.nan))
+
+
+def test_laws_keep_the_labels_of_their_numbers():
+    hurst = pd.Series([0.5, 1.0], index=["a", "b"])
+    pd.testing.assert_series_equal(reference.exponent_alpha(hurst), 1 / (1 + hurst))
+    expected = xr.DataArray([0.5, 1.0], dims="x", coords={"x": [1, 2]})
+    xr.testing.assert_identical(reference.velocity_law(expected**2, 1.0, 0.5), expected)

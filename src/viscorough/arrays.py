@@ -114,7 +114,7 @@ def float_or_array(name: str, values: Any) -> Numbers:
     numbers = real_numbers(name, values)
     if not numbers.ndim:
         return float(numbers)
-    keeps_labels = not isinstance(values, np.ndarray) and getattr(values, "dtype", None) == numbers.dtype
+    keeps_labels = hasattr(values, "dtype") and not isinstance(values, np.ndarray) and values.dtype == numbers.dtype
     return values if keeps_labels else numbers
 
 

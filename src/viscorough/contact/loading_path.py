@@ -61,9 +61,9 @@ def indent(
     indenter : Indenter
         Indenter with two-dimensional heights.
     tolerance : float, optional
-        Largest gap in contact, or overlap outside it, over the depth, at every level, rounding included; the relative
-        error of the force there is of second order in it (measured: `make bench`, key curve, force_error). Also the
-        largest relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5, where
+        Largest gap in contact, or overlap outside it, over the depth, at every level, rounding included. The relative
+        error of the force there is far below it; the stiffness is less accurate (docs/solver.md). Also the largest
+        relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5, where
         neither depths nor forces are given. Between 1e-12 and 0.1.
     depths : array_like, optional
         Levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires.

@@ -50,7 +50,7 @@ def contact_at(
         consistent units.
     tolerance : float, optional
         Largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of force
-        at a given depth, and of depth at a given force, are of second order in it. Between 1e-12 and 0.1.
+        at a given depth, and of depth at a given force, are far below it. Between 1e-12 and 0.1.
     progress : Progress, optional
         Function that is called after a contact is solved with the estimated share of the computation that is done, up
         to 1.

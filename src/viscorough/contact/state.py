@@ -170,7 +170,7 @@ class ContactState:
     reduced_depth : u
     count : number of elements in contact
     pressure_sum, tangent_sum : reduced ΣP, and Σq, corrected for the remaining residuals, so that the errors of both
-        are of second order in these
+        are of second order in these for the given contact set
     residual : largest |e| on the contact set or overlap outside it, rounding included, over the depth
     loads : MemberLoads of a dense solution; None on the grid, where they would repeat the fields
     fields : GridFields of this contact; None for a dense solution, as long as no grid is needed

@@ -82,6 +82,31 @@ def test_error_of_force_is_of_second_order_in_the_tolerance():
         assert np.abs(curve.force / exact - 1).max() < 0.1 * tolerance
 
 
+@pytest.mark.parametrize("tolerance", [0.1, 0.03, 1e-2, 1e-3])
+def test_force_of_few_elements_on_the_grid_is_far_more_accurate_than_the_tolerance(tolerance):
+    """An element that overlaps the surface within the tolerance would carry a large part of it."""
+    on_grid = SolverOptions(dense_contacts=0)
+    for across, hurst, seed in [(17, 0.4, 9), (33, 0.7, 10), (33, 0.4, 13), (65, 0.7, 14)]:
+        disc = self_affine_disc(hurst, across, seed=seed)
+        depths = np.nanmax(disc.initial_gap) * np.geomspace(0.02, 1, 12)
+        exact = indent(disc, tolerance=1e-10, depths=depths).force
+        curve = indent(disc, tolerance=tolerance, depths=depths, options=on_grid)
+        assert curve.contact_count[0] < 10
+        assert np.abs(curve.force / exact - 1).max() < 0.06 * tolerance
+
+
+@pytest.mark.parametrize(("tolerance", "largest", "median"), [(1e-2, 2e-2, 1e-3), (1e-4, 2e-3, 1e-4)])
+def test_error_of_stiffness_is_that_of_the_elements_that_just_touch(tolerance, largest, median):
+    errors = []
+    for hurst in (0.2, 0.8):
+        disc = self_affine_disc(hurst, 129, seed=1)
+        depths = np.nanmax(disc.initial_gap) * np.geomspace(0.15, 3, 12)
+        exact = indent(disc, tolerance=1e-9, depths=depths)
+        errors += list(np.abs(indent(disc, tolerance=tolerance, depths=depths).stiffness / exact.stiffness - 1))
+    assert max(errors) < largest
+    assert np.median(errors) < median
+
+
 # ---- levels ----------------------------------------------------------------------------------------------------------
 @pytest.mark.parametrize("hurst", [0.2, 0.8])
 def test_interpolation_stays_within_the_tolerance(hurst):

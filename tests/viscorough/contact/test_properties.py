@@ -13,7 +13,16 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from support.influence import influence_matrix
-from viscorough import Indenter, SolverOptions, indent, kinetics, march_events, self_affine_disc
+from viscorough import (
+    Indenter,
+    SolverOptions,
+    complete_contact,
+    contact_at,
+    indent,
+    kinetics,
+    march_events,
+    self_affine_disc,
+)
 from viscorough.contact.solver import ContactSolver
 
 TOLERANCE = 1e-9
@@ -90,6 +99,42 @@ def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
         tangent = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
         np.testing.assert_allclose(curve.stiffness[i], scale * tangent.sum(), rtol=STIFFNESS)
         np.testing.assert_allclose(curve.force[i], scale * tangent @ (depth - initial_gap[inside]), rtol=FORCE)
+
+
+strips = arrays(float, st.tuples(st.just(1), st.integers(100, 300)), elements=heights, fill=st.nothing())
+long_strips = st.builds(Indenter, strips.filter(lambda array: np.isfinite(array).any()), spacings)
+decades = st.floats(-5, -1)
+
+
+@both_routes
+@given(indenters | long_strips, decades)
+@some
+def test_whole_curve_ends_at_complete_contact(route, indenter, decade):
+    tolerance = 10**decade
+    curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, options=OPTIONS[route])
+    end = complete_contact(indenter)
+    assert curve.contact_fraction[-1] == 1
+    if np.ptp(indenter.initial_gap[np.isfinite(indenter.heights)]) > 0:  # else any depth is one of complete contact
+        np.testing.assert_allclose(curve.depth[-1], end.depth, rtol=0.01 * tolerance)
+    np.testing.assert_allclose(curve.force[-1], end.stiffness * (curve.depth[-1] - end.mean_gap), rtol=0.1 * tolerance)
+
+
+@pytest.mark.filterwarnings("ignore:contact_at. contact is complete")
+@both_routes
+@given(indenters | long_strips, decades, st.floats(0, 1))
+@some
+def test_pressures_at_a_force_are_zero_where_the_gap_is_open_and_nowhere_negative(route, indenter, decade, share):
+    """Also at forces exactly at levels, where an element just touches."""
+    tolerance, options = 10**decade, OPTIONS[route]
+    curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, options=options)
+    level = curve.force[round(share * (curve.force.size - 1))]
+    contact = contact_at(indenter, force=level, tolerance=tolerance, options=options)
+    inside = np.isfinite(indenter.heights)
+    pressure, gap = contact.pressure[inside], contact.gap[inside]
+    assert (pressure >= 0).all()
+    assert (pressure[gap > tolerance * contact.depth] == 0).all()
+    area = indenter.spacing * indenter.row_spacing
+    np.testing.assert_allclose(pressure.sum() * area, level, rtol=1e-6)
 
 
 # ---- one indenter and another ----------------------------------------------------------------------------------------

@@ -55,6 +55,10 @@ _TANGENT_TOLERANCE = 1e-2
 _TANGENT_ROUNDING = 5.0
 # Share of the tolerance that the search may use, so that residual and rounding together are within the tolerance.
 _SEARCH_SHARE = 0.999
+# The residual of a contact of fewer elements than the first number is smaller in proportion to their number: an element
+# that overlaps within the tolerance and does not join would carry a large part of the force. Single precision allows no
+# residual below the second number, over the depth.
+_FEW, _LEAST_RESIDUAL = 100, 1e-5
 # Initial gap where there is no element, far beyond the largest depth.
 _OUTSIDE = 1e30
 
@@ -132,12 +136,12 @@ class ContactSearch:
 
         Changes pressure, e − g and set in place. Returns the contact set and the depth.
         """
-        limit = _SEARCH_SHARE * self._tolerance * depth
         changed, releases, tension = True, 0, self._loops.lowest(pressure) < 0
         search: ConjugateGradients | None = None
         for iteration in range(self._options.max_iterations):
             if changed:
                 contact_set = self.contact_set(inside)
+            limit = self._largest_residual(contact_set, depth)
             largest = self._loops.largest_gap(change.values, self.initial_gap, self.residual, contact_set.places)
             # Residual and rounding error together must not exceed the limit. Where the rounding error is most of it,
             # the gap is recomputed as soon as the residual is no larger than the rounding error.
@@ -159,7 +163,7 @@ class ContactSearch:
             search.precondition(self.residual)
             if force:
                 depth = force.adjust_depth(search, pressure, change, depth)
-                limit = _SEARCH_SHARE * self._tolerance * depth
+                limit = self._largest_residual(contact_set, depth)
             search.update_direction()
             if iteration == 0:
                 excluded = search.unloaded_under_tension(pressure)
@@ -183,6 +187,11 @@ class ContactSearch:
                 tension = search.step(pressure, change.values)
             changed = self.add_penetrating_elements(change, inside, close_enough) > 0 or changed
         raise self._not_converged(contact_set, largest, limit)
+
+    def _largest_residual(self, contact_set: ContactSet, depth: float) -> float:
+        """Return the largest |e| on a set, and overlap outside it, that the search leaves."""
+        share = min(contact_set.places.size / _FEW, 1.0)
+        return _SEARCH_SHARE * max(share * self._tolerance, min(self._tolerance, _LEAST_RESIDUAL)) * depth
 
     def solve_tangent(self, contact_set: ContactSet, tangent: Array, tangent_gap: BoundedField) -> None:
         """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""

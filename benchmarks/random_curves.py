@@ -82,7 +82,7 @@ def random_audit(generator):
 def random_whole_curve(generator, across, largest_tolerance=1e-2, smallest_tolerance=1e-2):
     """A RandomCurve of an ordinary disc until complete contact, from a numpy Generator.
 
-    across : numbers of elements across, one of which is drawn; the Hurst exponent is drawn from 0 to 1
+    across : numbers of elements across to draw from; the Hurst exponent is drawn from 0 to 1
     largest_tolerance, smallest_tolerance : limits of the tolerance, whose logarithm is drawn
     """
     disc = self_affine_disc(generator.random(), int(generator.choice(across)), seed=int(generator.integers(2**32)))

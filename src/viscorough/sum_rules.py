@@ -109,8 +109,9 @@ class SumRules(ReadOnlyArrays):
     Attributes
     ----------
     first : Integral
-        For ⟨g₀⟩_q: u − F/k_c at the "last level", ∫ (1/k − 1/k_c) dF "by levels", from forces and stiffnesses alone,
-        and "between levels", with the stiffness of `LoadingCurve.at_force` [length].
+        For ⟨g₀⟩_q: u − F/k_c at the "last level" (no check of a curve of `indent`, whose level of complete contact
+        has the same source), ∫ (1/k − 1/k_c) dF "by levels", from forces and
+        stiffnesses alone, and "between levels", with the stiffness of `LoadingCurve.at_force` [length].
     second : Integral
         For U/G: ∫ (⟨g₀⟩_q + F/k_c − u) dF "by levels", from depths and stiffnesses there, and "between levels", with
         the depth of `LoadingCurve.at_force` [length³].
@@ -363,8 +364,7 @@ def audit(
     contact_tolerance = max(_CONTACT_TOLERANCE * tolerance, _LEAST_CONTACT_TOLERANCE)
     how: dict[str, Any] = {"tolerance": contact_tolerance, "threads": threads, "options": options}
     complete = complete_contact(indenter, threads)
-    until_force = (1 + _STRAIGHT) * complete.force or np.inf
-    plain = curve = _curve(indenter, until_fraction=1.0, until_force=until_force, **how)
+    plain = curve = _curve(indenter, until_fraction=1.0, **how)
     rules, norms = integrals(curve, complete), [np.inf, np.inf]
     for number in range(_MAX_ROUNDS):
         # A few levels are added in any case, unless the curve is exact: at them it is seen whether interpolation holds.

@@ -1,12 +1,12 @@
-"""Complete contact, in which all elements touch, from two linear problems without a contact problem.
+"""Find the depth of complete contact, where all elements touch, from two linear problems.
 
 Let all elements be joined to the surface, under tension as well. With the symbols of contact.state, their pressures are
 
     P = u q − s,    K q = 1,    K s = g
 
 with g the initial gap. The frictionless contact is complete from the depth at which the last tension vanishes,
-u = max(s/q). Beyond it the loading curve is straight: ΣP = Σq (u − ⟨g⟩_q), with ⟨g⟩_q = Σs/Σq the mean of g with the
-weights q.
+u = max(s/q). Beyond it the loading curve is straight: ΣP = Σq (u − ⟨g⟩_q). Here ⟨g⟩_q = Σs/Σq is the mean of g with
+the weights q.
 """
 
 from typing import NamedTuple
@@ -19,14 +19,14 @@ from viscorough.contact.state import ContactState, Elements, MemberLoads, Units
 from viscorough.errors import ConvergenceError
 from viscorough.types import Array
 
-# Smallest norm of the residual, over the norm of the right-hand side, to which the linear problems are solved.
+# Smallest residual of the linear problems: its norm over the norm of the right-hand side.
 EXACT = 1e-12
 # Iterations after which ConvergenceError is raised.
 _MAX_ITERATIONS = 500
 
 
 class JoinedSurface(NamedTuple):
-    """The linear problem of an indenter whose elements are all joined to the surface; reduced.
+    """The solution for an indenter whose elements are all joined to the surface; reduced.
 
     tangent, load : q and s, by rank, shape (elements,)
     initial_gap : g, by rank, shape (elements,)
@@ -72,9 +72,9 @@ def joined_surface(
     """Solve K q = 1 and K s = g over all elements by preconditioned conjugate gradients, in double precision.
 
     elements : Elements, all ranked
-    residual : norm of the residual, over the norm of the right-hand side, at which a problem counts as solved
+    residual : norm of the residual over the norm of the right-hand side; the iterations stop below it
     padding : see SolverOptions
-    threads : on which it computes
+    threads : number of threads
 
     Raises ConvergenceError if the residuals do not fall so far.
     """

@@ -129,7 +129,8 @@ CALLS = {
     "IdentifiedMedium": [
         call(
             viscorough.IdentifiedMedium,
-            {"time": [0.0, 1.0], "compliance": [0.5, 1.0], "low": [0.5, 0.5], "high": [1.0, 1.0], "scatter": 0.5},
+            {"time": [0.0, 1.0], "compliance": [0.5, 1.0], "low": [0.5, 0.5], "high": [1.0, 1.0], "scatter": 0.5}
+            | {"misfit": 0.25},
             medium=SOLID,
         )
     ],
@@ -174,7 +175,8 @@ CALLS = {
     "identify_medium": [
         call(
             viscorough.identify_medium,
-            {"force": (FORCES[0], "N"), "times": (RECORD.time.tolist(), "s"), "depth": (DEPTHS, LENGTH)},
+            {"force": (FORCES[0], "N"), "times": (RECORD.time.tolist(), "s"), "depth": (DEPTHS, LENGTH)}
+            | {"scatter": (2.0**-10, LENGTH)},
             curve=CURVE,
         )
     ],
@@ -376,7 +378,7 @@ def is_allowed(each, name, wrong):
     if wrong in ("huge", "more digits than Python writes"):
         return name == "seed"
     # Points outside a map and values that are not known; marks of missing points; forces beyond a curve.
-    may_be_nan = {"nodata", "heights", "pressure", "gap", "compliance", "low", "high", "time", "scatter"}
+    may_be_nan = {"nodata", "heights", "pressure", "gap", "compliance", "low", "high", "time", "scatter", "misfit"}
     if each.function in FORMULAS:
         return wrong in ("nan", "infinite")  # a formula of nan is nan
     return wrong in ("nan", "infinite") and (name in may_be_nan or each is METHODS["at_force"])

@@ -1,5 +1,6 @@
 """Files that go together: profiles, lock files, those for archives and catalogs, and what builds the environment."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -63,7 +64,8 @@ def built(tmp_path):
 
 def make_environment(folder):
     command = ["make", "--dry-run", "environment"]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    own = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=own)
 
 
 def test_moved_environment_is_built_again(built):

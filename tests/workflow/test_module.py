@@ -91,7 +91,9 @@ def test_module_of_the_documentation_is_planned(tmp_path):
     (text,) = (block.text for block in blocks(page) if block.text.startswith("module viscorough:"))
     (tmp_path / "viscorough").symlink_to(ROOT)
     (tmp_path / "Snakefile").write_text(text)
-    assert plan(tmp_path, "--", "rough_figure_1") == {"rough_generate_examples": 1, "rough_plot_surfaces": 1}
+    planned = plan(tmp_path, "--", "rough_figure_1")
+    assert planned.items() >= {"rough_generate_examples": 1, "rough_plot_surfaces": 1}.items()
+    assert set(planned) <= {"rough_generate_examples", "rough_plot_surfaces", "rough_figure_1"}
 
 
 def test_the_study_comes_from_the_checkout_of_the_workflow(tmp_path):

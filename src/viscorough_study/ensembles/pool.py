@@ -21,7 +21,7 @@ REALIZATION_COORDINATES = {
     "hurst": ("Hurst exponent", "1"),
     "group": ("group of cases", ""),
     "case": ("name of the case", ""),
-    "diameter": ("diameter of the indenter in m, or 1 if lengths are dimensionless", ""),
+    "diameter": ("diameter of the indenter in m, or 1 if lengths are dimensionless", "1"),
     "elements": ("elements of the indenter", "1"),
     "until_x": ("X that the curve was to reach", "1"),
 }

@@ -4,6 +4,7 @@ A method solves a Problem: it gives the velocities vt = (F/G)/(k/G) at the probl
 that trades accuracy for cost; `measurement` measures both.
 """
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -12,6 +13,7 @@ import numpy as np
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
+from viscorough.errors import AccuracyWarning
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
 from viscorough.viscous.integration.events import march_events
@@ -65,7 +67,9 @@ def _events(problem, fraction):
 def _steps(scheme, problem, number):
     """A number of steps of the impulse in equal ratios, and interpolation between their ends."""
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
-    steps = march_steps(problem.indenter, ends, scheme=scheme)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AccuracyWarning)  # the table has the error of too few steps
+        steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size
 

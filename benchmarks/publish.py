@@ -11,6 +11,7 @@ published results and from the statements in resources/paper/claims.yaml. The wo
 """
 
 import json
+import re
 import shutil
 import subprocess
 import textwrap
@@ -26,7 +27,17 @@ from viscorough.calibrated_law import CONSTANTS
 from viscorough_study.fits.infinite_grid import OMEGA
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
-from viscorough_study.verdicts.claims import markdown, overall
+from viscorough_study.verdicts.answer import answer
+from viscorough_study.verdicts.claims import (
+    HELD,
+    case_counts,
+    counted_verdicts,
+    findings,
+    markdown,
+    overall,
+    physics,
+    verdict_text,
+)
 from viscorough_study.verdicts.evidence import VERDICTS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -82,25 +93,62 @@ INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 def verdicts():
     """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those of other runs that differ."""
     table = published_claims()
-    seeds = {seed: overall(claims) for seed, claims in published_claims("docs/seeds.csv").groupby("seed")}
-    runs, differ = [overall(published_claims(DEFAULT_CLAIMS)), *seeds.values()], []
+    return markdown(table, CLAIMS) + "\n" + paragraph(other_runs(table))
+
+
+def other_runs(table):
+    """Sentences that compare the verdicts with those of the default run and of other root seeds."""
+    seeds = dict(tuple(published_claims("docs/seeds.csv").groupby("seed")))
+    runs, differ = [published_claims(DEFAULT_CLAIMS), *seeds.values()], []
     for claim, verdict in overall(table).items():
-        if others := {run[claim] for run in runs} - {verdict}:
+        if others := {overall(run)[claim] for run in runs} - {verdict}:
             differ.append(f"{claim} ({', '.join(sorted(others))})")
-    text = (
+    opposed = [f"{claim}, {case}" for claim, case in opposed_cases([table, *runs])]
+    return (
         "With the paper's own number of discs, 2880 (`make reproduce`, `resources/published/default_claims.csv`), and "
         f"also with {len(seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)), the verdicts are the same, "
-        f"but for: {'; '.join(differ) or 'none'}."
+        f"but for: {'; '.join(differ) or 'none'}. Cases that are reproduced in one of these runs and not reproduced in "
+        f"another: {'; '.join(opposed) or 'none'}."
     )
-    return markdown(table, CLAIMS) + "\n" + paragraph(text)
+
+
+def opposed_cases(runs):
+    """[(claim, case)] that hold in one of several tables of verdicts and fail in another.
+
+    Cases of complete contact are named by the X from which on they are counted, which differs between runs.
+    """
+    outcomes = {}
+    for table in runs:
+        for row in table.itertuples():
+            case = re.sub(r", from X = .*", "", row.case)
+            outcomes.setdefault((row.claim, case), set()).add(row.verdict)
+    return [key for key, found in outcomes.items() if found & set(HELD) and "not reproduced" in found]
+
+
+def answer_lines():
+    """The answer in one paragraph, the number of claims by verdict, and the findings that explain what fails."""
+    table = published_claims()
+    counts = ", ".join(f"{number} {verdict}" for verdict, number in counted_verdicts(table))
+    total = sum(number for _, number in counted_verdicts(table))
+    failing = "; ".join(findings(table, CLAIMS))
+    number = ["one finding", "two findings", "three findings", "four findings"][len(findings(table, CLAIMS)) - 1]
+    scoreboard = f"Of {total} claims on physics: {counts}. What fails is {number}: {failing}."
+    return paragraph(f"**{answer(table)}**") + "\n" + paragraph(scoreboard)
 
 
 def verdict_lines():
-    """The verdicts on physics without numbers: titles of claims, one line for each verdict."""
-    full = overall(published_claims())
-    physics = [name for name in full if CLAIMS[name]["kind"] == "physics"]
-    titles = {verdict: [CLAIMS[name]["title"] for name in physics if full[name] == verdict] for verdict in VERDICTS}
-    rows = [f"| {verdict} | {'; '.join(members)} |" for verdict, members in titles.items() if members]
+    """The verdicts on physics without numbers: titles of claims, one line for each verdict.
+
+    A claim that is reproduced in part names the Hurst exponents, or the number of its cases, for which it holds.
+    """
+    table = physics(published_claims())
+    named = {verdict: [] for verdict in VERDICTS}
+    for name, verdict in overall(table).items():
+        rows = table[table["claim"] == name]
+        detail = verdict_text(rows).removeprefix(verdict).strip() or f"({case_counts(rows)})"
+        part = f" {detail}" if verdict == "reproduced in part" else ""
+        named[verdict].append(CLAIMS[name]["title"] + part)
+    rows = [f"| {verdict} | {'; '.join(members)} |" for verdict, members in named.items() if members]
     return markdown_table("| verdict | claims on physics |", rows)
 
 
@@ -108,6 +156,18 @@ def default_minutes():
     """Return the range of times of the default run, from the published one to the longest."""
     minutes = round(pd.read_csv(ROOT / DEFAULT_COSTS)["share_s"].sum() / 60)
     return f"{minutes} to {max(minutes + 1, LONGEST_DEFAULT_RUN)} minutes"
+
+
+def sentences():
+    """Every checkable sentence of the paper with its origin and the verdicts on it, as a table in Markdown."""
+    table = published_claims()
+    of_claim = {name: verdict_text(rows) for name, rows in table.groupby("claim", sort=False)}
+    rows = []
+    for sentence in read_paper(ROOT / "resources/paper", "sentences"):
+        judged = "; ".join(f"`{name}`: {of_claim[name]}" for name in sentence["claims"])
+        verdict = judged or f"not judged: {sentence['why']}"
+        rows.append(f"| {sentence['where']} | {sentence['says']} | {sentence['origin']} | {verdict} |")
+    return markdown_table("| where | what the paper says | origin | verdict |", rows)
 
 
 def time_sentence():
@@ -256,7 +316,11 @@ def tables():
     """{(page, name): text} of the generated parts, between marks, of README.md and pages of docs/."""
     records = json.loads((ROOT / "docs/results/published.json").read_text(encoding="utf-8"))
     return {
+        ("README.md", "answer"): answer_lines(),
         ("README.md", "verdicts"): verdict_lines(),
+        ("docs/index.md", "answer"): answer_lines(),
+        ("docs/verdicts.md", "answer"): answer_lines(),
+        ("docs/verdicts.md", "sentences"): sentences(),
         ("README.md", "time"): time_sentence(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),

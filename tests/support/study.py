@@ -95,6 +95,7 @@ def _evidence(zeta, **options):
     lines = lines.sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
     scaling = scaling_table(discs, lines, **BOOTSTRAP, stiffness_range=[0.03, 0.3], **LIMITS)
     plateaus = pd.DataFrame({"hurst": HURST} | three_columns("decades", (2.4, 2.2, 2.6)))
+    plateaus = plateaus.assign(**three_columns("half_spread", (0.02, 0.01, 0.03)), region_decades=1.5)
     validation = pd.DataFrame({"case": "sphere_reduction", "quantity": "depth", "elements": (65, 129)})
     evidence = evidence_of(
         discs,

@@ -26,6 +26,7 @@ TABLE_PARAMS = {
     "compare_direct": config["direct"] | {"hursts": config["discs"]["hurst"]} | SEED,
     "measure_plateaus": {
         "control": next(CONTROLS, None),
+        "region": without("scaling", "stiffness_range", "resamples"),
         "x_range": config["verdicts"]["plateau_range"],
         "half_width": config["scaling"]["slope_half_width"],
         "tolerance": paper("claims")["power_law"]["tolerance"],

@@ -11,7 +11,6 @@ from viscorough.io.netcdf import Variable
 RMS = {
     "disc": "rms height over the disc",
     "square": "rms height over the periodic square",
-    "peak": "highest peak above the mean",
     "ensemble": "rms height over the periodic square on average over all realizations of its spectrum",
     "line": "rms height of the line",
 }

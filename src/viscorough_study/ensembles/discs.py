@@ -14,15 +14,13 @@ def ensemble_disc(elements, surface, seed):
     elements : across the disc; surface : arguments of self_affine_disc with rms, diameter, rms_over and length_unit
 
     The nominal rms height is that over the disc or over the periodic square that the disc is cut from, by rms_over.
-    The conventions are the rms height over the disc, that over the square, the height of the highest peak above the
-    mean of the disc, and the rms height of the ensemble, which the common spectrum gives the square on average: in this
-    unit realizations are not normalised individually.
+    The conventions are the rms height over the disc, that over the square, and the rms height of the ensemble, which
+    the common spectrum gives the square on average: in this unit realizations are not normalised individually.
     """
     shape = {name: value for name, value in surface.items() if name not in _LENGTHS}
     square = square_of_disc(**shape, elements_across=elements, normalised=False, seed=seed)
     disc = cut_disc(square, elements)
-    peak = np.nanmax(disc) - np.nanmean(disc)
-    rms = {"disc": np.nanstd(disc), "square": np.sqrt(np.mean(square**2)), "peak": peak, "ensemble": 1.0}
+    rms = {"disc": np.nanstd(disc), "square": np.sqrt(np.mean(square**2)), "ensemble": 1.0}
     factor = surface["rms"] / rms[surface["rms_over"]]
     indenter = Indenter(disc * factor, surface["diameter"] / elements, length_unit=surface["length_unit"])
     return indenter, {name: float(height * factor) for name, height in rms.items()}

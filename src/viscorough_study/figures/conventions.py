@@ -13,7 +13,6 @@ CONVENTION_LABELS = {
     "rms_convention": {
         "disc": "$h$ of the disc",
         "square": "$h$ of the square",
-        "peak": "$h$ of the highest peak",
         "ensemble": "$h$ of the ensemble",
     },
     "window_rule": {

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.special import gamma as gamma_function
 
 FITTED = {
-    "rms_convention": ("disc", "square", "peak", "ensemble"),  # of lines: "line"
+    "rms_convention": ("disc", "square", "ensemble"),  # of lines: "line"
     "average": ("arithmetic", "geometric"),
     "window_rule": ("default", "lower_half", "upper_half", "kappa"),
 }

@@ -1,12 +1,15 @@
-"""Plateaus of the local slope: the number of decades of X over which a curve is a power law, and its uncertainty.
+"""Is a curve a power law? Two tests of the local slope d ln y/d ln X, which is constant for a power law.
 
-A power law has a constant slope d ln y/d ln X. Every curve whose slope increases at both ends has a flat piece in
-between, so the test is of its length: the decades of X over which all local slopes lie within ± the tolerance of their
-mid-range. Slopes are those of straight lines over fixed widths: the tested property does not choose the window.
+1. Within region (b): half the spread of the local slopes, from the smallest to the largest. The paper calls the curves
+   nearly linear there.
+2. Without a region: the decades of X over which all local slopes lie within ± the tolerance of their mid-range. Every
+   curve whose slope increases at both ends has a flat piece in between, so this test is of its length.
 
-The control has a spectrum without long waves, hence no power law. The error rates of the test, the fractions of power
-laws that fail it and of curves like the control that pass it, are estimated from synthetic ensembles with the scatter
-of the real realizations.
+Local slopes are slopes of straight lines over fixed widths, so the tested property does not choose the window.
+
+The control has a spectrum without long waves, hence no power law; a test that it passes cannot tell a power law from a
+bend. The error rates of the second test, the fractions of power laws that fail it and of curves like the control that
+pass it, are estimated from synthetic ensembles with the scatter of the real realizations.
 """
 
 import logging
@@ -16,7 +19,7 @@ import pandas as pd
 
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.intervals import described, resampled_means, three_columns, with_interval
-from viscorough_study.fits.power_law import ROUNDING, local_slopes
+from viscorough_study.fits.power_law import ROUNDING, find_region, in_window, local_slopes
 from viscorough_study.run.seeds import plateau_key, realization_seed
 
 COLUMNS = {
@@ -27,6 +30,8 @@ COLUMNS = {
     "power_law_passes": ("share of synthetic power laws with the scatter of this ensemble that pass the test", "1"),
     "power_law_fails": ("share of them that fail it", "1"),
     "control_passes": ("share that pass of ensembles with the mean curve of the control", "1"),
+    **described("half_spread", "half the spread of the local slopes within region (b)"),
+    "region_decades": ("decades of X in region (b), 0 where there is none", "1"),
 }
 RESAMPLES_OF_DRAWS = 100  # bootstrap samples of each synthetic ensemble
 
@@ -89,10 +94,29 @@ def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
     return (found["decades_low"] >= needed).mean(), (found["decades_high"] < needed).mean()
 
 
-def plateau_table(discs, *, control, rms_convention, seed, **options):
-    """Plateaus of every Hurst exponent, of base discs and of a control; a pandas.DataFrame with `COLUMNS`.
+def half_spread(ensemble, region, *, half_width, resamples, random):
+    """Half the spread of the local slopes of the geometric mean within region (b), with its 95 % bootstrap interval.
+
+    ensemble : ensemble dataset of one rms convention; region : (X_low, X_high), or None
+    half_width : of local slopes, in ln X
+    Returns a dict: half_spread, half_spread_low, half_spread_high, region_decades; without a region only the last.
+    """
+    if region is None:
+        return {"region_decades": 0.0}
+    x, log_y = ensemble["x"].values, np.log(ensemble["velocity"].values)
+    log_y = log_y[np.isfinite(log_y[:, in_window(x, region)]).all(axis=1)]
+    means = resampled_means(np.where(np.isfinite(log_y), log_y, 0.0), resamples, random)
+    means[:, ~np.isfinite(log_y).all(axis=0)] = np.nan  # local slopes leave out abscissae that a curve does not reach
+    slopes = local_slopes(np.log(x), means, half_width)[:, in_window(x, region)]
+    columns = three_columns("half_spread", with_interval(np.ptp(slopes, axis=1) / 2, len(log_y)))
+    return columns | {"region_decades": np.log10(region[1] / region[0])}
+
+
+def plateau_table(discs, *, control, rms_convention, region, seed, **options):
+    """Both tests for every Hurst exponent, of base discs and of a control; a pandas.DataFrame with `COLUMNS`.
 
     discs : pool (viscorough_study.ensembles.pool); control : group without a power law, or None
+    region : limits of region (b), arguments of viscorough_study.fits.power_law.find_region
     options : further arguments of `plateau_row`
     """
     pool = ensembles(discs, "group", "hurst", rms_convention=rms_convention)
@@ -102,6 +126,8 @@ def plateau_table(discs, *, control, rms_convention, seed, **options):
             logging.info("%s, H = %g", group, hurst)
             random = np.random.default_rng(realization_seed(seed, *plateau_key(hurst, group)))
             row = plateau_row(ensemble, pool.get((control, hurst)), random=random, **options)
+            slopes = {"half_width": options["half_width"] * np.log(10), "resamples": options["resamples"]}
+            row |= half_spread(ensemble, find_region(ensemble, **region), random=random, **slopes)
             rows.append({"case_group": group, **row})
     return pd.DataFrame(rows, columns=list(COLUMNS))
 

@@ -15,9 +15,9 @@ ADVISED = 1e-2  # allowed error of the advice at the top of the page
 
 
 def verdict_counts(results):
-    """[Number] of claims by verdict, most frequent first; a claim has the verdict over all its cases."""
+    """[Number] of claims on physics by verdict, from best to worst; a claim has the verdict over all its cases."""
     numbers = counted_verdicts(results.tables["claims"])
-    column = "verdict over all cases of a claim"
+    column = "verdict over all cases of a claim on physics"
     return [Number(number, "claims", column, counted=verdict) for verdict, number in numbers]
 
 
@@ -33,7 +33,7 @@ def answers(results):
     differences = results.rows("claims", claim="coincide")["value"].abs().dropna()
     return {
         "collapse": cases("collapse")[0],
-        "decades": extremes("power_law", "value"),
+        "spread": extremes("power_law", "value"),
         "beta": cases("beta"),
         "coincide": results.record("claims", differences.idxmax()) if len(differences) else None,
         "elastic": cases("zeta_elastic"),

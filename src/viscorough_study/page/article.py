@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections import Counter, defaultdict
+from collections import defaultdict
 
 import jinja2
 import numpy as np
@@ -12,6 +12,7 @@ import yaml
 from viscorough.calibrated_law import ACROSS
 from viscorough_study.page.results import Number, read_published
 from viscorough_study.run.readable import readable
+from viscorough_study.verdicts.claims import counted_verdicts
 
 AUDITED, PLAIN = "1e-05", "1e-03"  # tolerances of the audits and curves whose sum rules are shown
 _MARKUP = re.compile(r"""([\\#*_`$<>@\[\]~/"'=+-])""")
@@ -39,7 +40,7 @@ def article(project, contents, *, paper, figures):
         citation=citation,
         original=citation["references"][0],
         paper=paper,
-        physics=counted_physics(contents["verdicts"]),
+        physics=counted_physics(results.tables["claims"]),
         titles=titles(contents["verdicts"]),
         validation=validation[validation["elements"] == validation["elements"].max()].to_dict("records"),
         springs=springs.to_dict("records"),
@@ -63,10 +64,10 @@ def as_markup(value):
     return _MARKUP.sub(r"\\\1", str(value))
 
 
-def counted_physics(verdicts):
-    """{verdict: number of claims on physics}, and the total."""
-    claims = next(members for heading, members in verdicts.items() if heading.startswith("Physics"))
-    return Counter(claim["verdict"] for claim in claims) | {"all": len(claims)}
+def counted_physics(table):
+    """Number of claims on physics, and {verdict: number of them} from best to worst, of a table of verdicts."""
+    counts = dict(counted_verdicts(table))
+    return {"all": sum(counts.values()), "counts": counts}
 
 
 def titles(verdicts):

@@ -9,6 +9,8 @@ from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import read_recorded
+from viscorough_study.verdicts.answer import answer
+from viscorough_study.verdicts.claims import findings
 
 
 def contents_of(project, discs, lines, *, tables, claims, numbers):
@@ -30,7 +32,9 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
         "conventions": conventions,
         "readable": readable,
         "scale": scale,
+        "answer": answer(results.tables["claims"]),
         "answers": answers.answers(results),
+        "findings": findings(results.tables["claims"], claims),
         "verdict_counts": answers.verdict_counts(results),
         "verdict_short": content.VERDICT_SHORT,
         "overall": {claim["name"]: claim["verdict"] for claims in verdicts.values() for claim in claims},

@@ -9,17 +9,20 @@ from viscorough.io.netcdf import opened
 from viscorough_study.run.cases import medium_label
 from viscorough_study.verdicts.claims import (
     KINDS,
+    case_counts,
     cases_shown,
     deciding_case,
     is_trial,
     overall,
-    undecided_cases,
+    place,
     value_text,
+    verdict_text,
 )
 
 VERDICT_SHORT = {
     "reproduced": "yes",
     "reproduced under a stated convention": "partly",
+    "reproduced in part": "partly",
     "not reproduced": "no",
     "undecided": "open",
 }
@@ -43,10 +46,12 @@ def verdicts(results, statements, published):
             {
                 **statements[name],
                 "name": name,
+                "where": place(statements[name]),
                 "tolerance": results.number("claims", rows.index[0], "tolerance"),
                 "verdict": verdict,
+                "verdict_text": verdict_text(rows),
+                "case_counts": case_counts(rows),
                 "full_scale": full_scale,
-                "undecided": undecided_cases(rows),
                 "deciding": results.record("claims", deciding_case(rows)),
                 "cases": [results.record("claims", i) for i in displayed.index],
                 "left_out": len(rows) - len(displayed),

@@ -15,9 +15,9 @@ from viscorough_study.run import seeds
 
 # {pool: rms conventions of its surfaces}
 POOLS = {
-    "discs": ("disc", "square", "peak", "ensemble"),
+    "discs": ("disc", "square", "ensemble"),
     "lines": ("line",),
-    "size_discs": ("disc", "square", "peak", "ensemble"),
+    "size_discs": ("disc", "square", "ensemble"),
     "size_lines": ("line",),
     "measured": ("disc",),
 }

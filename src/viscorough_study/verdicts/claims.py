@@ -8,6 +8,9 @@ Other random surfaces give other numbers, on which a verdict must not depend: wh
 claim is reproduced only if the whole interval lies within the tolerance, and not reproduced only if it lies wholly
 outside; otherwise it is undecided. viscorough_study.verdicts.evidence.Evidence.within describes how the numbers of
 cases and of realizations enter.
+
+The scoreboard (`counted_verdicts`) counts the claims on physics only. Identities and bookkeeping cannot fail by the
+physics, and what the paper does not say is not among its claims.
 """
 
 from collections import Counter
@@ -38,10 +41,18 @@ def _criteria(module):
 JUDGES = {claim: criterion for module in MODULES for claim, criterion in _criteria(module).items()}
 KINDS = {
     "physics": "Physics",
-    "identity": "Identities, which hold by the method or by construction",
-    "bookkeeping": "Bookkeeping",
-    "beyond": "Beyond the paper",
+    "identity": "Identities, which hold by the method or by construction (not counted)",
+    "bookkeeping": "Bookkeeping (not counted)",
+    "beyond": "Beyond the paper (not counted)",
 }
+# What the claims that fail have in common: {finding of a claim in claims.yaml: the finding in words}.
+FINDINGS = {
+    "small_hurst": "small H departs, on every grid tried, at fixed X",
+    "prefactor": "the prefactor differs",
+    "gamma": "the factor 1/Γ(2 − α) is an error",
+    "region_c": "region (c) begins far before complete contact",
+}
+HELD = ("reproduced", "reproduced under a stated convention")  # verdicts of cases that meet their criterion
 COLUMNS = {
     "claim": ("name of the claim, as in resources/paper/claims.yaml", ""),
     "kind": ("one of: " + "; ".join(KINDS), ""),
@@ -104,43 +115,90 @@ def scale_attributes(evidence):
 
 
 def overall(table):
-    """{claim: verdict}: the worst verdict of its cases, in the order of `VERDICTS`."""
-    ranks = table["verdict"].map(VERDICTS.index).groupby(table["claim"], sort=False).max()
-    return {claim: VERDICTS[rank] for claim, rank in ranks.items()}
+    """{claim: verdict}, from the verdicts of the claim's cases.
+
+    A claim with some cases that hold and some that fail is reproduced in part. Otherwise it has the worst verdict of
+    its cases, in the order of `VERDICTS`: a claim with cases that fail and none that hold is not reproduced, and one
+    with cases that hold and cases that the data do not decide is undecided.
+    """
+    return {claim: _of_cases(verdicts) for claim, verdicts in table.groupby("claim", sort=False)["verdict"]}
+
+
+def _of_cases(verdicts):
+    """Verdict on a claim from those on its cases."""
+    if "not reproduced" in set(verdicts) and verdicts.isin(HELD).any():
+        return "reproduced in part"
+    return max(verdicts, key=VERDICTS.index)
 
 
 def counted_verdicts(table):
-    """[(verdict, its number of claims of the paper)], most frequent first."""
-    return Counter(overall(of_paper(table)).values()).most_common()
+    """[(verdict, its number of claims on physics)], from best to worst."""
+    numbers = Counter(overall(physics(table)).values())
+    return [(verdict, numbers[verdict]) for verdict in VERDICTS if numbers[verdict]]
 
 
-def of_paper(table):
-    """The cases of what the paper says, without those beyond it."""
-    return table[table["kind"] != "beyond"]
+def physics(table):
+    """The cases of claims on physics, which the scoreboard counts."""
+    return table[table["kind"] == "physics"]
+
+
+def verdict_text(rows):
+    """Verdict on a claim as text; one in part names the Hurst exponents at which it holds.
+
+    rows : the cases of one claim
+    """
+    (verdict,) = overall(rows).values()
+    held = rows.loc[rows["verdict"].isin(HELD), "case"]
+    if verdict == "reproduced in part" and held.str.fullmatch(r"H = [\d.]+").all():
+        return f"{verdict} (H = {', '.join(held.str.removeprefix('H = '))})"
+    return verdict
+
+
+def case_counts(rows):
+    """Number of cases that hold and number of undecided ones as text, such as "2 of 4 cases, 1 undecided".
+
+    rows : the cases of one claim; the text is empty if all of them hold or all of them fail
+    """
+    held, undecided = int(rows["verdict"].isin(HELD).sum()), int((rows["verdict"] == "undecided").sum())
+    if held == len(rows) or held + undecided == 0:
+        return ""
+    return f"{held} of {len(rows)} cases" + (f", {undecided} undecided" if undecided else "")
+
+
+def findings(table, claims):
+    """{finding in words: claims on physics that are not reproduced, or only in part, for this reason}.
+
+    claims : {name: content of claims.yaml}, of which those that may fail name a finding of `FINDINGS`
+    """
+    verdicts = overall(physics(table))
+    failed = [name for name, verdict in verdicts.items() if verdict in ("reproduced in part", "not reproduced")]
+    found = {finding: [name for name in failed if claims[name].get("finding") == finding] for finding in FINDINGS}
+    return {FINDINGS[finding]: names for finding, names in found.items() if names}
+
+
+def place(claim):
+    """Where the paper makes a claim, and whether it quotes it from earlier work.
+
+    claim : content of claims.yaml
+    """
+    return claim["where"] + ("; quoted" if claim.get("origin") == "quoted" else "")
 
 
 def deciding_case(rows):
-    """Index of the case that decides a claim: the one farthest from the paper's value among those with its verdict.
+    """Index of the case that decides a claim: the one farthest from the paper's value among those of the worst verdict.
 
     rows : the cases of one claim; the first such case if none can be compared with a value of the paper
     """
-    (verdict,) = overall(rows).values()
-    rows = rows[rows["verdict"] == verdict]
+    rows = rows[rows["verdict"] == max(rows["verdict"], key=VERDICTS.index)]
     distance = (rows["value"] - rows["expected"]).abs()
     return rows.index[0] if distance.isna().all() else distance.idxmax()
-
-
-def undecided_cases(rows):
-    """Number of undecided cases as text, such as "2 of 4 cases undecided"; "" if there are none."""
-    number = int((rows["verdict"] == "undecided").sum())
-    return f"{number} of {len(rows)} cases undecided" if number else ""
 
 
 def markdown(table, claims):
     """The verdicts as tables in Markdown, one for each kind: a row for each claim, and below it one for each case.
 
     Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the one that is farthest from what the paper
-    says. Behind the verdict on a case stands in how many conventions it is met.
+    says. The number of conventions in which a case is met follows its verdict.
     """
     parts, verdicts = [], overall(table)
     for kind, heading in KINDS.items():
@@ -150,8 +208,9 @@ def markdown(table, claims):
         lines = [f"### {heading}", "", "| claim, case | quantity, value | the paper | verdict |", "|---|---|---|---|"]
         for name in names:
             claim, rows = claims[name], table[table["claim"] == name]
-            head = "| **{statement}** ({where}) | {quantity} | | **{verdict}** |"
-            lines.append(head.format(**claim, verdict=verdicts[name]))
+            verdict, counts = verdict_text(rows), case_counts(rows)
+            verdict = f"**{verdict}**; {counts}" if counts else f"**{verdict}**"
+            lines.append(f"| **{claim['statement']}** ({place(claim)}) | {claim['quantity']} | | {verdict} |")
             shown = cases_shown(rows)
             lines += [_case_line(row) for row in shown.to_dict("records")]
             lines += [f"| {len(rows) - len(shown)} more cases | | | |"] if len(shown) < len(rows) else []

@@ -13,8 +13,14 @@ from viscorough_study.fits.conventions import FITTED, as_text, select, source_va
 from viscorough_study.fits.intervals import NO_INTERVAL, equivalence, interval
 from viscorough_study.fits.power_law import find_region
 
-# From best to worst: the verdict on a claim is the worst of its cases.
-VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
+# Verdicts on claims, from best to worst. A case has one of them except "reproduced in part" (verdicts.claims.overall).
+VERDICTS = (
+    "reproduced",
+    "reproduced under a stated convention",
+    "reproduced in part",
+    "undecided",
+    "not reproduced",
+)
 OUTCOMES = {True: "reproduced", False: "not reproduced", None: "undecided"}  # whether a criterion is met: its verdict
 # Columns of a case in the table of verdicts (verdicts.claims), which describes them.
 CASE = ("case", "value", "low", "high", "least", "largest", "expected", "verdict")

@@ -32,6 +32,20 @@ def beta_lines(evidence, tolerance):
     return beta(evidence, tolerance, "lines")
 
 
+def exponent_small_hurst(evidence, tolerance):
+    """β of discs and of lines minus H/(1 + H), for the Hurst exponents of discs for which the paper claims nothing."""
+    of_discs = evidence.fits("discs")
+    small = of_discs.index[of_discs.index <= evidence.paper_value("agreement", "beta_hurst_min")]
+    for source in ("discs", "lines"):
+        fits = evidence.fits(source)
+        for hurst in small.intersection(fits.index):
+            row = fits.loc[hurst]
+            values = np.array(interval(row, "beta")) - reference.exponent_beta(hurst)
+            context = {"realizations": row["realizations"], "cases": 2 * len(small)}
+            name = f"{hurst_name(hurst)}, {source}"
+            yield evidence.case(name, tuple(values), 0.0, (-tolerance, tolerance), **context)
+
+
 def coincide(evidence, tolerance):
     """β of lines minus β of discs, with the conventions in which the difference is smallest."""
     discs, lines = (evidence.every_fit(source).query("case_group == 'base'") for source in ("discs", "lines"))
@@ -135,12 +149,23 @@ def depth(evidence, tolerance):
 
 
 def master_curve(evidence, tolerance):
-    """vt/h over the right side of Eq. 12 as printed."""
+    """vt/h over the right side of Eq. 12 as printed, of discs, and of lines at the same Hurst exponents."""
 
     def ratio(hurst, ensemble, betas, zetas, centre):
         return centre**betas / zetas / reference.rate_law(centre, hurst, gamma=True)
 
-    return _cases_at_centre(evidence, tolerance, ratio)
+    discs = list(_cases_at_centre(evidence, tolerance, ratio))
+    yield from discs
+    lines = evidence.fits("lines")
+    lines = lines[lines.index.isin(list(evidence.pooled))]
+    for hurst, row in lines.iterrows():
+        centre = np.sqrt(row["x_low"] * row["x_high"])
+        value = ratio(hurst, None, row["beta"], row["zeta"], centre)
+        # The relative error of ζ, which is that at X = 1, bounds that at the centre of the fit.
+        zeta, zeta_low, zeta_high = interval(row, "zeta")
+        values = value, value * zeta / zeta_high, value * zeta / zeta_low
+        context = {"realizations": row["realizations"], "cases": len(discs) + len(lines)}
+        yield evidence.case(f"{hurst_name(hurst)}, lines", values, 1.0, (1 - tolerance, 1 + tolerance), **context)
 
 
 def _cases_at_centre(evidence, tolerance, ratio):

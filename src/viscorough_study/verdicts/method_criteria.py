@@ -1,13 +1,14 @@
-"""Criteria of claims on the methods: the factor Γ, the line of the MDR, counts and time."""
+"""Criteria of claims on the methods: the factor Γ, the line of the MDR, and counts."""
 
 import numpy as np
 
 from viscorough.surfaces import cut_disc
-from viscorough_study.fits.intervals import NO_INTERVAL, UNDEFINED, difference
+from viscorough_study.fits.intervals import UNDEFINED, difference
 from viscorough_study.verdicts.evidence import exact, judged
 
-WEEKS_IN_MINUTES = 7 * 24 * 60  # ratio of "several weeks" to "a few minutes"
-SMALL_ERROR = 0.01  # of the velocity, at which contact problems are counted
+SMALL_ERROR = 0.01  # error of the velocity at which the steps of explicit integration are counted
+HUNDREDS = 100  # fewest contact problems that are "some hundreds"
+EXPLICIT = "explicit, logarithmic steps"  # method of the table of methods that solves a contact problem in every step
 
 
 def gamma(evidence, tolerance):
@@ -58,37 +59,24 @@ def elements(evidence, tolerance):
 
 
 def contact_problems(evidence, tolerance):
-    """Number of contact problems needed for the velocity, over the number of elements, each a change of the contact.
+    """Number of contact problems in one indentation: of changes of the contact, and of steps to a given accuracy.
 
-    The problems are the levels of the elastic loading path, at the loosest tolerance with an error below `SMALL_ERROR`,
-    on a disc as large as the paper's; the value is the largest over Hurst exponents.
+    Every element that comes into contact is a change; the extremes are over the discs. The steps are those of explicit
+    integration with an error of the velocity below `SMALL_ERROR`, on discs as large as the paper's; the extremes are
+    over the Hurst exponents.
     """
-    levels = _rough_discs(evidence).query("method == 'path, automatic levels' and error <= @SMALL_ERROR")
-    ratios = levels.groupby("hurst")["steps"].min().to_numpy() / evidence.paper_value("boundary_elements", "elements")
-    met = (np.abs(np.log(ratios)) <= np.log(tolerance)).all()
-    yield exact("of a disc", max(ratios, default=np.nan), 1.0, met, ratios)
-
-
-def computing_time(evidence, tolerance):
-    """Time of boundary elements over that of lines, at the numbers that the paper states.
-
-    Boundary elements solve a contact problem for every contact event of every indentation, as explicit steps do; the
-    reduction treats every point of every line. The time of each is from the table of methods, for a disc as large as
-    the paper's. The ratio varies with the machine and its load, and would jump between runs if rounded to a power of
-    ten.
-    """
-    indentations = [evidence.paper_value("boundary_elements", name) for name in ("combinations", "realizations_min")]
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
-    problems = np.prod(indentations) * np.median(np.concatenate(counts))
-    names = "hurst_count", "realizations", "points"
-    points = np.prod([float(evidence.paper_value("reduction", name)) for name in names])
-    # The time per step or point of a method is that of its run with the most of them.
-    methods = _rough_discs(evidence).sort_values("value", ascending=False, kind="stable").drop_duplicates("method")
-    times = (methods["wall_s"] / methods["value"]).set_axis(methods["method"])
-    explicit, reduction = times.reindex(["explicit, logarithmic steps", "MDR"])  # nan if one was not measured
-    ratio = problems * explicit / (points * reduction)
-    met = bool(1 / tolerance <= ratio / WEEKS_IN_MINUTES <= tolerance)
-    yield judged("ratio of the times", (ratio, *NO_INTERVAL), WEEKS_IN_MINUTES, met)
+    steps = _rough_discs(evidence).query("method == @EXPLICIT and error <= @SMALL_ERROR")
+    numbers = {
+        "changes of the contact": np.concatenate(counts),
+        f"steps to {SMALL_ERROR:.0%}": steps.groupby("hurst")["steps"].min().to_numpy(),
+    }
+    for name, values in numbers.items():
+        if not values.size:
+            yield judged(name, UNDEFINED, np.nan, None)
+            continue
+        met = ((values >= HUNDREDS) & (values <= tolerance)).all()
+        yield exact(name, np.median(values), np.nan, met, values)
 
 
 def _rough_discs(evidence):

@@ -110,6 +110,16 @@ def _mean_case(evidence, name, samples, expected, allowed, **counts):
 
 
 def power_law(evidence, tolerance):
+    """Half the spread of the local slope within region (b) (viscorough_study.fits.plateau)."""
+    plateaus = evidence.tables["plateaus"].query("case_group == 'base'")
+    for row in plateaus.to_dict("records"):
+        context = {"realizations": row["realizations"], "cases": len(plateaus)}
+        yield evidence.case(
+            hurst_name(row["hurst"]), interval(row, "half_spread"), 0.0, (-np.inf, tolerance), **context
+        )
+
+
+def power_law_decades(evidence, tolerance):
     """Decades over which the local slope is constant within the tolerance (viscorough_study.fits.plateau).
 
     Scatter shortens plateaus, so a curve fails only if power laws with the same scatter pass.
@@ -120,7 +130,21 @@ def power_law(evidence, tolerance):
         values = interval(row, "decades")
         met = evidence.within(values, needed, np.inf, realizations=row["realizations"], cases=len(plateaus))
         met = None if met is False and row["power_law_fails"] > POWER_LAWS_LOST_MAX else met
-        yield judged(f"{hurst_name(row['hurst'])}, decades", values, np.nan, met)
+        yield judged(hurst_name(row["hurst"]), values, np.nan, met)
+
+
+def power_law_control(evidence, tolerance):
+    """Half the spread of the local slope within region (b) of discs without long waves, which have no power law.
+
+    The claim is that the test of `power_law` tells them apart, hence that their spread is above its tolerance.
+    """
+    plateaus = evidence.tables["plateaus"].query("case_group != 'base'")
+    if plateaus.empty:
+        yield judged("no control", UNDEFINED, np.nan, None)
+    for row in plateaus.to_dict("records"):
+        context = {"realizations": row["realizations"], "cases": len(plateaus)}
+        values = interval(row, "half_spread")
+        yield evidence.case(hurst_name(row["hurst"]), values, np.nan, (tolerance, np.inf), **context)
 
 
 def separation(evidence, tolerance):

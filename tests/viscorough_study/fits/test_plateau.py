@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 
 from support.study import ensemble_of
-from viscorough_study.fits.plateau import COLUMNS, inner_slopes, longest_plateau, plateau, plateau_row, shares
+from viscorough_study.fits.plateau import (
+    COLUMNS,
+    half_spread,
+    inner_slopes,
+    longest_plateau,
+    plateau,
+    plateau_row,
+    shares,
+)
 
 X = 10.0 ** np.linspace(-4, 1, 101)
 HALF_WIDTH = 0.25 * np.log(10)
@@ -64,7 +72,8 @@ def row(mean):
 
 def test_row_of_a_power_law_and_of_a_control():
     law, none = row(0.3 * np.log(X) - 3), row(control(X))
-    assert {"case_group", *law} == set(COLUMNS)
+    of_region = {"half_spread", "half_spread_low", "half_spread_high", "region_decades"}
+    assert {"case_group", *law} == set(COLUMNS) - of_region
     assert law["decades"] == pytest.approx(3)
     assert law["decades_low"] >= 2
     assert none["decades_high"] < 2
@@ -79,3 +88,33 @@ def test_curves_that_do_not_reach_all_abscissae_are_undecided():
     short = ensemble_of(X, curves).isel(rms_convention=0)
     columns = plateau_row(short, None, resamples=20, draws=2, random=np.random.default_rng(1), **OPTIONS)
     assert columns == {"hurst": 0.7, "realizations": 20}
+
+
+def spread_of(mean, region, size=1e-6):
+    curves = ensemble_of(X, X * np.exp(-scattered(mean, 100, size))).isel(rms_convention=0)
+    return half_spread(curves, region, half_width=HALF_WIDTH, resamples=100, random=np.random.default_rng(1))
+
+
+def test_spread_of_slopes_within_a_region():
+    """The slope of a parabola 0.05 ln²X changes by 0.1 ln(X_high/X_low) over the region; a power law has none."""
+    parabola = spread_of(0.05 * np.log(X) ** 2, (1e-3, 1e-2))
+    assert parabola["half_spread"] == pytest.approx(0.05 * np.log(10), rel=1e-3)
+    assert parabola["half_spread_low"] <= parabola["half_spread"] <= parabola["half_spread_high"]
+    assert parabola["region_decades"] == pytest.approx(1)
+    assert spread_of(0.3 * np.log(X), (1e-3, 1e-2))["half_spread"] < 1e-5
+    assert spread_of(0.3 * np.log(X), (1e-3, 1e-2), 0.1)["half_spread_high"] > 1e-3
+    assert spread_of(0.3 * np.log(X), None) == {"region_decades": 0.0}
+
+
+def test_spread_leaves_out_curves_that_end_within_the_region():
+    mean = 0.3 * np.log(X)
+    curves = np.exp(-scattered(mean, 20, 1e-6)) * X
+    whole = ensemble_of(X, curves[1:]).isel(rms_convention=0)
+    curves[0] *= 1 + 0.5 * np.sin(np.log(X))
+    curves[0, 40:] = np.nan  # from X = 0.01 on
+    short = ensemble_of(X, curves).isel(rms_convention=0)
+    found = [
+        half_spread(part, (1e-3, 1e-1), half_width=HALF_WIDTH, resamples=10, random=np.random.default_rng(1))
+        for part in (short, whole)
+    ]
+    assert found[0]["half_spread"] == pytest.approx(found[1]["half_spread"], rel=1e-9)

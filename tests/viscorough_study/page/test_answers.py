@@ -60,7 +60,7 @@ def test_least_largest_and_ends_are_those_of_all_cases():
     by_claim = dict(list(TABLE.groupby("claim")))
     assert abs(FOUND["coincide"]["value"].value) == by_claim["coincide"]["value"].abs().max()
     ranges = {"power_law": [("value", "value")], "gamma": [("least", "largest"), ("expected", "expected")]}
-    for name, claim in (("decades", "power_law"), ("gamma", "gamma")):
+    for name, claim in (("spread", "power_law"), ("gamma", "gamma")):
         ends = [(by_claim[claim][low].min(), by_claim[claim][high].max()) for low, high in ranges[claim]]
         assert [number.value for number in FOUND[name]] == [end for pair in ends for end in pair]
     for name in ("elastic", "viscous"):

@@ -3,6 +3,7 @@
 import yaml
 
 from support.study import CLAIMS, NUMBERS, ROOT
+from viscorough_study.run.paper_data import read_paper
 
 
 def test_every_number_has_its_place():
@@ -16,6 +17,16 @@ def test_numbers_and_claims_agree():
     assert elements == 51432
     assert str(elements) in CLAIMS["elements"]["statement"]
     assert f"{NUMBERS['agreement']['beta_hurst_min']['value']:g}" in CLAIMS["beta"]["statement"]
+
+
+def test_every_sentence_is_judged_by_claims_or_says_why_not():
+    sentences = read_paper(ROOT / "resources/paper", "sentences")
+    assert {sentence["origin"] for sentence in sentences} == {"own", "quoted", "background"}
+    for sentence in sentences:
+        assert bool(sentence["claims"]) != bool(sentence.get("why")), sentence["says"]
+        assert set(sentence["claims"]) <= {name for name, claim in CLAIMS.items() if claim["kind"] != "beyond"}
+    judged = {name for sentence in sentences for name in sentence["claims"]}
+    assert judged == {name for name, claim in CLAIMS.items() if claim["kind"] != "beyond"}
 
 
 def test_settings_of_the_paper_are_its_numbers():

@@ -1,0 +1,114 @@
+"""The answer of the study in one paragraph, from the verdicts: what holds, where, and by how much the rest differs."""
+
+from viscorough_study.verdicts.claims import HELD, overall
+
+# How a statement on a claim begins for each outcome: it holds, it fails, the data do not decide.
+COLLAPSE = {
+    True: "The curves of each Hurst exponent collapse",
+    False: "The curves of each Hurst exponent do not collapse",
+    None: "Whether the curves of each Hurst exponent collapse is undecided",
+}
+PREFACTORS = {True: "the prefactors are those of the paper", False: "the prefactors differ"}
+GAMMA = {True: "the factor 1/Γ(2 − α) is confirmed", False: "the factor 1/Γ(2 − α) is an error"}
+REGION_C = {
+    True: "region (c) begins near complete contact",
+    False: "region (c) begins far before complete contact",
+}
+
+
+def answer(table):
+    """The answer as a paragraph of plain text, from a table of verdicts (verdicts.claims.judge).
+
+    Hurst exponents at which a claim holds are listed, and where it fails the difference stands beside them. Claims that
+    the data do not decide are left out, except the collapse and the exponents.
+    """
+    verdicts = overall(table)
+    last = [_statement(verdicts, names, texts) for names, texts in _LAST]
+    last = [text for text in last if text]
+    sentences = [
+        COLLAPSE[_outcome(verdicts["collapse"])],
+        _boundary_elements(table),
+        _reduction(table),
+        _capitalized(_joined(last)) if last else "",
+    ]
+    return " ".join(f"{sentence}." for sentence in sentences if sentence)
+
+
+_LAST = (
+    (("zeta_elastic", "zeta_viscous"), PREFACTORS),
+    (("gamma",), GAMMA),
+    (("complete_contact",), REGION_C),
+)
+
+
+def _outcome(verdict):
+    """True if a claim holds, False if it fails at all its cases, else None."""
+    return True if verdict in HELD else False if verdict == "not reproduced" else None
+
+
+def _statement(verdicts, names, texts):
+    """The text for claims with one common outcome; empty for any other outcome."""
+    outcomes = {_outcome(verdicts[name]) for name in names}
+    return texts.get(outcomes.pop(), "") if len(outcomes) == 1 else ""
+
+
+def _boundary_elements(table):
+    """The sentence on the exponent of boundary elements, at all its Hurst exponents."""
+    cases = _exponents(table, "beta", "discs")
+    parts = [f"is H/(1 + H) at H = {_joined(_hursts(cases, HELD))} (the paper: above 0.4)"] if _any(cases, HELD) else []
+    differences = [(case["difference"], hurst) for hurst, case in cases.items() if case["verdict"] == "not reproduced"]
+    for sign, word in ((1, "larger"), (-1, "smaller")):
+        named = [f"by {abs(d):.2f} at {hurst:g}" for d, hurst in reversed(differences) if d * sign > 0]
+        parts += [f"{word} {_joined(named)}"] if named else []
+    parts += [f"undecided at {_joined(_hursts(cases, ('undecided',)))}"] if _any(cases, ("undecided",)) else []
+    return f"With boundary elements the exponent {_joined(parts, comma=True)}" if parts else ""
+
+
+def _reduction(table):
+    """The sentence on the exponent of the MDR, and on its difference from boundary elements."""
+    cases = _exponents(table, "beta_lines", "lines")
+    text = "The method of dimensionality reduction (MDR) "
+    failing = [hurst for hurst, case in cases.items() if case["verdict"] not in HELD]
+    holding = [hurst for hurst in cases if hurst > max(failing, default=-1.0)]
+    parts = [f"gives H/(1 + H) from {holding[0]:g} on"] if holding else []
+    rows = table[(table["claim"] == "coincide") & (table["verdict"] == "not reproduced")]
+    apart = [f"by {abs(row.value):.2f} at {_hurst(row.case):g}" for row in rows[::-1].itertuples()]
+    if apart:
+        differs = f"differs from boundary elements {_joined(apart)}, where the paper sees them nearly coincide"
+        parts.append(f"it {differs}" if parts else differs)
+    return text + "; ".join(parts) if parts else ""
+
+
+def _exponents(table, claim, source):
+    """{H: verdict of a case, and β minus H/(1 + H)} by ascending H, of discs or lines."""
+    claimed, small = table[table["claim"] == claim], table[table["claim"] == "exponent_small_hurst"]
+    small = small[small["case"].str.endswith(source)]
+    cases = {
+        _hurst(row.case): {"verdict": row.verdict, "difference": row.value - row.expected}
+        for rows in (small, claimed)
+        for row in rows.itertuples()
+    }
+    return dict(sorted(cases.items()))
+
+
+def _hurst(case):
+    """Hurst exponent in the name of a case, such as "H = 0.4, discs"."""
+    return float(case.removeprefix("H = ").split(",")[0])
+
+
+def _hursts(cases, verdicts):
+    return [f"{hurst:g}" for hurst, case in cases.items() if case["verdict"] in verdicts]
+
+
+def _any(cases, verdicts):
+    return any(case["verdict"] in verdicts for case in cases.values())
+
+
+def _joined(texts, *, comma=False):
+    """Texts joined by commas and "and"; with a comma before "and" if `comma`."""
+    *first, last = texts
+    return ", ".join(first) + (", and " if comma else " and ") + last if first else last
+
+
+def _capitalized(text):
+    return text[:1].upper() + text[1:]

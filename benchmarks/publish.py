@@ -30,15 +30,12 @@ from viscorough_study.run.paper_data import read_paper
 from viscorough_study.verdicts.answer import answer
 from viscorough_study.verdicts.claims import (
     HELD,
-    case_counts,
     counted_verdicts,
     findings,
     markdown,
     overall,
-    physics,
     verdict_text,
 )
-from viscorough_study.verdicts.evidence import VERDICTS
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
@@ -134,22 +131,6 @@ def answer_lines():
     number = ["one finding", "two findings", "three findings", "four findings"][len(findings(table, CLAIMS)) - 1]
     scoreboard = f"Of {total} claims on physics: {counts}. What fails is {number}: {failing}."
     return paragraph(f"**{answer(table)}**") + "\n" + paragraph(scoreboard)
-
-
-def verdict_lines():
-    """The verdicts on physics without numbers: titles of claims, one line for each verdict.
-
-    A claim that is reproduced in part names the Hurst exponents, or the number of its cases, for which it holds.
-    """
-    table = physics(published_claims())
-    named = {verdict: [] for verdict in VERDICTS}
-    for name, verdict in overall(table).items():
-        rows = table[table["claim"] == name]
-        detail = verdict_text(rows).removeprefix(verdict).strip() or f"({case_counts(rows)})"
-        part = f" {detail}" if verdict == "reproduced in part" else ""
-        named[verdict].append(CLAIMS[name]["title"] + part)
-    rows = [f"| {verdict} | {'; '.join(members)} |" for verdict, members in named.items() if members]
-    return markdown_table("| verdict | claims on physics |", rows)
 
 
 def default_minutes():
@@ -317,7 +298,6 @@ def tables():
     records = json.loads((ROOT / "docs/results/published.json").read_text(encoding="utf-8"))
     return {
         ("README.md", "answer"): answer_lines(),
-        ("README.md", "verdicts"): verdict_lines(),
         ("docs/index.md", "answer"): answer_lines(),
         ("docs/verdicts.md", "answer"): answer_lines(),
         ("docs/verdicts.md", "sentences"): sentences(),

@@ -28,11 +28,11 @@ TABLE = pd.DataFrame(ROWS, columns=["claim", "case", "value", "expected", "verdi
 
 def test_answer_states_what_holds_where_and_by_how_much_the_rest_differs():
     assert answer(TABLE) == (
-        "The curves of each Hurst exponent collapse. With boundary elements the exponent is H/(1 + H) at H = 0.6 and 0.9 "
-        "(the paper: above 0.4), and larger by 0.05 at 0.4 and by 0.16 at 0.1. The method of dimensionality reduction "
-        "(MDR) gives H/(1 + H) from 0.4 on; it differs from boundary elements by 0.12 at 0.1, where the paper sees them "
-        "nearly coincide. The prefactors differ, the factor 1/Γ(2 − α) is an error and region (c) begins far before "
-        "complete contact."
+        "The curves of each Hurst exponent collapse. With boundary elements the exponent is H/(1 + H) at H = 0.6 and "
+        "0.9 (the paper: above 0.4), and larger by 0.05 at 0.4 and by 0.16 at 0.1. The method of dimensionality "
+        "reduction (MDR) gives H/(1 + H) from 0.4 on; it differs from boundary elements by 0.12 at 0.1, where the "
+        "paper sees them nearly coincide. The prefactors differ, the factor 1/Γ(2 − α) is an error and region (c) "
+        "begins far before complete contact."
     )
 
 

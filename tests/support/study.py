@@ -170,10 +170,10 @@ def ensemble_of(x, stiffness, count=None, *, conventions=("disc",), **coords):
     """Ensemble dataset of these curves; unless they are given, κ N of N elements are in contact.
 
     x : X, shape (abscissae,); stiffness : κ, shape (conventions, realizations, abscissae), the first axes optional
-    count : elements in contact; conventions : of the rms height; coords : hurst, case, diameter, elements
+    count : elements in contact; conventions : of the rms height; coords : hurst, case, elements
     """
     stiffness = np.array(stiffness, ndmin=3)
-    coords = {"hurst": 0.7, "case": "c", "diameter": 1.0, "elements": 10**6} | coords
+    coords = {"hurst": 0.7, "case": "c", "elements": 10**6} | coords
     count = coords["elements"] * stiffness if count is None else np.broadcast_to(count, stiffness.shape)
     curves = {"stiffness": (DIMENSIONS, stiffness), "contact_count": (DIMENSIONS, count)}
     coords |= {"x": ("abscissa", x), "rms_convention": list(conventions), "until_x": np.inf}
@@ -194,5 +194,5 @@ def line_curve(gaps, length=1.0, levels=None):
 
 def aggregate(curves, rms, diameter, x, *, hurst, case):
     """Ensemble dataset of the loading curves of one case; arguments as in on_abscissae."""
-    coords = {"hurst": hurst, "case": case, "diameter": diameter, "elements": curves[0].elements}
+    coords = {"hurst": hurst, "case": case, "elements": curves[0].elements}
     return ensemble_of(np.asarray(x, dtype=float), *on_abscissae(curves, rms, diameter, x), conventions=rms, **coords)

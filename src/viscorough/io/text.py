@@ -30,7 +30,7 @@ _MISSING = (
 )
 _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
-_ALMOST_A_NUMBER = re.compile(rf"[^\w\s]?\s?\d.*|{_MISSING}", re.IGNORECASE)
+_ALMOST_A_NUMBER = re.compile(rf"[^\w\s]*\s?\d.*|{_MISSING}", re.IGNORECASE)
 _HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # not that of a mark such as #N/A or #DIV/0!
 _COMMENT = re.compile(rf"[ \t]*(?:[%;!]|//|{_HASH})", re.IGNORECASE)
 _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")

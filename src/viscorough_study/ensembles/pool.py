@@ -1,7 +1,8 @@
 """Pools: all realizations of many cases on common abscissae in one dataset, and the ensembles selected from it.
 
-The dataset has the dimensions rms_convention, realization and abscissa. Hurst exponent, group, case, diameter and
-number of elements are coordinates of the realizations. It holds no averages, which depend on the selection.
+The dataset has the dimensions rms_convention, realization and abscissa. Hurst exponent, group, case and number of
+elements are coordinates of the realizations. It holds no lengths, since the curves are dimensionless, and no averages,
+which depend on the selection.
 """
 
 import json
@@ -21,7 +22,6 @@ REALIZATION_COORDINATES = {
     "hurst": ("Hurst exponent", "1"),
     "group": ("group of cases", ""),
     "case": ("name of the case", ""),
-    "diameter": ("diameter of the indenter in m, or 1 if lengths are dimensionless", "1"),
     "elements": ("elements of the indenter", "1"),
     "until_x": ("X that the curve was to reach", "1"),
 }
@@ -37,7 +37,7 @@ def pool_batches(batches, conventions, x):
     for group, batch in batches:
         curves, values = unstack_curves(batch), {name: variable.values for name, variable in batch.variables.items()}
         rms = {name: values[f"rms_{name}"] for name in conventions}
-        stored = {name: values[name] for name in ("hurst", "case", "diameter", "until_x", "number")}
+        stored = {name: values[name] for name in ("hurst", "case", "until_x", "number")}
         realizations.append(pd.DataFrame(stored | {"group": group, "elements": [curve.elements for curve in curves]}))
         # Whether a shorter curve happens to reach further depends on its surface: a mean over those would be biased.
         beyond = realizations[-1]["until_x"].to_numpy()[:, None] * (1 + ROUNDING) < x
@@ -72,13 +72,13 @@ def ensembles(pool, *names, rms_convention=None):
 
     rms_convention : in which alone they are, without this dimension; by default in all of the pool
 
-    The ensembles have averages over their realizations (ensembles.averages). Their case and diameter are scalars if all
-    realizations agree, otherwise coordinates of the realizations.
+    The ensembles have averages over their realizations (ensembles.averages). Their case is a scalar if all realizations
+    agree, otherwise a coordinate of the realizations.
     """
     result, pool = {}, pool if rms_convention is None else pool.sel(rms_convention=rms_convention)
     for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
         ensemble = with_averages(select(pool, **dict(zip(names, values, strict=True))))
-        for name in ("hurst", "elements", "case", "diameter", "until_x"):
+        for name in ("hurst", "elements", "case", "until_x"):
             same = np.unique(ensemble[name].values)  # nan, of measured surfaces, is equal to nan
             ensemble = ensemble.assign_coords({name: same[0]}) if same.size == 1 else ensemble
         result[values if len(names) > 1 else values[0]] = ensemble

@@ -188,6 +188,7 @@ BAD = [
     ("1,234.5;2\n3;4\n", "line 1 .*commas may be decimal marks or not"),
     ("1\u202f234 5\n6 7\n", "line 1 holds"),
     ("1 2 3\n\n3 4 5\n\n\n5 6 9\n\n7 8 1\n", "line 6: empty lines separate it"),
+    ("\u00b1 -.5 \u00b1\n1 2 3\n4 5 6\n", "line 1 .* is not a row of numbers"),
     (";\n4;5\n6;7\n", "line 1: a row of empty cells"),
     (".\t.\t.\t\n1\t2\t3\t\n4\t5\t6\t\n", "line 1 .* is not a row of numbers"),
     ("# Channel: A\n1 2\n# Channel: B\n3 4\n", "line 3 .* stands between rows"),

@@ -9,7 +9,7 @@ intervals of a record count, from its first row on.
 
 from functools import partial
 from itertools import product
-from multiprocessing import get_context
+from multiprocessing import Pool
 
 import click
 import numpy as np
@@ -117,7 +117,7 @@ def coverage(case, *, trials):
 @click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
 def main(output, trials, rows, load, cores):
     cases = list(product(MEDIA, load, rows, NOISE))
-    with get_context("spawn").Pool(cores) as pool:
+    with Pool(cores) as pool:
         done = pool.imap(partial(coverage, trials=trials), cases)
         table = pd.DataFrame(list(tqdm(done, "cases", len(cases), mininterval=2)), columns=list(COLUMNS))
     measures = [name for name in COLUMNS if name not in ("medium", "load", "rows", "noise", "trials")]

@@ -179,6 +179,19 @@ def complete_contact(evidence, tolerance):
             yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
             continue
         first = int(np.argmin(np.abs(np.log(ensemble["x"].values) - inner[below[-1] + 1])))
-        fractions = ensemble["contact_count"].values[:, first] / ensemble["elements"].item()
         name = f"{hurst_name(hurst)}, from X = {ensemble['x'].values[first]:.3g} on"
-        yield _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=len(evidence.pooled))
+        yield _contact_case(evidence, name, ensemble, first, tolerance)
+
+
+def complete_contact_end(evidence, tolerance):
+    """Contact fraction at the largest X at which all curves are defined."""
+    for hurst, ensemble in evidence.whole.items():
+        last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
+        name = f"{hurst_name(hurst)}, at X = {ensemble['x'].values[last]:.3g}"
+        yield _contact_case(evidence, name, ensemble, last, tolerance)
+
+
+def _contact_case(evidence, name, ensemble, abscissa, tolerance):
+    """Case of the mean contact fraction, which should be 1, at an abscissa given by its index."""
+    fractions = ensemble["contact_count"].values[:, abscissa] / ensemble["elements"].item()
+    return _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=len(evidence.pooled))

@@ -24,6 +24,7 @@ from viscorough_study.verdicts.law_criteria import (
 from viscorough_study.verdicts.method_criteria import bodies_of_revolution, contact_problems, elements
 from viscorough_study.verdicts.region_criteria import (
     complete_contact,
+    complete_contact_end,
     excess_variance,
     last_region,
     power_law,
@@ -194,6 +195,19 @@ def test_contact_is_complete_only_where_most_elements_touch(sample):
     cases = list(complete_contact(dataclasses.replace(sample, discs=halved), 0.1))
     assert {case["verdict"] for case in cases} == {"not reproduced"}
     assert all(case["value"] == pytest.approx(0.5, abs=0.01) for case in cases)
+
+
+def test_contact_at_the_end_of_the_curves_is_shown_beside_that_at_the_start_of_the_last_region(sample):
+    """Here elements still join after the slope has become 1, as if 0.5 of them touched there and 0.95 at the end."""
+    start = {case["case"].split(", ")[0]: case["value"] for case in complete_contact(sample, 0.1)}
+    late = xr.where(sample.discs["x"] > 20, 0.95, 0.5)
+    discs = sample.discs.assign(contact_count=sample.discs["contact_count"] * late)
+    changed = dataclasses.replace(sample, discs=discs)
+    assert {case["verdict"] for case in complete_contact(changed, 0.1)} == {"not reproduced"}
+    cases = list(complete_contact_end(changed, 0.1))
+    assert [case["case"] for case in cases] == [f"{hurst}, at X = 28.2" for hurst in start]
+    assert all(case["value"] == pytest.approx(0.95, abs=0.01) for case in cases)
+    assert {case["verdict"] for case in cases} == {"reproduced"}
 
 
 def test_change_of_stiffness_with_the_grid_is_judged_at_given_depths(sample):

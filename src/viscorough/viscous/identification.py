@@ -9,7 +9,7 @@ compliances are fitted to the depth by least squares:
 
 1. Media of springs and dashpots, J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)) with amounts ≥ 0. Their grid of retardation times
    is refined about those found. Few of the amounts are positive, so that the residuals show the scatter of the record.
-2. All compliances that a passive medium can have: J does not decrease and is concave. This is a sum
+2. All compliances that do not decrease and are concave, which those of media that relax are. Such a J is a sum
    J₀ + Σ c_k min(t, τ_k) with J₀, c_k ≥ 0, and under the impulse I(t) = ∫F dt min(t, τ) creeps by I(t) − I(t − τ).
    It can pass through every row of a short or precise record, so that its own residuals show nothing. The intervals
    of J are taken in this family, at the scatter found with the first one or given by the user.

@@ -4,8 +4,9 @@ Each is a `Medium` (viscorough.viscous.medium). A function that takes a medium a
 Newtonian one.
 
 The half-space is incompressible at all times. Moduli are in one unit, times in another, viscosities in their product
-and compliances in the inverse of the modulus; a text with a unit, as "2 MPa", is converted to SI units. All media are
-passive: J does not decrease and is concave.
+and compliances in the inverse of the modulus; a text with a unit, as "2 MPa", is converted to SI units. In all
+media J does not decrease and is concave, as in every medium that relaxes (ψ a sum of decaying exponentials with
+positive weights).
 """
 
 import contextlib
@@ -346,7 +347,8 @@ class CreepTable(ReadOnlyArrays, Medium):
     ------
     ValueError
         Unless there are two points, all are finite and J is 0 or more, does not decrease and is concave, as the
-        compliance of every passive medium is: noise has to be smoothed first. Beyond its last point nothing is known.
+        compliance of every medium that relaxes is: noise has to be smoothed first. Beyond its last point nothing is
+        known.
 
     Examples
     --------
@@ -375,7 +377,7 @@ class CreepTable(ReadOnlyArrays, Medium):
             where = self.times[1 + int(np.argmax(steeper))]
             raise ValueError(
                 f"CreepTable: J grows faster after time {where:g} than before; allowed: a concave J, as of every "
-                "passive medium (smooth what was measured)"
+                "medium that relaxes (smooth what was measured)"
             )
 
     @cached_property

@@ -13,7 +13,7 @@ COLUMNS = {
     "source": ("authors", ""),
     "place": ("journal, volume and page", ""),
     "statement": ("finding, in our words", ""),
-    "sure": ("basis of the statement: abstract, the paper, quoted by others, or not verified", ""),
+    "sure": ("basis of the statement: abstract, the paper, or quoted by others", ""),
     "quantity": (
         "quantity compared: alpha (1 − β of discs), u0 (u₀/h of the interface), gamma (u₀/h over that of Persson's law "
         "without a factor), area and gap (contact and mean gap of a line over those of its disc at X = 0.01), or none",

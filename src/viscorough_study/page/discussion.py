@@ -14,7 +14,6 @@ KNOWN = {
     "abstract": "abstract read",
     "the paper": "as the paper quotes it",
     "quoted": "as later work quotes it",
-    "not verified": "not verified",
 }
 
 

@@ -11,11 +11,14 @@ import pytest
 from measuring import fit_cost
 
 from support.documentation import ROOT, read
-from support.study import CLAIMS
+from support.study import CLAIMS, SHOWN
 from support.workflow import merged, read_settings
+from viscorough import Indenter, indent, self_affine_disc
 from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE
 from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.reference import exponent_beta
+from viscorough_study.page import article
+from viscorough_study.page.results import Results
 from viscorough_study.run.cases import disc_cases
 
 TABLE = publish.published_claims()
@@ -52,10 +55,52 @@ def percents(claim):
     return ends(100 * abs(ratios - 1))
 
 
+def base_fits():
+    """Fits of discs in the conventions of the figures, by Hurst exponent."""
+    rows = published("scaling.csv").query(f"{DISCS} and case_group == 'base' and window_rule == 'default'")
+    return rows.set_index("hurst")
+
+
+def prefactors():
+    """ζ of both formulas of the paper and of discs, as the article shows them, by Hurst exponent."""
+    results = Results({"scaling": published("scaling.csv")}, {})
+    return pd.DataFrame(article.prefactors(results, SHOWN)).set_index("hurst")
+
+
+def stiffness_over():
+    """Stiffness over that of Eq. 4, then of Eq. 11 without Γ, each at both ends of region (b), by Hurst exponent."""
+    ratios = {}
+    for hurst, fit in base_fits().iterrows():
+        ends_of_region = fit[["x_low", "x_high"]].to_numpy(dtype=float)
+        grown = ends_of_region ** (exponent_beta(hurst) - fit["beta"])
+        ratios[hurst] = [*(fit["zeta"] / prefactors()[law][hurst] * grown for law in ("elastic", "viscous"))]
+    return {hurst: np.ravel(both) for hurst, both in ratios.items()}
+
+
+@cache
+def grid_errors():
+    """Errors of the velocity on 257 elements across, by every second point of 513, at H = 0.4 and 0.8 [%].
+
+    Of the first three of the eight discs of which the page speaks, which give the same digits.
+    """
+    x = np.geomspace(0.01, 1, 17)
+    errors = []
+    for hurst in (0.4, 0.8):
+        discs = (self_affine_disc(hurst, 513, rms=1.0, diameter=513.0, seed=seed) for seed in (1, 2, 3))
+        errors.append([_coarse_over_fine(disc, 4 * 513 * x) - 1 for disc in discs])
+    return 100 * np.sqrt(np.mean(np.square(errors), axis=(1, 2)))
+
+
+def _coarse_over_fine(disc, force):
+    """Velocity of every second point of a disc over that of all points, at forces F/G."""
+    coarse = Indenter(disc.heights[::2, ::2], 2 * disc.spacing)
+    stiffness, of_coarse = (indent(one, until_force=force[-1]).at_force(force)[1] for one in (disc, coarse))
+    return stiffness / of_coarse
+
+
 def above_expected():
     """β less H/(1 + H), of discs at H = 0.4 and 0.1."""
-    rows = published("scaling.csv").query(f"{DISCS} and case_group == 'base' and window_rule == 'default'")
-    beta = rows.set_index("hurst")["beta"][[0.4, 0.1]]
+    beta = base_fits()["beta"][[0.4, 0.1]]
     return beta - beta.index.map(exponent_beta)
 
 
@@ -98,6 +143,13 @@ def periodic(roll_off):
     return ends(table[table["roll_off_wavelength"].notna() == roll_off].groupby("hurst")["g"].mean(), 2)
 
 
+def largest(roll_off):
+    """The largest g of periodic surfaces by Hurst exponent, then its X, with or without a roll-off."""
+    rows = article.control(Results({"periodic": published("periodic.csv")}, {}))
+    kind = "rolled" if roll_off else "whole"
+    return [row[kind][column] for column in ("g", "x") for row in rows]
+
+
 def plateau():
     """u₀/h of discs on the paper's grid."""
     rows = published("interface.csv").query("source == 'discs' and across == 257")
@@ -136,9 +188,13 @@ def discs_of_paper():
 # {page: {sentence: function of what fills its brackets, a text, a number or a list of them}}
 QUOTED = {
     "README.md": {
-        "ζ is {} to {} % above": lambda: percents("zeta_elastic"),
-        "{} to {} % below the second": lambda: percents("zeta_viscous"),
-        "at H = 0.4 and 0.1 it is {:.2f} and {:.2f} larger": above_expected,
+        "At H = 0.4 and 0.1 it is {:.2f} and {:.2f} larger": above_expected,
+        "begins with {} to {} % of the elements": lambda: ends(100 * value("complete_contact")),
+        "at X = 28, {} to {} % touch": lambda: ends(100 * value("complete_contact_end")),
+        "means ζ = {:.2f}, {:.2f}, {:.2f} and {:.2f} at": lambda: prefactors()["viscous"],
+        "says {:.2f}, {:.2f}, {:.2f} and {:.2f}; ours": lambda: prefactors()["elastic"],
+        "lies between: {:.2f}, {:.2f}, {:.2f} and {:.2f}.": lambda: prefactors()["here"],
+        "the velocity by {1:.0f} to {0:.0f} %": grid_errors,
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().max(),
         "F/({:.2f} h)": lambda: plateau()["u0"].mean(),
         "take {:.0f} to {:.0f}": lambda: [OTHER_TIMES.min(), 10 * round(OTHER_TIMES.max() / 10)],
@@ -162,7 +218,20 @@ QUOTED = {
     },
     "docs/theory.md": {
         "it is {} to {} at *H* = 0.1, 0.6 and 0.9": lambda: periodic(roll_off=False),
-        "of the period it is {} to {}, nearer": lambda: periodic(roll_off=True),
+        "values are {:.3f}, {:.3f} and {:.3f}, at *X* = {:.1f}, {:.1f} and {:.1f}": lambda: largest(roll_off=False),
+        "the same, {:.3f}, {:.3f} and {:.3f}, but lie at larger *X*, {:.1f}, {:.1f} and": lambda: largest(
+            roll_off=True
+        ),
+        "| Eq. 4, π(3 − *H*)/10 | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["elastic"],
+        "elements here | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["here"],
+        "(2 − *H*)Γ(2 − *α*) | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["viscous"],
+        "by a factor of {:.1f} to {:.1f}, so": lambda: (prefactors()["viscous"] / prefactors()["elastic"]).agg(
+            ["min", "max"]
+        ),
+        "it is {:.1f} to {:.1f} times that of Eq. 4 there, and {:.1f} to {:.1f} times": lambda: stiffness_over()[0.1],
+        "then be {:.2f}, {:.2f}, {:.2f} and {:.2f} times Eq. 11": lambda: prefactors()["as_radius"],
+        "{:.2f} at *H* = 0.1. Why": lambda: 1 - base_fits()["beta"][0.1],
+        "ensembles end, {:.0f}, {:.0f}, {:.0f} and {:.0f} % of": lambda: 100 * value("complete_contact_end"),
         "Up to {} times the bound": lambda: str(_RELAXED_BOUND),
     },
     "docs/scaling.md": {
@@ -183,6 +252,7 @@ QUOTED = {
         "{} discs for the figures, {} for variants and grids": discs_of_paper,
     },
     "docs/performance.md": {
+        "velocity by {:.0f} % at *H* = 0.4 and {:.0f} % at": grid_errors,
         "takes {:.0f} s, and the contact at one force {:.1f} s": lambda: [
             BENCHMARKS["large_map"][question]["wall_s"] for question in ("curve", "contact")
         ],

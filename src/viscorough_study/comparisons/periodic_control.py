@@ -2,8 +2,10 @@
 
 A periodic rough surface under the mean pressure p has the mean separation ū, and g_per = −dū/(h d ln p) is the
 compliance of its interface, from which nothing has to be subtracted. If the interface's part g of vt/h of a disc is a
-property of the interface alone, the two agree at equal mean pressure, p/E* = (4/π) X h/L. With a roll-off both are the
-exponential law of Persson's theory, ū₀/h = g_per, around 0.4 (Pastewka et al., Phys. Rev. E 87, 062809 (2013)).
+property of the interface alone, the two agree at equal mean pressure, p/E* = (4/π) X h/L. Where g_per is constant, the
+pressure is exponential in the separation as in Persson's theory, with u₀/h = g_per; 0.4 is quoted from Pastewka et al.
+(Phys. Rev. E 87, 062809 (2013)) for extended surfaces. With a roll-off the largest g_per lies at larger X, and is to be
+compared with the largest one without it, not at one X.
 
 The half-space is solved by conjugate gradients projected on pressures that are nowhere negative and have the mean p
 (Polonsky & Keer, Wear 231, 206 (1999)), with the kernel 2/(E*|q|) in Fourier space and none at q = 0. It is a control,

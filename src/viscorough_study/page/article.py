@@ -9,7 +9,9 @@ import numpy as np
 import typst
 import yaml
 
+from viscorough import reference
 from viscorough.calibrated_law import ACROSS
+from viscorough_study.fits.conventions import select, source_values
 from viscorough_study.page.results import Number, read_published
 from viscorough_study.run.readable import readable
 from viscorough_study.verdicts.claims import counted_verdicts
@@ -47,6 +49,8 @@ def article(project, contents, *, paper, figures):
         law=law[law["across"] == ACROSS].to_dict("records"),
         plateaus=results.tables["plateaus"].to_dict("records"),
         control=control(results),
+        prefactors=prefactors(results, contents["conventions"]),
+        earlier=results.rows("literature", source="Pohrt and Popov").iloc[0],
         sum_rules=sum_rules_shown(sum_rules),
         audited={"plain": float(PLAIN), "audit": float(AUDITED), "across": sum_rules["across"]},
         outside=read_published(published / "outside.csv").to_dict("records"),
@@ -79,13 +83,34 @@ def titles(verdicts):
 
 
 def control(results):
-    """g of periodic surfaces at the level nearest to X = 1, for each Hurst exponent, without and with a roll-off."""
+    """The largest g of periodic surfaces and its X, for each Hurst exponent, without and with a roll-off."""
     table, rows = results.tables["periodic"], []
     for hurst, part in table.groupby("hurst"):
-        part = part[np.log(part["x"]).abs() == np.log(part["x"]).abs().min()]
-        whole, rolled = (part[part["roll_off_wavelength"].notna() == flag].iloc[0] for flag in (False, True))
-        rows.append({"hurst": hurst, "x": whole["x"], "surfaces": whole["surfaces"], "whole": whole, "rolled": rolled})
+        kinds = (part[part["roll_off_wavelength"].notna() == flag] for flag in (False, True))
+        whole, rolled = (kind.loc[kind["g"].idxmax()] for kind in kinds)
+        rows.append({"hurst": hurst, "surfaces": whole["surfaces"], "whole": whole, "rolled": rolled})
     return rows
+
+
+def prefactors(results, conventions):
+    """ζ of Eq. 4, of boundary elements, and of Eq. 11 without the factor 1/Γ(2 − α), for each Hurst exponent.
+
+    as_radius : ζ with the factor over Eq. 11 if L were the radius, for which ζ is 2^β times as large
+    """
+    wanted = conventions | source_values("discs") | {"case_group": "base"}
+    fits, with_factor = (
+        select(results.tables["scaling"], wanted | {"gamma": gamma}).sort_values("hurst")
+        for gamma in ("without", "with")
+    )
+    hurst = fits["hurst"].to_numpy()
+    columns = {
+        "hurst": hurst,
+        "elastic": reference.zeta_elastic(hurst),
+        "here": fits["zeta"].to_numpy(),
+        "viscous": 1 / reference.rate_law(1.0, hurst, gamma=True),
+        "as_radius": 2 ** fits["beta"].to_numpy() * with_factor["zeta"].to_numpy() / reference.zeta_viscous(hurst),
+    }
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
 def sum_rules_shown(content):

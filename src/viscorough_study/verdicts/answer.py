@@ -8,7 +8,7 @@ COLLAPSE = {
     False: "The curves of each Hurst exponent do not collapse",
     None: "Whether the curves of each Hurst exponent collapse is undecided",
 }
-PREFACTORS = {True: "the prefactors are those of the paper", False: "the prefactors differ"}
+PREFACTORS = {True: "the prefactors are those of the paper", False: "the prefactors differ from the paper's"}
 GAMMA = {True: "the factor 1/Γ(2 − α) is confirmed", False: "the factor 1/Γ(2 − α) is an error"}
 REGION_C = {
     True: "region (c) begins near complete contact",

@@ -8,7 +8,8 @@ import pandas as pd
 import typst
 
 from support.documentation import ROOT, read
-from viscorough_study.page.article import as_markup, control, sum_rules_shown
+from support.study import SHOWN
+from viscorough_study.page.article import as_markup, control, prefactors, sum_rules_shown
 from viscorough_study.page.results import Number, Results
 
 SOURCE = read(ROOT / "workflow/article/article.typ.jinja")
@@ -40,11 +41,23 @@ def test_results_are_no_markup():
     assert "".join(part.get("text", " ") for part in json.loads(shown)["children"]) == odd
 
 
-def test_control_takes_the_level_nearest_to_one():
-    rows = [(0.6, x, wave, 8, g) for x, g in ((0.2, 0.1), (1.1, 0.5), (3.0, 0.2)) for wave in (np.nan, 0.125)]
+def test_control_compares_the_largest_values_with_and_without_a_roll_off():
+    """They lie at different X, so that values at one X would not compare like with like."""
+    rows = [(0.6, x, np.nan, 8, g) for x, g in ((0.2, 0.1), (1.1, 0.5), (3.0, 0.2))]
+    rows += [(0.6, x, 0.125, 8, g) for x, g in ((0.2, 0.1), (1.1, 0.3), (3.0, 0.4))]
     table = pd.DataFrame(rows, columns=["hurst", "x", "roll_off_wavelength", "surfaces", "g"])
     (row,) = control(Results({"periodic": table}, {}))
-    assert (row["hurst"], row["x"], row["whole"]["g"], row["surfaces"]) == (0.6, 1.1, 0.5, 8)
+    assert (row["hurst"], row["surfaces"]) == (0.6, 8)
+    assert [(row[kind]["x"], row[kind]["g"]) for kind in ("whole", "rolled")] == [(1.1, 0.5), (3.0, 0.4)]
+
+
+def test_both_formulas_of_the_paper_stand_beside_the_prefactor_as_one_number():
+    table = pd.read_csv(ROOT / "docs/results/scaling.csv")
+    rows = pd.DataFrame(prefactors(Results({"scaling": table}, {}), SHOWN)).set_index("hurst")
+    assert rows["elastic"].round(2).tolist() == [0.91, 0.82, 0.75, 0.66]
+    assert rows["viscous"].round(2).tolist() == [1.81, 1.44, 1.24, 0.97]
+    assert ((rows["elastic"] < rows["here"]) & (rows["here"] < rows["viscous"])).all()
+    np.testing.assert_allclose(rows["as_radius"].iloc[[0, -1]], [0.84, 1.10], atol=0.01)
 
 
 def test_sum_rules_are_relative_deviations_without_signs():

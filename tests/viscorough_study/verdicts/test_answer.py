@@ -31,8 +31,8 @@ def test_answer_states_what_holds_where_and_by_how_much_the_rest_differs():
         "The curves of each Hurst exponent collapse. With boundary elements the exponent is H/(1 + H) at H = 0.6 and "
         "0.9 (the paper: above 0.4), and larger by 0.05 at 0.4 and by 0.16 at 0.1. The method of dimensionality "
         "reduction (MDR) gives H/(1 + H) from 0.4 on; it differs from boundary elements by 0.12 at 0.1, where the "
-        "paper sees them nearly coincide. The prefactors differ, the factor 1/Γ(2 − α) is an error and region (c) "
-        "begins far before complete contact."
+        "paper sees them nearly coincide. The prefactors differ from the paper's, the factor 1/Γ(2 − α) is an error "
+        "and region (c) begins far before complete contact."
     )
 
 
@@ -45,9 +45,9 @@ def test_answer_states_what_holds_where_and_by_how_much_the_rest_differs():
         ("beta", "H = 0.9", "not reproduced", "and smaller by 0.01 at 0.9."),
         ("beta_lines", "H = 0.41", "undecided", "(MDR) gives H/(1 + H) from 1 on"),
         ("beta_lines", "H = 1", "undecided", "(MDR) differs from boundary elements by 0.12 at 0.1"),
-        ("coincide", "H = 0.1", "undecided", "gives H/(1 + H) from 0.4 on. The prefactors differ"),
+        ("coincide", "H = 0.1", "undecided", "gives H/(1 + H) from 0.4 on. The prefactors differ from the paper's"),
         ("gamma", "sphere", "reproduced", "the factor 1/Γ(2 − α) is confirmed"),
-        ("gamma", "sphere", "undecided", "The prefactors differ and region (c) begins far"),
+        ("gamma", "sphere", "undecided", "The prefactors differ from the paper's and region (c) begins far"),
         ("zeta_viscous", "H = 0.1", "reproduced", "nearly coincide. The factor 1/Γ(2 − α) is an error"),
     ],
 )

@@ -234,6 +234,10 @@ QUOTED = {
         "ensembles end, {:.0f}, {:.0f}, {:.0f} and {:.0f} % of": lambda: 100 * value("complete_contact_end"),
         "Up to {} times the bound": lambda: str(_RELAXED_BOUND),
     },
+    "docs/verdicts.md": {
+        "touch: {:.0f}, {:.0f}, {:.0f} and {:.0f} % at": lambda: 100 * value("complete_contact"),
+        "*X* = 28, {:.0f}, {:.0f}, {:.0f} and {:.0f} % touch": lambda: 100 * value("complete_contact_end"),
+    },
     "docs/scaling.md": {
         "| {:.0f} s | `make large`": lambda: large(4097)["wall"],
         "| {:.1f} GB |": lambda: large(4097)["memory"] / 1e9,

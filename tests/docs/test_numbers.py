@@ -192,7 +192,7 @@ QUOTED = {
         "begins with {} to {} % of the elements": lambda: ends(100 * value("complete_contact")),
         "at X = 28, {} to {} % touch": lambda: ends(100 * value("complete_contact_end")),
         "means ζ = {:.2f}, {:.2f}, {:.2f} and {:.2f} at": lambda: prefactors()["viscous"],
-        "says {:.2f}, {:.2f}, {:.2f} and {:.2f}; ours": lambda: prefactors()["elastic"],
+        "says {:.2f}, {:.2f}, {:.2f} and {:.2f}; ours, at X = 1,": lambda: prefactors()["elastic"],
         "lies between: {:.2f}, {:.2f}, {:.2f} and {:.2f}.": lambda: prefactors()["here"],
         "the velocity by {1:.0f} to {0:.0f} %": grid_errors,
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().max(),

@@ -65,7 +65,6 @@ TABLE_PARAMS = {
     "compute_media": {
         **config["media"],
         **chosen("figures", "rms_convention"),
-        **chosen("indentation", "until_x"),
         "discs": cases.first_combination(config),
     },
     "evaluate_measured": {

@@ -35,54 +35,66 @@ def named_media(cases):
     return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
 
 
-def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, force):
+def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
     """`media_table` of batches of loading curves.
 
-    curves : Content of the batches; discs, until_x : select the curves of these ensembles that were computed up to
-        X = until_x; rms_convention : of h
+    curves : Content of the batches; discs : names of the ensembles whose curves are used; rms_convention : of h
     cases : [name and further keys of a medium]; times : low, high [s] and per_decade; force : F [N]
     """
     ensembles = {}
     for batch in curves:
         values = {name: variable.values for name, variable in batch.variables.items()}
         read, heights = unstack_curves(batch), values[f"rms_{rms_convention}"]
-        diameter, hurst = np.broadcast_to(values["diameter"], heights.shape), values["hurst"].item()
-        for i in np.flatnonzero(np.isin(values["case"].astype(str), discs) & (values["until_x"] == until_x)):
-            joined, rms, _ = ensembles.get(hurst, ([], [], None))
-            ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
+        diameter, until_x = (np.broadcast_to(values[name], heights.shape) for name in ("diameter", "until_x"))
+        groups = ensembles.setdefault(values["hurst"].item(), {})
+        for i in np.flatnonzero(np.isin(values["case"].astype(str), discs)):
+            joined, rms, _ = groups.get(until_x[i], ([], [], None))
+            groups[until_x[i]] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
+    ensembles = {hurst: list(groups.values()) for hurst, groups in ensembles.items() if groups}
     return media_table(ensembles, named_media(cases), force=force, times=abscissa(**times))
 
 
 def media_table(ensembles, media, *, force, times):
     """Means over the realizations of every ensemble in every medium; a pandas.DataFrame with the columns of `COLUMNS`.
 
-    ensembles : {H: (loading curves, their rms heights, diameter)} [m]
+    ensembles : {H: groups of loading curves that end at one X, each (curves, their rms heights, diameter)} [m]
     media : {name: medium of viscorough.viscous.media} in Pa and s; force : F [N]
     times : t > 0, logarithmically uniform [s]
-    Times at which a depth lies beyond the end of its curve are omitted. X is that of the mean rms height.
+    At each time the mean is over the groups all of whose curves reach it; times that no group reaches are omitted. X is
+    that of the mean rms height.
     """
     parts = []
-    for (name, medium), (hurst, (curves, rms, diameter)) in product(media.items(), ensembles.items()):
-        time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
-        if not time.size:
+    for (name, medium), (hurst, groups) in product(media.items(), ensembles.items()):
+        motions = [_motions(*group, medium, force=force, times=times) for group in groups]
+        depth, velocity = (np.concatenate(values) for values in zip(*motions, strict=True))
+        moving = (velocity > 0).any(axis=0) & ~(velocity <= 0).any(axis=0)
+        if not moving.any():
             continue
-        motions = [kinetics(curve, force, medium, time) for curve in curves]
-        depth = np.array([motion.depth / height for motion, height in zip(motions, rms, strict=True)])
-        velocity = np.array([motion.velocity * time / height for motion, height in zip(motions, rms, strict=True)])
-        moving = (velocity > 0).all(axis=0)
-        time, mean = time[moving], np.log(velocity[:, moving]).mean(axis=0)
+        time, mean = times[moving], np.nanmean(np.log(velocity[:, moving]), axis=0)
+        rms, diameter = np.concatenate([rms for _, rms, _ in groups]), groups[0][2]
         columns = {
             "medium": name,
             "hurst": hurst,
             "time": time,
             "x": force * medium.creep_compliance(time) / (4 * np.mean(rms) * diameter),
-            "depth": np.exp(np.log(depth[:, moving]).mean(axis=0)),
+            "depth": np.exp(np.nanmean(np.log(depth[:, moving]), axis=0)),
             "velocity": np.exp(mean),
             "exponent": local_slopes(np.log(time), mean, HALF_WIDTH * np.log(10)),
-            "realizations": len(curves),
+            "realizations": np.isfinite(velocity[:, moving]).sum(axis=0),
         }
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)[list(COLUMNS)]
+
+
+def _motions(curves, rms, _, medium, *, force, times):
+    """u/h and vt/h of a group of curves, each of shape (curves, times); nan at times that not all of them reach."""
+    time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
+    depth, velocity = np.full((2, len(curves), times.size), np.nan)
+    for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
+        if time.size:
+            motion = kinetics(curve, force, medium, time)
+            depth[i, : time.size], velocity[i, : time.size] = motion.depth / height, motion.velocity * time / height
+    return depth, velocity
 
 
 def reached_times(last, force, medium, times):

@@ -15,7 +15,7 @@ LABELS = ["source", "case_group", "hurst", "across"]  # of an ensemble
 
 @style.figure
 def plot_interface(table, curves, literature, periodic):
-    """g of discs and of periodic surfaces (a) and of lines (b), g of the law over that of discs (c), u₀/h (d).
+    """g of discs and of periodic surfaces (a) and of lines (b), g of the law over g of discs (c), u₀/h (d).
 
     table, curves : of fits.interface; literature : of comparisons.literature, for u₀/h in (d)
     periodic : of comparisons.periodic_control
@@ -45,7 +45,8 @@ def plot_interface(table, curves, literature, periodic):
         axes.set(title=title, ylabel=r"$g = vt/h − X/\kappa_c$", ylim=(0, 0.6))
     ratio.axhspan(1 - LARGEST_DEVIATION, 1 + LARGEST_DEVIATION, color="0.92", linewidth=0, zorder=0)
     ratio.axhline(1, color=style.BLACK, linewidth=0.6)
-    ratio.set(title="(c) the law over boundary elements", ylabel="$g$ of the law over the mean", ylim=(0.8, 1.2))
+    ratio.set(title="(c) the law over boundary elements", ylabel="$g$ of the law over the mean", ylim=(0.7, 1.3))
+    _name_discs(ratio, base[base["source"] == "discs"], looks)
     _draw_literature(plateaus, literature)
     _draw_plateaus(plateaus, table, looks)
     plateaus.set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.2, 0.7))
@@ -69,12 +70,22 @@ def _on_base_grid(rows):
 
 
 def _draw_law(axes, ratios, curve, law, look):
-    """Draw g of the law of the library in its range, and over that of a curve."""
+    """Draw g of the law of the library in its range, and over g of a curve, with the interval of the latter."""
     curve = curve[curve["x"].between(law.x_low, law.x_high)]
     of_law = law.velocity(curve["x"].to_numpy()) - curve["x"]
     axes.plot(curve["x"], of_law, color=style.BLACK, linewidth=0.6)
     known = curve["interface"] >= LEAST_SHARE * curve["x"]
     ratios.plot(curve["x"], (of_law / curve["interface"]).where(known), **look)
+    ends = [(of_law / curve[f"interface_{end}"]).where(known) for end in ("high", "low")]
+    ratios.fill_between(curve["x"], *ends, color=look["color"], alpha=0.15, linewidth=0)
+
+
+def _name_discs(axes, table, looks):
+    """State at how many discs the mean of each curve of the law is taken."""
+    shown = table[(table["across"] == ACROSS) & table["hurst"].isin(interface_calibration()["hurst"])]
+    labels = {row.hurst: f"{row.realizations:g} discs" for row in shown.sort_values("hurst").itertuples()}
+    handles = [style.handle(label, **looks[hurst] | {"marker": ""}) for hurst, label in labels.items()]
+    axes.legend(handles=handles, loc="lower left", ncols=3, columnspacing=1)
 
 
 def _draw_literature(axes, literature):

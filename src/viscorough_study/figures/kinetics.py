@@ -21,7 +21,7 @@ QUANTITIES = {
 
 @style.figure
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
-    """Velocity over time in SI units, vt/h over X, and a table of the combinations.
+    """vt/h over X as in the paper's Figure 2, velocity over time in SI units, and a table of the combinations.
 
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
@@ -35,7 +35,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     looks = style.hurst_looks(ds["hurst"].item() for ds in ensembles)
     figure = style.new_figure(112)
     above, below = figure.subfigures(2, 1, height_ratios=(4.6, 1))
-    raw, collapsed = above.subplots(1, 2, width_ratios=(1, 1.2))
+    collapsed, raw = above.subplots(1, 2, width_ratios=(1.1, 1))
     curves = [mean_curve(ds, conventions, fraction_min) for ds in ensembles]
     start = min((curve.x[curve.several][0] for curve in curves if curve.several.any()), default=0) / 10
     ends = {}

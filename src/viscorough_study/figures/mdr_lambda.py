@@ -7,8 +7,9 @@ from viscorough_study.figures import style
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
 _SHIFT = 0.02  # distance in H between the markers of one Hurst exponent
-_RANGE = 4.0  # largest ratio drawn: in region (a), where lines have finer grids, the ratio grows without bound
-_LAMBDA_RANGE = (0.3, 30.0)  # limits of the axis: λ grows without bound as contact becomes complete
+# The axes end this factor beyond the values of region (b), where a constant λ is claimed. Outside it λ falls in region
+# (a), where lines have finer grids, and grows without bound as contact becomes complete.
+_MARGIN = 1.3
 
 
 @style.figure
@@ -27,8 +28,10 @@ def plot_mdr_lambda(lambdas, exponents):
             axes.plot(rows["x"][inside], rows[name][inside], color=color, linewidth=2)
     values.axhline(np.pi, color=style.GREY, linewidth=0.6)
     ratios.axhline(1, color=style.GREY, linewidth=0.6)
-    values.set(title="(a) the λ that fits at $X$", ylabel=r"$\lambda$", ylim=_LAMBDA_RANGE)
-    ratios.set(title="(b) one λ for each $H$", ylabel="$vt/h$ of lines over discs", ylim=(1 / _RANGE, _RANGE))
+    region = lambdas[lambdas["in_region"] == 1]
+    values.set(title="(a) the λ that fits at $X$", ylabel=r"$\lambda$", ylim=_limits(region, "lambda"))
+    ylim = _limits(region, "velocity_ratio")
+    ratios.set(title="(b) one λ for each $H$", ylabel="$vt/h$ of lines over discs", ylim=ylim)
     for axes in (values, ratios):
         axes.set(xscale="log", yscale="log", xlabel="$X=F/(4GhL)$")
     for row in exponents.dropna(subset="difference").itertuples():
@@ -41,3 +44,8 @@ def plot_mdr_lambda(lambdas, exponents):
     handles = [*style.hurst_handles(looks, marker=""), *marks]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
+
+
+def _limits(rows, name):
+    """Limits of a logarithmic axis around a column and its intervals; None without rows."""
+    return (rows[f"{name}_low"].min() / _MARGIN, rows[f"{name}_high"].max() * _MARGIN) if len(rows) else None

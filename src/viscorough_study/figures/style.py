@@ -156,8 +156,8 @@ def hurst_looks(exponents):
     """{Hurst exponent: color, marker, linestyle}, by ascending exponent."""
     looks = {}
     for hurst in sorted(set(exponents)):
-        # Distinct for all multiples of 0.1, and for neighbouring exponents.
-        rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["plasma"](0.8 * hurst)
+        # Distinct for all multiples of 0.1, and for neighbouring exponents. The power spreads the colours near H = 1.
+        rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["viridis"](0.85 * hurst**1.5)
         looks[hurst] = {"color": color, "marker": HURST_MARKERS[rank], "linestyle": HURST_LINES[rank]}
     return looks
 

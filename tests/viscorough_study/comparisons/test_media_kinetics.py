@@ -16,7 +16,7 @@ MEDIA = {"newtonian": Newtonian(1e6), "maxwell": Maxwell(2.5e6, 1e6)}
 @pytest.fixture(scope="module")
 def ensembles():
     discs = [self_affine_disc(0.7, 33, rms=1e-6, diameter=1e-2, seed=seed) for seed in (1, 2)]
-    return {0.7: ([indent(disc, until_fraction=0.3) for disc in discs], [1e-6, 1e-6], 1e-2)}
+    return {0.7: [([indent(disc, until_fraction=0.3) for disc in discs], [1e-6, 1e-6], 1e-2)]}
 
 
 @pytest.fixture(scope="module")
@@ -27,11 +27,11 @@ def table(ensembles):
 def test_newtonian_velocity_is_that_of_the_paper(ensembles, table):
     """vt/h = X/κ(X)."""
     rows = table[table["medium"] == "newtonian"]
-    stiffness = [curve.at_force(4e-8 * rows["x"].to_numpy())[1] / 4e-2 for curve in ensembles[0.7][0]]
+    stiffness = [curve.at_force(4e-8 * rows["x"].to_numpy())[1] / 4e-2 for curve in ensembles[0.7][0][0]]
     expected = np.exp(np.log(rows["x"].to_numpy() / stiffness).mean(axis=0))
     np.testing.assert_allclose(rows["velocity"], expected, rtol=1e-12)
     assert list(table) == list(COLUMNS)
-    last = min(curve.force[-1] for curve in ensembles[0.7][0])
+    last = min(curve.force[-1] for curve in ensembles[0.7][0][0])
     assert table["x"].max() * 4e-8 <= last, "times beyond the curves are left out"
     np.testing.assert_allclose(rows["x"], 1e-4 * rows["time"] / (4e-8 * 1e6), rtol=1e-14)
 
@@ -44,9 +44,9 @@ def test_depth_is_one_function_of_the_creep_compliance(table):
     assert len(inside) > 50
 
 
-def power_law_curve(factor, beta=0.4):
+def power_law_curve(factor, beta=0.4, *, until_force=1e-4):
     """u = factor (F/G)^β at 400 levels; between them a cubic in the logarithms is exact."""
-    force = np.geomspace(1e-12, 1e-4, 400)
+    force = np.geomspace(1e-12, until_force, 400)
     depth = factor * force**beta
     count, residual = np.arange(10, 4010, 10), np.zeros(400)
     return LoadingCurve(depth, force, force / (beta * depth), count, 5000, "boundary elements", 1e-3, 0, residual)
@@ -62,6 +62,17 @@ def power_law_curve(factor, beta=0.4):
 )
 def test_power_of_time_of_a_power_law(medium, times, exponent):
     """vt/h ∝ X^β is ∝ t^(aβ) where J ∝ t^a, in the means."""
-    ensembles = {0.7: ([power_law_curve(factor) for factor in (0.9, 1.1)], [1e-3, 1e-3], 1.0)}
+    ensembles = {0.7: [([power_law_curve(factor) for factor in (0.9, 1.1)], [1e-3, 1e-3], 1.0)]}
     table = media_table(ensembles, {"medium": medium}, force=1e-3, times=abscissa(*times, 20))
     np.testing.assert_allclose(table["exponent"], exponent, atol=2e-3)
+
+
+def test_mean_is_over_all_curves_that_reach_a_time():
+    """Three short curves, and one that goes on alone."""
+    short = [power_law_curve(factor, until_force=1e-6) for factor in (0.8, 1.0, 1.25)]
+    groups = [(short, [1e-3] * 3, 1.0), ([power_law_curve(2.0)], [1e-3], 1.0)]
+    table = media_table({0.7: groups}, {"newtonian": Newtonian(1e3)}, force=1e-3, times=abscissa(1e-3, 1e1, 20))
+    early = table["time"] <= 1.0
+    assert (table["realizations"] == np.where(early, 4, 1)).all()
+    means = np.where(early, 2.0**0.25, 2.0)
+    np.testing.assert_allclose(table["depth"], 1e3 * means * (1e-6 * table["time"]) ** 0.4, rtol=1e-6)

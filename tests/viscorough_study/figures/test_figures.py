@@ -197,6 +197,28 @@ def test_laws_of_others_stand_beside_the_interface(drawn):
     assert set(stated.get_ydata()) == set(u0.query("theirs_low == theirs_high")["theirs_low"])
 
 
+def test_law_has_the_band_and_the_number_of_discs_of_the_mean(drawn):
+    """The interval of the mean is 10 % to either side, and the law 2 % above the mean."""
+    law = drawn["interface"].axes[2]
+    bands = [band for band in law.collections if len(band.get_paths()) and len(band.get_paths()[0].vertices) > 10]
+    heights = np.concatenate([band.get_paths()[0].vertices[:, 1] for band in bands])
+    close([heights.min(), heights.max()], [1.02 / 1.1, 1.02 / 0.9])
+    numbers = published("interface").query("source == 'discs' and across == 257")["realizations"]
+    labels = [text.get_text() for text in law.get_legend().get_texts()]
+    assert len(labels) == len(bands)
+    assert set(labels) <= {f"{number:g} discs" for number in numbers}
+
+
+def test_axes_of_lambda_show_its_change_within_region_b(drawn):
+    """The values of region (b), and little else, between the ends of the axes."""
+    table = published("mdr_lambda").query("in_region == 1")
+    for axes, name in zip(drawn["mdr_lambda"].axes, ("lambda", "velocity_ratio"), strict=False):
+        low, high = table[f"{name}_low"].min(), table[f"{name}_high"].max()
+        bottom, top = axes.get_ylim()
+        assert 0.6 * low < bottom < low
+        assert high < top < high / 0.6
+
+
 def test_exponent_of_what_has_no_region_and_intervals_beside_their_value(scaling):
     def symbols(table):
         axes = plot("exponent", table, SHOWN, (0.4, 1.0)).axes[0]

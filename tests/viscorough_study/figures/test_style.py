@@ -1,5 +1,7 @@
 """What the figures share: looks of the Hurst exponents, and files that are whole and reproducible."""
 
+import itertools
+
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -22,6 +24,12 @@ def test_looks_of_a_hurst_exponent_do_not_depend_on_how_exponents_are_listed():
         assert len({str(look[name]) for look in looks.values()}) == 4
     grey = [np.dot(to_rgb(look["color"]), (0.3, 0.6, 0.1)) for look in looks.values()]
     assert (np.diff([*grey, 0.77]) > 0.07).all()  # told apart from each other and from the paper when printed in grey
+
+
+def test_colours_of_neighbouring_hurst_exponents_differ():
+    """Also those of 0.9 and 1; a distance of 1 is that of black and a pure colour."""
+    colours = [np.array(to_rgb(look["color"])) for look in hurst_looks([0.1, 0.4, 0.6, 0.9, 1.0]).values()]
+    assert min(np.linalg.norm(after - before) for before, after in itertools.pairwise(colours)) > 0.2
 
 
 @pytest.mark.parametrize(

@@ -40,9 +40,10 @@ rule make_page:
         "../scripts/make_page.py"
 
 
-ARTICLE_FIGURES = ["fig2_kinetics", "fig3_master_curve", "fig4_exponent", "interface", "speed", "failure_map"]
+ARTICLE_FIGURES = ["fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "interface", "speed"]
 ARTICLE_TABLES = ["validation", "interface", "periodic", "plateaus"]
 ARTICLE_TEXTS = [*sorted((WORKFLOW / "article").iterdir()), PROJECT / "CITATION.cff"]
+ARTICLE_TEXTS += [PROJECT / "resources/literature/stiffness.yaml"]
 QUOTED = ("sum_rules.json", "outside.csv", "law.csv", "published.json")
 ARTICLE_TEXTS += [PROJECT / "docs/results" / name for name in QUOTED]
 
@@ -68,6 +69,7 @@ rule make_article:
         text_digests(ARTICLE_TEXTS),
         claims=paper("claims"),
         numbers=paper("numbers"),
+        repository=config["article"]["repository"],
     message:
         "The article"
     script:

@@ -8,13 +8,15 @@ from viscorough_study.page.assembly import contents_of
 from viscorough_study.run.job_log import run_job
 
 
-def main(project, figures, pdf, **run):
+def main(project, figures, pdf, *, repository, **run):
     """Write the article.
 
-    project : folder of the project, which has template, style, citation, published numbers and verdicts
-    figures : paths, which the template names from their folder; run : further arguments of `contents_of`
+    project : folder of the project, which has template, style, citation, literature, published numbers and verdicts
+    figures : paths, which the template names from their folder; repository : address of the code, or an empty text
+    run : further arguments of `contents_of`
     """
-    content = article(project, contents_of(project, **run), paper=run["numbers"], figures=Path(figures[0]).parent)
+    contents, folder = contents_of(project, **run), Path(figures[0]).parent
+    content = article(project, contents, paper=run["numbers"], figures=folder, repository=repository)
     with atomic_write(pdf) as temporary:
         temporary.write_bytes(content)
 

@@ -38,6 +38,9 @@ def answers(results):
         "coincide": results.record("claims", differences.idxmax()) if len(differences) else None,
         "elastic": cases("zeta_elastic"),
         "viscous": cases("zeta_viscous"),
+        "complete": cases("complete_contact"),
+        "small": cases("exponent_small_hurst"),
+        "control": extremes("power_law_control", "value"),
         "gamma": [extremes("gamma", "least")[0], extremes("gamma", "largest")[1], *extremes("gamma", "expected")],
     }
 

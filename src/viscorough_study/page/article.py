@@ -2,30 +2,31 @@
 
 import json
 import re
-from collections import defaultdict
 
 import jinja2
 import numpy as np
 import typst
 import yaml
+from markupsafe import Markup
 
 from viscorough import reference
 from viscorough.calibrated_law import ACROSS
-from viscorough_study.fits.conventions import select, source_values
+from viscorough_study.fits.conventions import fits
 from viscorough_study.page.results import Number, read_published
 from viscorough_study.run.readable import readable
-from viscorough_study.verdicts.claims import counted_verdicts
+from viscorough_study.verdicts.claims import HELD, KINDS, counted_verdicts
 
 AUDITED, PLAIN = "1e-05", "1e-03"  # tolerances of the audits and curves whose sum rules are shown
+CASES_MAX = 4  # cases of one outcome of a claim that are listed
 _MARKUP = re.compile(r"""([\\#*_`$<>@\[\]~/"'=+-])""")
 
 
-def article(project, contents, *, paper, figures):
+def article(project, contents, *, paper, figures, repository):
     """The article, content of a PDF file.
 
-    project : folder of the project, which has template, style, citation and published results
+    project : folder of the project, which has template, style, citation, literature and published results
     contents : of a run (assembly.contents_of); paper : content of resources/paper/numbers.yaml
-    figures : folder of the figures
+    figures : folder of the figures; repository : address of the code, or an empty text
     """
     names = ("style.typ", "article.typ.jinja")
     style, template = ((project / "workflow/article" / name).read_text("utf-8") for name in names)
@@ -34,22 +35,29 @@ def article(project, contents, *, paper, figures):
     )
     published, results = project / "docs/results", contents["results"]
     citation, law = yaml.safe_load((project / "CITATION.cff").read_text("utf-8")), read_published(published / "law.csv")
+    literature = yaml.safe_load((project / "resources/literature/stiffness.yaml").read_text("utf-8"))
+    original, sources = citation["references"][0], [source for source in literature if "title" in source]
     sum_rules = json.loads((published / "sum_rules.json").read_text("utf-8"))
     springs = results.rows("interface", source="discs", case_group="base").sort_values("hurst")
     validation = results.tables["validation"]
     text = environment.from_string(template).render(
         contents,
+        raw=Markup,
         citation=citation,
-        original=citation["references"][0],
+        original=original,
+        repository=Markup(json.dumps(repository)) if repository else "",  # a text of Typst
         paper=paper,
         physics=counted_physics(results.tables["claims"]),
-        titles=titles(contents["verdicts"]),
+        cases={name: cases_by_outcome(results, name) for name in contents["overall"]},
+        prefactors=prefactors(results, contents["conventions"]),
+        small_hurst=small_hurst(results),
+        sources=sources_by_basis(sources),
+        bibliography=Markup(json.dumps(bibliography(original, sources), ensure_ascii=False)),
         validation=validation[validation["elements"] == validation["elements"].max()].to_dict("records"),
         springs=springs.to_dict("records"),
         law=law[law["across"] == ACROSS].to_dict("records"),
         plateaus=results.tables["plateaus"].to_dict("records"),
         control=control(results),
-        prefactors=prefactors(results, contents["conventions"]),
         earlier=results.rows("literature", source="Pohrt and Popov").iloc[0],
         sum_rules=sum_rules_shown(sum_rules),
         audited={"plain": float(PLAIN), "audit": float(AUDITED), "across": sum_rules["across"]},
@@ -61,6 +69,8 @@ def article(project, contents, *, paper, figures):
 
 def as_markup(value):
     """A value of a placeholder: numbers of three digits, and texts whose signs have no meaning in Typst."""
+    if isinstance(value, Markup):
+        return value
     if isinstance(value, Number):
         return readable(value.value)
     if isinstance(value, int | float | np.number):
@@ -69,17 +79,127 @@ def as_markup(value):
 
 
 def counted_physics(table):
-    """Number of claims on physics, and {verdict: number of them} from best to worst, of a table of verdicts."""
+    """Claims on physics: their heading, their number, and {verdict: number of them} from best to worst."""
     counts = dict(counted_verdicts(table))
-    return {"all": sum(counts.values()), "counts": counts}
+    return {"heading": KINDS["physics"], "all": sum(counts.values()), "counts": counts}
 
 
-def titles(verdicts):
-    """{verdict: titles of its claims of all kinds, with their places in the paper}"""
-    named = defaultdict(list)
-    for claim in (claim for members in verdicts.values() for claim in members):
-        named[claim["verdict"]].append(f"{claim['title']} ({claim['where']})")
-    return named
+def cases_by_outcome(results, claim):
+    """{outcome: cases of a claim}, with outcomes "pass", "undecided" and "fail".
+
+    Of more than `CASES_MAX` cases of one outcome those farthest from the paper's value are listed; `more` counts the
+    others. `paper` is the paper's value where the cases share it, otherwise each case has its own.
+    """
+    rows = results.rows("claims", claim=claim)
+    undecided = rows["verdict"] == "undecided"
+    held = rows["verdict"].isin(HELD)
+    shared = rows["expected"].nunique(dropna=False) == 1
+    shown = {"paper": results.number("claims", rows.index[0], "expected") if shared else None}
+    for outcome, members in (("pass", rows[held]), ("undecided", rows[undecided]), ("fail", rows[~held & ~undecided])):
+        distance = (members["value"] - members["expected"]).abs().fillna(0.0)
+        listed = members.loc[sorted(distance.sort_values(ascending=False, kind="stable").index[:CASES_MAX])]
+        records = [results.record("claims", row) | {"own_value": not shared} for row in listed.index]
+        shown[outcome] = {"cases": records, "more": len(members) - len(listed)}
+    return shown
+
+
+def prefactors(results, conventions):
+    """ζ of the run beside Eqs. 4 and 11, at each Hurst exponent of the discs.
+
+    rows : H, Eq. 4, Eq. 11 without its factor 1/Γ(2 − α), ζ with its interval, and its extremes over conventions
+    between : whether ζ lies between both formulas at every H
+    conventions : number of combinations of conventions; agreeing : largest number of them in which ζ has the value of
+        one of the formulas within its tolerance, over formulas and H
+    radius : smallest and largest ζ over Eq. 11, both with the factor, if L were the radius of the disc
+    """
+    every, rows, ratios = results.rows("scaling", source="discs", case_group="base"), [], []
+    for row in fits(every, conventions | {"gamma": "without"}).itertuples():
+        zeta, eq_11 = every.loc[every["hurst"] == row.hurst, "zeta"], reference.zeta_viscous(row.hurst)
+        numbers = {"hurst": row.hurst, "value": row.zeta, "low": row.zeta_low, "high": row.zeta_high}
+        numbers |= {"least": zeta.min(), "largest": zeta.max()}
+        without_gamma = eq_11 * _gamma(reference.exponent_beta(row.hurst))
+        rows.append(numbers | {"eq_4": reference.zeta_elastic(row.hurst), "eq_11": without_gamma})
+        # X and κ double if L is the radius, and ζ = κ/X^α grows by 2^β.
+        ratios.append(2**row.beta * row.zeta / _gamma(row.beta) / eq_11)
+    both = results.tables["claims"].query("claim in ('zeta_elastic', 'zeta_viscous')")
+    return {
+        "rows": rows,
+        "between": all(row["eq_4"] < row["value"] < row["eq_11"] for row in rows),
+        "conventions": both["conventions"].max(),
+        "agreeing": both["agreeing"].max(),
+        "radius": (min(ratios, default=np.nan), max(ratios, default=np.nan)),
+    }
+
+
+def _gamma(beta):
+    """Γ(2 − α) with α = 1 − β."""
+    return reference.velocity_law(1.0, 1.0, 1 - beta) / reference.velocity_law(1.0, 1.0, 1 - beta, gamma=True)
+
+
+def small_hurst(results):
+    """What the departure at the smallest Hurst exponent of the discs consists of; None for a part without a value.
+
+    hurst : the Hurst exponent; region : the row of table `plateaus` with the length of region (b)
+    own, equal : β of lines minus β of discs, each in its own region (b), and both at the same X
+    grid : factor by which a tenfold number of elements changes κ at u/h = 1
+    literature : exponents α of others at H = 0 and 1, and those of this run at the smallest H
+    """
+    claims, plateaus = results.tables["claims"], results.rows("plateaus", case_group="base")
+    hurst = plateaus["hurst"].min()
+
+    def case(claim, beginning):
+        rows = claims[(claims["claim"] == claim) & claims["case"].str.startswith(beginning)].dropna(subset=["value"])
+        return results.record("claims", rows.index[0]) if len(rows) else None
+
+    quoted = results.rows("literature", quantity="alpha").dropna(subset=["hurst", "theirs_low"])
+    quoted = quoted[quoted["theirs_low"] < quoted["theirs_high"]].sort_values("hurst")
+    return {
+        "hurst": hurst,
+        "region": plateaus.loc[plateaus["hurst"].idxmin()].to_dict(),
+        "own": case("coincide", f"H = {hurst:g}"),
+        "equal": case("coincide_equal_windows", f"H = {hurst:g}, same X"),
+        "grid": case("no_grid", f"H = {hurst:g}, κ at u/h = 1"),
+        "literature": results.record("literature", quoted.index[0]) if len(quoted) else None,
+    }
+
+
+# ---- references
+
+
+def citation_key(source):
+    """Key of a source: up to three surnames and the year, as in "persson-2007"."""
+    names = source["source"].replace(" and ", ", ").split(", ")
+    return "-".join([*names[:3], str(source["year"])]).lower().replace(" ", "-")
+
+
+def sources_by_basis(sources):
+    """{how statements on it are known: keys of the sources}, for a sentence of the article that cites all of them."""
+    groups = {}
+    for source in sources:
+        groups.setdefault(source["sure"], []).append(citation_key(source))
+    return groups
+
+
+def bibliography(original, sources):
+    """References in the YAML of Hayagriva, which Typst reads: the paper (key "paper"), and sources with their titles.
+
+    original : entry of CITATION.cff; sources : entries of resources/literature/stiffness.yaml
+    """
+    authors = [f"{author['family-names']}, {author['given-names']}" for author in original["authors"]]
+    place = f"{original['journal']} {original['volume']}, {original['start']}"
+    entries = {"paper": _entry(original["title"], authors, place, original["year"])}
+    for source in sources:
+        authors = source["source"].replace(" and ", ", ").split(", ")
+        entries[citation_key(source)] = _entry(source["title"], authors, source["place"], source["year"])
+    return yaml.safe_dump(entries, allow_unicode=True)
+
+
+def _entry(title, authors, place, year):
+    parent = {"type": "periodical", "title": place}
+    return {"type": "article", "title": title, "author": authors, "date": year, "parent": parent}
+
+
+# ---- tables
 
 
 def control(results):
@@ -90,27 +210,6 @@ def control(results):
         whole, rolled = (kind.loc[kind["g"].idxmax()] for kind in kinds)
         rows.append({"hurst": hurst, "surfaces": whole["surfaces"], "whole": whole, "rolled": rolled})
     return rows
-
-
-def prefactors(results, conventions):
-    """ζ of Eq. 4, of boundary elements, and of Eq. 11 without the factor 1/Γ(2 − α), for each Hurst exponent.
-
-    as_radius : ζ with the factor over Eq. 11 if L were the radius, for which ζ is 2^β times as large
-    """
-    wanted = conventions | source_values("discs") | {"case_group": "base"}
-    fits, with_factor = (
-        select(results.tables["scaling"], wanted | {"gamma": gamma}).sort_values("hurst")
-        for gamma in ("without", "with")
-    )
-    hurst = fits["hurst"].to_numpy()
-    columns = {
-        "hurst": hurst,
-        "elastic": reference.zeta_elastic(hurst),
-        "here": fits["zeta"].to_numpy(),
-        "viscous": 1 / reference.rate_law(1.0, hurst, gamma=True),
-        "as_radius": 2 ** fits["beta"].to_numpy() * with_factor["zeta"].to_numpy() / reference.zeta_viscous(hurst),
-    }
-    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
 def sum_rules_shown(content):

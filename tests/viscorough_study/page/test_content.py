@@ -113,7 +113,7 @@ def test_the_case_that_is_shown_has_the_verdict_of_the_claim_and_is_the_farthest
 
 
 def test_a_verdict_that_the_full_scale_does_not_share_is_shown_with_its_case():
-    table, full = claims_table("undecided", "reproduced"), claims_table("reproduced", "not reproduced")
+    table, full = claims_table("undecided", "reproduced"), claims_table("undecided", "not reproduced")
     ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, full).values()
     assert claim["full_scale"]["verdict"] == "not reproduced"
     assert claim["full_scale"]["case"].startswith("H = 1: 0.1 [0.1, 0.1], least 0.1")

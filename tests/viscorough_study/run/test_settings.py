@@ -17,7 +17,7 @@ SCAN = {"name": "scan", "files": ["z.npy"]}
 FLUID = {"name": "fluid", "kind": "newtonian", "viscosity": 1.0}
 WRONG = [
     ({"discs": {"elemnts": 33}}, "unknown key 'elemnts' in discs; did you mean elements?"),
-    ({"colour": "blue"}, "unknown key 'colour' in settings; allowed: collapse, direct, discs"),
+    ({"colour": "blue"}, "unknown key 'colour' in settings; allowed: article, collapse, direct, discs"),
     ({"dis\ncs": 1}, r"unknown key 'dis\ncs' in settings; did you mean discs?"),
     ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: type integer, minimum 9, maximum 4097"),
     ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: type integer"),

@@ -11,10 +11,10 @@ import pytest
 
 from support.code_blocks import run_python, run_shell
 from support.page import BROWSER, Page, number_in, opened
-from support.workflow import FIGURES, ROOT, TEST, jobs, snakemake
+from support.workflow import FIGURES, RESULTS, ROOT, TEST, jobs, snakemake
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.run.rule_costs import duration_text
-from viscorough_study.verdicts.claims import of_paper, overall
+from viscorough_study.verdicts.claims import overall, physics
 
 LARGEST = 4e6  # bytes
 
@@ -99,16 +99,27 @@ def test_every_number_stands_in_a_table(page, tables):
         elif place["data-column"] in table:
             value = (table[place["data-column"]] == place["data-counted"]).sum()
         else:
-            value = list(overall(of_paper(table)).values()).count(place["data-counted"])
+            value = list(overall(physics(table)).values()).count(place["data-counted"])
         assert value == float(place["value"]), place
         assert abs(number - value) <= 1.001 * half_a_digit, (place, text)
 
 
+def test_tooltip_of_every_number_names_a_rule_and_a_source_file(page):
+    for _, place, _ in page.numbers:
+        table, rule, source = re.fullmatch(
+            r"results/tables/(\w+)\.csv, .+; rule (\w+); computed in (\S+)", place["title"]
+        ).groups()
+        assert table == place["data-table"]
+        assert table in RESULTS["tables"][rule]["tables"]
+        assert (ROOT / source).is_file()
+
+
 def test_the_answer_states_no_other_numbers(page):
-    """But those of equations, and the error that is asked about."""
+    """But those of equations, the error that is asked about, the factor in the findings, and numbers of cases."""
     assert sum(section == "answer" for section, *_ in page.numbers) > 20
-    text = re.sub(r"Eqs?\. \d+(, \d+)*( and \d+)?", "", page.texts["answer"])
-    assert re.findall(r"\d[^ ]*( %)?", text.replace("To 1 % error", "")) == []
+    text = re.sub(r"Eqs?\. \d+(, \d+)*( and \d+)?|To 1 % error|1/Γ\(2 − α\)", "", page.texts["answer"])
+    text = re.sub(r"\(\d+ of \d+ cases(, \d+ undecided)?\)", "", text)
+    assert re.findall(r"\d[^ ]*( %)?", text) == []
 
 
 def test_settings_are_no_dumps_and_a_trial_run_says_that_it_is_one(page):

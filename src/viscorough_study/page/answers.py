@@ -17,8 +17,8 @@ ADVISED = 1e-2  # allowed error of the advice at the top of the page
 def verdict_counts(results):
     """[Number] of claims on physics by verdict, from best to worst; a claim has the verdict over all its cases."""
     numbers = counted_verdicts(results.tables["claims"])
-    column = "verdict over all cases of a claim on physics"
-    return [Number(number, "claims", column, counted=verdict) for verdict, number in numbers]
+    column, origin = "verdict over all cases of a claim on physics", results.origin("claims")
+    return [Number(number, "claims", column, counted=verdict, origin=origin) for verdict, number in numbers]
 
 
 def answers(results):
@@ -30,12 +30,17 @@ def answers(results):
     def extremes(claim, column):
         return results.extremes(results.rows("claims", claim=claim), "claims", column)
 
-    differences = results.rows("claims", claim="coincide")["value"].abs().dropna()
+    def farthest(claim):
+        rows = results.rows("claims", claim=claim)
+        distance = (rows["value"] - rows["expected"]).abs().dropna()
+        return results.record("claims", distance.idxmax()) if len(distance) else None
+
     return {
         "collapse": cases("collapse")[0],
         "spread": extremes("power_law", "value"),
         "beta": cases("beta"),
-        "coincide": results.record("claims", differences.idxmax()) if len(differences) else None,
+        "lines": farthest("beta_lines"),
+        "coincide": farthest("coincide"),
         "elastic": cases("zeta_elastic"),
         "viscous": cases("zeta_viscous"),
         "complete": cases("complete_contact"),

@@ -2,9 +2,11 @@
 
 from pathlib import Path
 
+import yaml
+
 from viscorough_study.page import answers, content
 from viscorough_study.page.discussion import QUANTITIES, discussion
-from viscorough_study.page.results import read_published, read_results
+from viscorough_study.page.results import read_published, read_results, table_origins
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
@@ -16,13 +18,15 @@ from viscorough_study.verdicts.claims import findings
 def contents_of(project, discs, lines, *, tables, claims, numbers):
     """{name: content} of a run, for the templates of page and article.
 
-    project : folder of the project, which has published numbers and the verdicts of the full scale
+    project : folder of the project, which has published numbers, the verdicts of the full scale, and the list of tables
     discs, lines : paths of the pools
     tables : paths of CSV files, whose stems name them
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
     """
     tables = {Path(path).stem: path for path in tables}
-    results, published = read_results(tables), read_published(project / "docs/claims.csv")
+    registry = yaml.safe_load((project / "workflow/results.yaml").read_text("utf-8"))
+    results = read_results(tables, table_origins(registry["tables"]))
+    published = read_published(project / "docs/claims.csv")
     conventions = results.settings["claims"]["conventions"]
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)
     fastest = answers.fastest_methods(results)
@@ -38,6 +42,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
         "verdict_counts": answers.verdict_counts(results),
         "verdict_short": content.VERDICT_SHORT,
         "overall": {claim["name"]: claim["verdict"] for claims in verdicts.values() for claim in claims},
+        "case_counts": {claim["name"]: claim["case_counts"] for claims in verdicts.values() for claim in claims},
         "verdicts": verdicts,
         "differing": [claim for claims in verdicts.values() for claim in claims if claim["full_scale"]],
         "groups": answers.GROUPS,

@@ -12,6 +12,7 @@ from markupsafe import Markup
 from viscorough_study.run.readable import readable
 
 SCALE = 0.675  # pixels of the page per pixel of a figure
+WIDE = 600  # pixels; wider images scroll on a phone
 
 
 def render(template, style, figures, captions, *, conventions, **content):
@@ -46,10 +47,14 @@ def percent(value):
 
 
 def embedded_png(content):
-    """src, width and height of an image; the smallest text of the figures, 7 points, becomes 13 pixels high."""
+    """src, width and height of an image, and whether it scrolls on a phone.
+
+    The smallest text of the figures, 7 points, becomes 13 pixels high.
+    """
     width, height = struct.unpack(">II", content[16:24])
     source = "data:image/png;base64," + base64.b64encode(content).decode("ascii")
-    return {"src": Markup(source), "width": round(width * SCALE), "height": round(height * SCALE)}
+    size = {"width": round(width * SCALE), "height": round(height * SCALE)}
+    return {"src": Markup(source), "wide": size["width"] > WIDE, **size}
 
 
 def caption(text, conventions):

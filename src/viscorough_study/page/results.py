@@ -1,15 +1,16 @@
 """Tables of results for the page, and numbers with their place in a table.
 
-Every number that the page states in a sentence is a `Number`; its place in a table becomes part of the
-page, so that a reader or a test can look it up.
+Every number that the page states in a sentence is a `Number`. Its place in a table, the rule that made the table and
+the source file of the computation become part of the page, so that a reader or a test can look them up.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pandas as pd
 
 from viscorough_study.run.tables import read_recorded, read_table
+from viscorough_study.verdicts.claims import JUDGES
 
 MAY_BE_EMPTY = ("convention", "reason")  # columns of texts
 _ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}  # options of pandas.read_csv
@@ -20,6 +21,7 @@ class Number:
     """A number of the page and its place in a table of results/tables: column, and row of the CSV counted from 0.
 
     counted : of a number of rows, the value that is counted in the column; then there is no row
+    origin : rule that made the table and source file of the computation, as text
     """
 
     value: float
@@ -27,13 +29,20 @@ class Number:
     column: str
     row: int | None = None
     counted: str | None = None
+    origin: str = ""
 
     @property
     def attributes(self):
-        """Attributes of the HTML element that holds the number: its value, a tooltip, and its place."""
-        place = f"row {self.row}, {self.column}"
-        place = place if self.counted is None else f"{self.column}: number of {self.counted}"
-        named = {"value": repr(self.value), "title": f"results/tables/{self.table}.csv, {place}"}
+        """Attributes of the HTML element that holds the number: its value, a tooltip, and its place.
+
+        The tooltip has the line in the CSV file, counted from 1 with the header.
+        """
+        if self.counted is None:
+            place = f"line {self.row + 2}, column {self.column}"
+        else:
+            place = f"{self.column}: number of {self.counted}"
+        title = "; ".join(filter(None, (f"results/tables/{self.table}.csv, {place}", self.origin)))
+        named = {"value": repr(self.value), "title": title}
         named |= {f"data-{name}": getattr(self, name) for name in ("table", "row", "column", "counted")}
         return {name: value for name, value in named.items() if value is not None}
 
@@ -43,10 +52,12 @@ class Results:
     """Tables by name, as pandas.DataFrames indexed by the row of the CSV, and their recorded settings.
 
     settings : {table: mapping}, empty for tables that record none
+    origins : {table: (rule, source file)} of `table_origins`; without it, numbers state no origin
     """
 
     tables: dict
     settings: dict
+    origins: dict = field(default_factory=dict)
 
     def rows(self, table, **wanted):
         """Rows of a table with these values, {column: value}."""
@@ -55,7 +66,8 @@ class Results:
 
     def number(self, table, row, column):
         """The number at a place of a table."""
-        return Number(float(self.tables[table].at[row, column]), table, column, int(row))
+        value = float(self.tables[table].at[row, column])
+        return Number(value, table, column, int(row), origin=self.origin(table, row))
 
     def record(self, table, row):
         """{column: Number, or text} of one row."""
@@ -73,15 +85,46 @@ class Results:
 
     def count(self, table, column, counted):
         """Number of rows with the value `counted` in a column."""
-        return Number(int((self.tables[table][column] == counted).sum()), table, column, counted=counted)
+        number = int((self.tables[table][column] == counted).sum())
+        return Number(number, table, column, counted=counted, origin=self.origin(table))
+
+    def origin(self, table, row=None):
+        """Rule that made a table and source file of the computation, as text; of a claim's row, its criterion."""
+        if table not in self.origins:
+            return ""
+        rule, source = self.origins[table]
+        if table == "claims" and row is not None:
+            source = _source_file(JUDGES[self.tables[table].at[row, "claim"]].__module__)
+        return f"rule {rule}; computed in {source}"
 
 
-def read_results(tables):
-    """Results of the tables at {name: path of the CSV}; the NetCDF files have the same names in the same folder."""
+def table_origins(registry):
+    """{table: (rule that makes it, source file of its function or else of its script)}.
+
+    registry : section `tables` of workflow/results.yaml
+    """
+    origins = {}
+    for rule, made in registry.items():
+        module = made["function"].rpartition(".")[0] if "function" in made else None
+        source = _source_file(module) if module else f"workflow/scripts/{rule}.py"
+        origins |= dict.fromkeys(made["tables"], (rule, source))
+    return origins
+
+
+def _source_file(module):
+    """Path of a module in the folder of the project."""
+    return f"src/{module.replace('.', '/')}.py"
+
+
+def read_results(tables, origins):
+    """Results of the tables at {name: path of the CSV}; the NetCDF files have the same names in the same folder.
+
+    origins : of `table_origins`
+    """
     files = {name: Path(path).with_suffix(".nc") for name, path in tables.items()}
     settings = {name: read_recorded(file, "settings", missing={}) for name, file in files.items()}
     read = {name: read_table(path, **_ONLY_EMPTY_IS_MISSING) for name, path in tables.items()}
-    return Results({name: _with_empty_texts(table) for name, table in read.items()}, settings)
+    return Results({name: _with_empty_texts(table) for name, table in read.items()}, settings, origins)
 
 
 def read_published(path):

@@ -5,7 +5,7 @@ import pandas as pd
 
 from support.page import Page, number_in
 from viscorough_study.page.render import caption, number, percent
-from viscorough_study.page.results import Number, read_results
+from viscorough_study.page.results import Number, Results, read_results, table_origins
 from viscorough_study.run.readable import readable
 from viscorough_study.run.tables import recorded, write_table
 
@@ -24,7 +24,7 @@ def test_numbers_name_their_place():
     html += str(number(Number(3, "claims", "verdict", counted="not <b>")))
     (_, place, text), (_, count, counted) = Page(html).numbers
     wanted = {"value": "0.123456", "data-table": "claims", "data-row": "7", "data-column": "value"}
-    assert place == wanted | {"title": "results/tables/claims.csv, row 7, value"}
+    assert place == wanted | {"title": "results/tables/claims.csv, line 9, column value"}
     assert (text, counted) == ("0.123", "3")
     assert count["data-counted"] == "not <b>"
     assert str(percent(Number(0.0131, "methods", "error", 0))).endswith(">1.31 %</data>")
@@ -37,7 +37,7 @@ def test_results_give_numbers_with_their_places(tmp_path):
     files = tmp_path / "errors.csv", tmp_path / "errors.nc"
     attributes = recorded(settings={"seed": 1})
     write_table(table, *files, columns=columns, dimension="row", title="Errors", attributes=attributes)
-    results = read_results({"errors": tmp_path / "errors.csv"})
+    results = read_results({"errors": tmp_path / "errors.csv"}, {})
     rows = results.rows("errors", kind="a")
     assert results.extremes(rows, "errors", "error") == 2 * (Number(0.3, "errors", "error", 0),)
     assert results.extremes(results.tables["errors"], "errors", "error")[0] == Number(0.1, "errors", "error", 1)
@@ -50,3 +50,19 @@ def test_captions_become_html_with_the_conventions_of_the_figures():
     text = 'One x & ``setting``.\n\nMean: {{ snakemake.params.conventions["average"] }}.'
     html = caption(text, {"average": "geometric"})
     assert html.split("\n")[:2] == ["<p>One x &amp; <code>setting</code>.</p>", "<p>Mean: geometric.</p>"]
+
+
+def test_numbers_state_the_rule_and_the_source_file_of_their_table():
+    """That of the criterion for a claim, that of the script for a rule without a function."""
+    function = "viscorough_study.fits.fit_table.scaling_table"
+    origins = table_origins(
+        {"judge_claims": {"tables": ["claims"]}, "fit": {"function": function, "tables": ["scaling"]}}
+    )
+    tables = {"claims": pd.DataFrame({"claim": ["beta"], "value": [0.4]}), "scaling": pd.DataFrame({"beta": [0.4]})}
+    results = Results(tables, {}, origins)
+    script, criterion = "workflow/scripts/judge_claims.py", "src/viscorough_study/verdicts/law_criteria.py"
+    assert results.count("claims", "claim", "beta").origin == f"rule judge_claims; computed in {script}"
+    assert results.number("claims", 0, "value").origin == f"rule judge_claims; computed in {criterion}"
+    number = results.number("scaling", 0, "beta")
+    place = "results/tables/scaling.csv, line 2, column beta"
+    assert number.attributes["title"] == f"{place}; rule fit; computed in src/viscorough_study/fits/fit_table.py"

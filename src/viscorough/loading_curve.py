@@ -14,12 +14,14 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only
 from viscorough.saved import Saved
 from viscorough.summaries import span, unit_power
-from viscorough.types import Array, Pair
+from viscorough.types import Array, Integers, Pair
 
 # Relative rounding error of forces and depths that is allowed for.
 _ROUNDING = 1e-12
 # Rounding error of the difference of two depths, over the larger one.
 _CANCELLATION = 4 * np.finfo(float).eps
+# Halvings of the interval between two levels that find a force to rounding: forces differ by up to 1e10 times, 2**34.
+_HALVINGS = 90
 
 
 @dataclass(frozen=True)
@@ -153,11 +155,60 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         depth[force == 0] = 0.0
 
         inside = (force > self.force[0]) & (force <= self.force[-1])
-        j = np.searchsorted(self.force, force[inside])
-        forces, depths, stiffnesses = ((at[j - 1], at[j]) for at in (self.force, self.depth, self.stiffness))
-        joined = self.contact_count[j] - self.contact_count[j - 1]
-        depth[inside], stiffness[inside] = interpolate_between(forces, depths, stiffnesses, joined, force[inside])
+        between = self._levels_around(np.searchsorted(self.force, force[inside]))
+        depth[inside], stiffness[inside] = interpolate_between(*between, force[inside])
         return depth, stiffness
+
+    def at_depth(self, depth: ArrayLike) -> tuple[Array, Array]:
+        """Force F/G and stiffness k/G at given depths u, interpolated between the levels; nan beyond the last one.
+
+        The inverse of `at_force`: the same curve, read the other way round. Before the first level force and stiffness
+        are nan where `at_force` gives nan; at zero depth the force is zero.
+
+        Parameters
+        ----------
+        depth : array_like
+            u, any shape [length].
+
+        Returns
+        -------
+        force, stiffness : array
+            F/G [length²] and k/G [length], of the same shape.
+
+        Examples
+        --------
+        >>> import viscorough
+        >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+        >>> curve = viscorough.indent(disc)
+        >>> force, stiffness = curve.at_depth(0.01)
+        >>> round(float(curve.at_force(force)[0]), 9)
+        0.01
+        """
+        depth = units.numbers(depth, self.length_unit, self.length_unit, "depth")
+        # A depth computed back from a level may miss it by rounding.
+        for end in (self.depth[0], self.depth[-1]):
+            depth = np.where(np.abs(depth - end) <= _ROUNDING * end, end, depth)
+        force = np.full(depth.shape, np.nan)
+        first = (depth >= 0) & (depth <= self.depth[0])
+        force[first] = depth[first] / self.depth[0] * self.force[0]
+        inside = (depth > self.depth[0]) & (depth <= self.depth[-1])
+        j = np.searchsorted(self.depth, depth[inside])
+        between, low, high = self._levels_around(j), self.force[j - 1], self.force[j]
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            is_below = interpolate_between(*between, middle)[0] < depth[inside]
+            low, high = np.where(is_below, middle, low), np.where(is_below, high, middle)
+        force[inside] = np.where(depth[inside] == self.depth[j], self.force[j], high)
+        at_force, stiffness = self.at_force(force)
+        return np.where(np.isnan(at_force), np.nan, force), stiffness
+
+    def _levels_around(self, after: Integers) -> tuple[Pair, Pair, Pair, Array]:
+        """Forces, depths and stiffnesses at the levels before and after, and the number of elements that join.
+
+        after : indices of the levels after
+        """
+        forces, depths, stiffnesses = ((at[after - 1], at[after]) for at in (self.force, self.depth, self.stiffness))
+        return forces, depths, stiffnesses, self.contact_count[after] - self.contact_count[after - 1]
 
 
 def check_curve(caller: str, curve: object) -> None:

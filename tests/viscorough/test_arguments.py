@@ -260,6 +260,7 @@ WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "Medium", "reference",
 WITHOUT_NUMBERS |= {"load_curve", "save", "plot", "read_heights", "read_line"}
 METHODS = {
     "at_force": call(CURVE.at_force, {"force": ([0.5, 1.0], AREA)}),
+    "at_depth": call(CURVE.at_depth, {"depth": ([0.5, 1.0], LENGTH)}),
     "normalised": call(CURVE.normalised, {"rms": (0.5, LENGTH), "diameter": (8.0, LENGTH)}),
     "depth_at": call(viscorough.march_events(DISC).depth_at, {"impulse": [0.5, 1.0]}),
     "event_at": call(viscorough.march_events(DISC).event_at, {"impulse": [0.5, 1.0]}),
@@ -381,7 +382,7 @@ def is_allowed(each, name, wrong):
     may_be_nan = {"nodata", "heights", "pressure", "gap", "compliance", "low", "high", "time", "scatter", "misfit"}
     if each.function in FORMULAS:
         return wrong in ("nan", "infinite")  # a formula of nan is nan
-    return wrong in ("nan", "infinite") and (name in may_be_nan or each is METHODS["at_force"])
+    return wrong in ("nan", "infinite") and (name in may_be_nan or each in (METHODS["at_force"], METHODS["at_depth"]))
 
 
 @pytest.mark.parametrize(("each", "name"), [case for case in CASES if case.values[0].numbers[case.values[1]][1]])

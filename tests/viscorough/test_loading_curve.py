@@ -115,6 +115,37 @@ def test_outside_the_levels():
     np.testing.assert_array_equal(depth, [np.nan, 0.1])
 
 
+@pytest.mark.parametrize("exponent", [1, 1.5, 7])
+def test_force_at_a_depth_is_exact_for_a_power_law(exponent):
+    body = reference.PowerLawBody(0.3, exponent)
+    curve, depth = curve_of_body(body, np.array([1e-3, 1.0])), np.geomspace(1e-3, 1.0, 50)[1:-1]
+    force, stiffness = curve.at_depth(depth)
+    np.testing.assert_allclose(force, body.force(depth), rtol=1e-11)
+    np.testing.assert_allclose(stiffness, body.stiffness(depth), rtol=1e-10)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_force_at_a_depth_inverts_depth_at_a_force(seed):
+    """On coarse levels, where the interpolant follows tangents and chords, and at the levels themselves."""
+    random = np.random.default_rng(seed)
+    gaps = np.sort(random.random(300) ** 3)
+    curve = springs(gaps - gaps[0], np.sort(random.uniform(0.01, 1.2, 4)))
+    depth = np.append(np.linspace(curve.depth[0], curve.depth[-1], 301), curve.depth)
+    force, stiffness = curve.at_depth(depth)
+    np.testing.assert_allclose(curve.at_force(force)[0], depth, rtol=1e-12)
+    np.testing.assert_array_equal(force[-4:], curve.force)
+    np.testing.assert_allclose(stiffness[-4:], curve.stiffness, rtol=1e-14)
+
+
+def test_depths_outside_the_levels():
+    straight = springs(np.array([0.0, 0.5]), [0.2])
+    force, stiffness = straight.at_depth(np.array([[0.0, 0.1, 0.2], [0.2000001, -0.1, np.nan]]))
+    np.testing.assert_allclose(force, [[0, 0.1, 0.2], [np.nan] * 3], rtol=1e-15)
+    np.testing.assert_array_equal(stiffness, [[1, 1, 1], [np.nan] * 3])
+    curve = curve_of_body(reference.sphere(1.0), np.array([0.1, 0.2]))
+    np.testing.assert_array_equal(curve.at_depth([0.0, 0.05, 0.1])[0], [0.0, np.nan, curve.force[0]])
+
+
 def test_normalised_and_contact_fraction():
     curve = springs(np.array([0.0, 0.5]), [0.2, 0.8])
     x, kappa = curve.normalised(rms=0.1, diameter=5.0)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from viscorough.argument_names import argument, spelled
 from viscorough.arrays import real_numbers, shown, whole_number
 from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array, Mask
@@ -77,15 +78,15 @@ def prepare(
         heights[np.isin(heights, marks.astype(heights.dtype))] = np.nan
     if crop is not None:
         if np.shape(crop) != (2, 2):
-            raise ValueError(f"crop: {shown(crop)}; ((first column, end), (first row, end)) is needed")
+            raise ValueError(f"{argument('crop')}: {shown(crop)}; ((first column, end), (first row, end)) is needed")
         crop = [[whole_number("crop", point, at_least=0) for point in pair] for pair in crop]
         for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
             if not 0 <= first < end <= size:
-                raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
+                raise ValueError(f"{argument('crop')} to {name} {first}:{end}; within 0:{size} is allowed")
         (left, right), (top, bottom) = crop
         heights = heights[top:bottom, left:right].copy()
     if np.isnan(heights).all():
-        raise ValueError("no height is left after nodata and crop; at least one is needed")
+        raise ValueError(f"no height is left after {argument('nodata')} and {argument('crop')}; at least one is needed")
     if flip:
         np.negative(heights, out=heights)
     if detrend != "none":
@@ -132,7 +133,9 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
         values, last = _factors(functions, target - tangent[known]), curvature
         curvature = float(values[3])
         if not abs(curvature) < _LARGEST_SLOPE:
-            raise ValueError("detrend sphere: the sphere that fits is smaller than the map; crop to a cap of it")
+            raise ValueError(
+                f"{argument('detrend', 'sphere')}: the sphere that fits is smaller than the map; crop to a cap of it"
+            )
         if abs(curvature - last) <= 1e-12 * abs(curvature):
             break
     return largest * (reach * (np.tensordot(values[:3], plane, 1) + _sag(curvature, squared)))
@@ -157,7 +160,8 @@ def _tilt(indenter: Indenter) -> Iterator[str]:
         about = (
             f"{rise / rms:.3g} times the rms height about it" if rms > 1e-9 * rise else "and nothing is left about it"
         )
-        yield f"the map is tilted: a plane through it rises by {rise:.3g}, {about}; --detrend plane removes it"
+        text = f"the map is tilted: a plane through it rises by {rise:.3g}, {about}"
+        yield f"{text}; {argument('detrend', 'plane')} removes it"
 
 
 # ---- values that mark missing points, spikes
@@ -178,9 +182,10 @@ def _suspicious_values(heights: Array) -> Iterator[str]:
         if gap > (1 if is_mark else _FAR) * span and (is_mark or (count > 1 and span > 0)):
             share = 100 * count / (count + others.size)
             exact = f"{value:g}" if float(f"{value:g}") == value else repr(value)
+            removes = f"{spelled(f'--nodata {exact}', f'nodata={exact}')} removes"
             yield (
                 f"{count} points ({share:.2g} %) have the value {exact}, far from all others ({lowest:g} to "
-                f"{highest:g}): if it marks what was not measured, --nodata {exact} removes it"
+                f"{highest:g}): if it marks what was not measured, {removes} it"
             )
 
 
@@ -201,7 +206,7 @@ def _spikes(heights: Array) -> Iterator[str]:
         yield (
             f"{count} single points stand up to {largest:.3g} above all their neighbours, {largest / usual:.3g} times "
             "the usual step between neighbours: spikes touch first; "
-            "--nodata with their values sets those to nan that are artefacts"
+            f"{argument('nodata')} with their values sets those to nan that are artefacts"
         )
 
 
@@ -226,7 +231,7 @@ def _holes(heights: Array) -> Iterator[str]:
         regions, share = f"{count} enclosed region{'' if count == 1 else 's'}", 100 * points / heights.size
         yield (
             f"{regions} without heights ({points} points, {share:.2g} %) are holes that never touch; "
-            "--fill harmonic closes them"
+            f"{argument('fill', 'harmonic')} closes them"
         )
 
 

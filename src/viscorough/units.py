@@ -12,6 +12,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+from viscorough.argument_names import argument, spelled
+
 UNKNOWN = "1"
 # Units of length that are read without pint, as files and results spell them; users may write µ for u.
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
@@ -99,7 +101,7 @@ def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
         raise ValueError(f"{name}: {error}; a number in {unit}, or with such a unit, is needed") from error
     if own and length_unit == UNKNOWN:
         text = f"{stated}: needs a plain number, since the unit of length is not known"
-        raise ValueError(f"{text}; state it with the lengths, or by --unit where heights are read")
+        raise ValueError(f"{text}; {argument('unit')} where heights are read states it")
     converted = real_numbers(name, magnitude)
     return converted if conversion == 1 else read_only(converted * conversion)
 
@@ -121,7 +123,8 @@ def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: s
         return newtons / divisor
     for force in forces if isinstance(forces, list | tuple) else [forces]:
         if isinstance(force, str) or unit_attribute(force):
-            text = "a force needs --shear-modulus or --young (shear_modulus in Python); a plain number is F/G"
+            moduli = spelled("--shear-modulus or --young", "shear_modulus")
+            text = f"a force needs {moduli}; a plain number is F/G"
             shown = force if isinstance(force, str | Quantity) else f"in {unit_attribute(force)}"
             raise ValueError(f"{name} {shown}: {text}")
     return numbers(forces, "N", length_unit, name)

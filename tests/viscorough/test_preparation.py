@@ -106,7 +106,7 @@ def test_tilt_is_told_with_numbers():
     rough = ROUGH + 2.0 * X
     (text,) = doubts(indenter(rough))
     assert "rises by 40, 41.2 times the rms height" in text  # 41 columns, 2 per unit of length
-    assert "--detrend plane" in text
+    assert "detrend='plane' removes it" in text
     assert doubts(prepare(indenter(rough), detrend="plane")) == []
     assert "nothing is left" in doubts(indenter(PLANE))[0]
 
@@ -125,7 +125,7 @@ def test_marks_of_missing_points_are_told(mark, points):
     heights.flat[:points] = mark
     (text,) = doubts(indenter(heights))
     assert text.startswith(f"{points} points (")
-    assert float(text.partition("--nodata ")[2].split()[0]) == mark
+    assert float(text.partition("nodata=")[2].split()[0]) == mark
     assert doubts(prepare(indenter(heights), nodata=mark)) == []
 
 

@@ -65,6 +65,6 @@ def test_common_units_do_without_pint():
 
 @pytest.mark.parametrize("force", ["5 mN", "2", units.Quantity(5.0, "mN"), pint.Quantity(5.0, "mN")])
 def test_force_with_a_unit_needs_a_modulus(force):
-    with pytest.raises(ValueError, match=r"^force .*: a force needs --shear-modulus"):
+    with pytest.raises(ValueError, match=r"^force .*: a force needs shear_modulus"):
         units.forces_over_modulus([1.0, force], None, "m", "force")
     assert units.forces_over_modulus([1.0, units.Quantity(2.0)], None, "m", "force").tolist() == [1.0, 2.0]

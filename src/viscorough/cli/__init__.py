@@ -14,10 +14,10 @@ from signal import SIG_DFL
 
 import click
 
+from viscorough.argument_names import spelled_as_options
 from viscorough.cli import messages
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
-
 
 @click.group(no_args_is_help=False, context_settings={"show_default": True})
 @click.version_option(package_name="viscorough", message="%(prog)s %(version)s")
@@ -48,6 +48,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
         with (
             on_interrupt(SIG_DFL),  # ends the process at once, also where libraries do not return to Python
             warnings.catch_warnings(record=True) as caught,
+            spelled_as_options(),
             commands.make_context("viscorough", arguments, obj=caught) as context,
         ):
             commands.invoke(context)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.arrays import fraction, increasing, real_number
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.options import DEFAULT, SolverOptions
@@ -118,22 +119,23 @@ def indent(
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
     unit = indenter.length_unit
     if shear_modulus is not None:
-        shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
+        modulus = argument("shear_modulus")
+        shear_modulus = positive(modulus, units.number(shear_modulus, "Pa", unit, modulus))
     if not (isinstance(until_force, float | np.floating) and until_force == np.inf):
-        until_force = units.forces_over_modulus(until_force, shear_modulus, unit, "until_force")
-        until_force = real_number("until_force", until_force)
+        until_force = units.forces_over_modulus(until_force, shear_modulus, unit, argument("until_force"))
+        until_force = real_number(argument("until_force"), until_force)
     if not until_force > 0:
-        raise ValueError(f"indent: until_force must be positive, not {until_force!r}")
+        raise ValueError(f"{argument('until_force', of='indent')} must be positive, not {until_force!r}")
     progress = progress or (lambda done: None)
     if depths is not None:
-        depths = np.atleast_1d(units.numbers(depths, unit, unit, "depths"))
-        depths = increasing("indent: depths", depths, above_zero=True)
+        depths = np.atleast_1d(units.numbers(depths, unit, unit, argument("depths")))
+        depths = increasing(argument("depths", of="indent"), depths, above_zero=True)
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1], whole=False)
         contacts = accumulate(depths, solver.advance, initial=solver.unloaded_state())
         levels = _levels(islice(contacts, 1, None), len(depths), progress)
     elif forces is not None:
-        forces = np.atleast_1d(units.forces_over_modulus(forces, shear_modulus, unit, "forces"))
-        forces = increasing("indent: forces", forces, above_zero=True)
+        forces = np.atleast_1d(units.forces_over_modulus(forces, shear_modulus, unit, argument("forces")))
+        forces = increasing(argument("forces", of="indent"), forces, above_zero=True)
         # The correction to the force takes the other half of the tolerance.
         solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False)
         levels = _levels(map(ForceSearch(solver).contact_at, forces), len(forces), progress)
@@ -165,10 +167,9 @@ def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str
     """Raise ValueError if given depths or forces are so close that what was found at them does not increase."""
     if given is not None and (closer := np.diff(found) <= 0).any():
         level, values = int(np.argmax(closer)), np.asarray(given)
-        pair = f"{name}: {values[level]:.17g} and {values[level + 1]:.17g} are closer than the accuracy"
-        raise ValueError(
-            f"indent: {pair}, so that {other} do not increase; fewer levels or a smaller tolerance are needed"
-        )
+        pair = f"{values[level]:.17g} and {values[level + 1]:.17g} are closer than the accuracy"
+        text = f"{argument(name, of='indent')}: {pair}, so that {other} do not increase"
+        raise ValueError(f"{text}; fewer levels or a smaller tolerance are needed")
 
 
 def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.arrays import increasing
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
@@ -85,12 +86,15 @@ def contact_at(
         raise ValueError("contact_at: either depth or force must be given")
     by_depth, unit = force is None, indenter.length_unit
     if shear_modulus is not None:
-        shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
+        modulus = argument("shear_modulus")
+        shear_modulus = positive(modulus, units.number(shear_modulus, "Pa", unit, modulus))
     if by_depth:
-        given = units.numbers(depth, unit, unit, "depth")
+        given = units.numbers(depth, unit, unit, argument("depth"))
     else:
-        given = units.forces_over_modulus(force, shear_modulus, unit, "force")
-    values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", np.atleast_1d(given), above_zero=True)
+        given = units.forces_over_modulus(force, shear_modulus, unit, argument("force"))
+    values = increasing(
+        argument("depth" if by_depth else "force", of="contact_at"), np.atleast_1d(given), above_zero=True
+    )
     # Pressures that add up to the force exactly take the other half of the tolerance.
     largest_depth = float(values[-1]) if by_depth else np.inf
     solver = ContactSolver(indenter, tolerance / 2, options, threads, largest_depth=largest_depth, whole=False)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.arrays import real_number
 from viscorough.contact import dense
 from viscorough.contact.complete_contact import EXACT, joined_surface
@@ -65,9 +66,9 @@ def check_solvable(
     if indenter.spacing * indenter.row_spacing < sys.float_info.min:
         text = f"a spacing of {indenter.spacing:g} is too small to represent areas"
         raise ValueError(f"{name}: {text}; a smaller unit of length is needed")
-    tolerance = real_number(f"{name}: tolerance", tolerance)
+    tolerance = real_number(argument("tolerance", of=name), tolerance)
     if not 1e-12 <= tolerance <= 0.1:
-        raise ValueError(f"{name}: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
+        raise ValueError(f"{argument('tolerance', of=name)} must be between 1e-12 and 0.1, not {tolerance!r}")
     require_threads(name, threads)
     if not isinstance(options, SolverOptions):
         raise TypeError(f"{name}: options: {type(options).__name__}; viscorough.SolverOptions(...) is needed")

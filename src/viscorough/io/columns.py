@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.io.atomic import path_named, reading
 from viscorough.io.heights import npy_array
 from viscorough.types import Array, FilePath
@@ -88,7 +89,8 @@ def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[floa
     for i, (field, unit) in enumerate(zip(fields, wanted, strict=True)):
         stated = _unit_in(field)
         if stated is not None and length_unit == units.UNKNOWN:
-            text = "states a unit, but the unit of length is not known; --unit where the heights are read states it"
+            text = "states a unit, but the unit of length is not known; "
+            text += f"{argument('unit')} where the heights are read states it"
             raise ValueError(f"the heading {field[:40]!r} {text}")
         if stated is not None:
             with path_named(f"the heading {field[:40]!r}"):

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.io.atomic import reading, reason
 from viscorough.io.scan import Scan
 from viscorough.types import FilePath
@@ -83,7 +84,7 @@ def _number(channel: str | None, count: int, what: str) -> int:
     if channel is None and count == 1:
         return 0
     if channel is None or not (channel.isascii() and channel.isdigit() and int(channel) < count):
-        raise ValueError(f"it has {count} {what}; --channel 0 to {count - 1} chooses one")
+        raise ValueError(f"it has {count} {what}; {argument('channel')} 0 to {count - 1} chooses one")
     return int(channel)
 
 

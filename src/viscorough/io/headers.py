@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from viscorough import units
+from viscorough.argument_names import argument
 
 Spacing = tuple[float, float]
 Stated = dict[str, list[tuple[str, str, str]]]  # what a header states, by role: line, unit in brackets, value
@@ -88,8 +89,8 @@ def read_header(
         if (role := _role(key)) and value:  # "Height (nm):" heads numbers below
             stated[role].append((line.strip()[:80], match[2] or "", value))
         elif _FACTOR.match(key) and ("factor" in key.lower() or _LENGTH.match(value)):
-            text = "heights are the numbers times a factor; without this line, and with --scale, they are read"
-            raise ValueError(f"header {line.strip()[:80]!r}: {text}")
+            way = f"without this line, and with {argument('scale')}, they are read"
+            raise ValueError(f"header {line.strip()[:80]!r}: heights are the numbers times a factor; {way}")
         elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and units.is_length(_unit_text(value)):
             text = "of which lengths is not stated; 'XY units', 'Z units' are allowed"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter, positive
 from viscorough.io import elevation, netcdf
@@ -173,8 +174,10 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
     quantity = units.with_unit(scale)
     number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
     if unit and units.is_length(scan.unit):
-        raise ValueError(f"--scale {scale}: heights are in {scan.unit} in the file; a plain number is needed")
-    number = positive("--scale", number)
+        raise ValueError(
+            f"{argument('scale')} {scale}: heights are in {scan.unit} in the file; a plain number is needed"
+        )
+    number = positive(argument("scale"), number)
     if scan.heights.dtype.kind not in "iuf":
         return scan  # is refused for what it holds
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
@@ -196,7 +199,7 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
         return elevation.read_elevation(path, elevation.FORMATS[suffix], channel)
     if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):  # some instruments use the suffixes of texts
         if channel is not None:
-            raise ValueError(f"--channel {channel}: a file of this kind holds one map; leave it out")
+            raise ValueError(f"{argument('channel')} {channel}: a file of this kind holds one map; leave it out")
         return Scan(npy_array(path)) if suffix == ".npy" else _with_units_of_prj(read_text(path, is_map=is_map), path)
     from viscorough.io.instruments import read_instrument
 

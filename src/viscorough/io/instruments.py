@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.errors import AccuracyWarning
 from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
@@ -59,8 +60,8 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         if kind == "nms":
             spacing = _nms_spacing(spacing, unit, heights.shape)
     if others:
-        text = f"the channel {chosen.channel_id!r} is read; --channel chooses another of {', '.join(map(repr, others))}"
-        warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
+        way = f"{argument('channel')} chooses another of {', '.join(map(repr, others))}"
+        warnings.warn(f"{path}: the channel {chosen.channel_id!r} is read; {way}", AccuracyWarning, stacklevel=2)
     if chosen.is_periodic:
         text = "states that it is one period of a periodic surface; it is treated as a body with edges"
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
@@ -134,7 +135,7 @@ def _choose(file: Any, wanted: str | None) -> tuple[Any, list[str]]:
         what = "no map of heights" if wanted is None else f"no map of heights is called {wanted!r}"
         raise ValueError(f"{what}; its maps of two dimensions are {names}")
     if len(of_heights) > 1 and file.format() in _OF_ARRAYS:
-        raise ValueError(f"it holds several arrays, {names}; --channel chooses one")
+        raise ValueError(f"it holds several arrays, {names}; {argument('channel')} chooses one")
     return of_heights[0], [channel.channel_id for channel in of_heights[1:]]
 
 
@@ -179,7 +180,9 @@ def _gwyddion_scan(path: FilePath, file: Any, wanted: str | None) -> Scan:
     if not fields:
         raise ValueError("it holds no map of heights")
     if len(chosen) != 1:
-        raise ValueError(f"its maps are {', '.join(repr(names[each]) for each in fields)}; --channel chooses one")
+        raise ValueError(
+            f"its maps are {', '.join(repr(names[each]) for each in fields)}; {argument('channel')} chooses one"
+        )
     field, (unit, lateral) = maps[chosen[0]], units_of[chosen[0]]
     heights = _gwyddion_numbers(path, field)
     if mask := content.get(f"/{chosen[0]}/mask"):

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.indenter import Indenter, positive
 from viscorough.types import Array
 
@@ -58,26 +59,32 @@ def to_indenter(
     length_unit = _unit_of_heights(scan, unit)
     if lateral_unit is not None:
         if length_unit == units.UNKNOWN:
-            raise ValueError(f"--lateral-unit {lateral_unit}: heights are in no stated unit; --unit is needed")
+            text = f"{argument('lateral_unit')} {lateral_unit}: heights are in no stated unit"
+            is_missing = spacing is None and scan.spacing is None
+            needed = f"{argument('unit')} and {argument('spacing')} are" if is_missing else f"{argument('unit')} is"
+            raise ValueError(f"{text}; {needed} needed")
         lateral_unit = units.length_unit(lateral_unit)
         scan = scan._replace(
-            spacing_unit=_agreed_unit("--lateral-unit", "positions x and y", scan.spacing_unit, lateral_unit)
+            spacing_unit=_agreed_unit("lateral_unit", "positions x and y", scan.spacing_unit, lateral_unit)
         )
     if length_unit == units.UNKNOWN and scan.corners is not None and _may_be_degrees(*scan.corners):
         left, bottom, right, top = scan.corners
         text = f"x from {left:g} to {right:g}, y from {bottom:g} to {top:g}, in no stated unit, may be degrees"
-        raise ValueError(f"{text}; lengths are needed, and their unit by --unit")
+        raise ValueError(f"{text}; lengths are needed, with {argument('unit')}")
     in_file = _stated_spacing(scan, length_unit, is_given=spacing is not None)
     own = in_file if spacing is None else _given_spacing(scan, length_unit, spacing, lateral_unit)
     if not np.isfinite(own).all():
         which = "neighbouring points" if np.isnan(own).all() else "columns" if np.isnan(own[0]) else "rows"
-        raise ValueError(f"the distance between {which} is not stated; --spacing is needed")
+        text, needed = f"the distance between {which} is not stated", f"{argument('spacing')} is needed"
+        if length_unit == units.UNKNOWN:
+            text, needed = f"{text}, nor a unit", f"{needed}, and {argument('unit')} for forces and results in SI units"
+        raise ValueError(f"{text}; {needed}")
     names = ("points", "points") if dimensions == 1 else ("columns", "rows")
     for name, distance, stated in zip(names, own, in_file, strict=True):
         if abs(distance - stated) > _AGREEMENT * abs(stated):
             unit = "" if length_unit == units.UNKNOWN else f" {length_unit}"
-            text = f"--spacing {distance:g}{unit} contradicts the file, in which {name} are {stated:g}{unit} apart"
-            raise ValueError(f"{text}; leave it out")
+            text = f"{distance:g}{unit} contradicts the file, in which {name} are {stated:g}{unit} apart"
+            raise ValueError(f"{argument('spacing')} {text}; leave it out")
     dx, dy = in_file if np.isfinite(in_file).all() else own
     return Indenter(scan.heights, dx, dy, length_unit=length_unit)
 
@@ -94,22 +101,23 @@ def _given_spacing(scan: Scan, length_unit: str, spacing: Any, plain_unit: str |
     """
     pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
     if len(pair) != 2:
-        raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
+        raise ValueError(f"{argument('spacing')} {spacing!r}: one distance, or the two of columns and rows, is needed")
     pair = [units.with_unit(distance) for distance in pair]
     if plain_unit is not None:
         pair = [_in_unit(distance, plain_unit) for distance in pair]
     have_units = all(isinstance(distance, units.Quantity) and distance.unit for distance in pair)
     if not have_units and scan.spacing is None and scan.spacing_unit not in (units.UNKNOWN, scan.unit):
         text = f"heights are in {scan.unit}, x and y in {scan.spacing_unit}; a spacing with a unit is needed"
-        raise ValueError(f"--spacing in plain numbers: {text}")
-    return tuple(positive("spacing", number) for number in units.numbers(pair, length_unit, length_unit, "--spacing"))
+        raise ValueError(f"{argument('spacing')} in plain numbers: {text}")
+    name = argument("spacing")
+    return tuple(positive(name, number) for number in units.numbers(pair, length_unit, length_unit, name))
 
 
 def _in_unit(distance: Any, unit: str) -> units.Quantity:
     """A distance, which has this unit if it is a plain number."""
     if isinstance(distance, units.Quantity):
         return distance if distance.unit else units.Quantity(distance.number, unit)
-    return units.Quantity(positive("spacing", distance), unit)
+    return units.Quantity(positive(argument("spacing"), distance), unit)
 
 
 def _unit_of_heights(scan: Scan, given: str | None) -> str:
@@ -117,9 +125,9 @@ def _unit_of_heights(scan: Scan, given: str | None) -> str:
     try:
         _stated_unit(scan.unit)
     except ValueError as error:
-        text = f"--scale, such as '5 nm', states the height of 1 {scan.unit.strip()[:60]}"
+        text = f"{argument('scale')}, such as '5 nm', states the height of 1 {scan.unit.strip()[:60]}"
         raise ValueError(f"heights: {error}; {text}") from error
-    return _agreed_unit("--unit", "heights", scan.unit, given)
+    return _agreed_unit("unit", "heights", scan.unit, given)
 
 
 def _stated_unit(in_file: str) -> str | None:
@@ -127,12 +135,14 @@ def _stated_unit(in_file: str) -> str | None:
     return None if in_file.strip() in ("", units.UNKNOWN) else units.length_unit(in_file)
 
 
-def _agreed_unit(option: str, lengths: str, in_file: str, given: str | None) -> str:
-    """The unit of lengths, stated by the file or given by an option, which must agree; "1" if it is not known."""
+def _agreed_unit(name: str, lengths: str, in_file: str, given: str | None) -> str:
+    """The unit of lengths, stated by the file or given by an argument, which must agree; "1" if it is not known."""
     stated = _stated_unit(in_file)
     given = None if given is None or given == units.UNKNOWN else units.length_unit(given)
     if stated and given and units.metres(stated) != units.metres(given):
-        raise ValueError(f"{option} {given} contradicts the file, in which {lengths} are in {stated}; leave it out")
+        raise ValueError(
+            f"{argument(name)} {given} contradicts the file, in which {lengths} are in {stated}; leave it out"
+        )
     return stated or given or units.UNKNOWN
 
 
@@ -149,10 +159,10 @@ def _stated_spacing(scan: Scan, length_unit: str, is_given: bool) -> tuple[float
         if is_given:
             return np.nan, np.nan
         text = f"heights are in {length_unit}, coordinates in no stated unit"
-        raise ValueError(f"{text}; --spacing or --lateral-unit is needed")
+        raise ValueError(f"{text}; {argument('spacing')} or {argument('lateral_unit')} is needed")
     unit = units.length_unit(scan.spacing_unit)
     if length_unit == units.UNKNOWN:
-        raise ValueError(f"coordinates are in {unit}, heights in no stated unit; --unit is needed")
+        raise ValueError(f"coordinates are in {unit}, heights in no stated unit; {argument('unit')} is needed")
     factor = units.factor(unit, length_unit)
     return tuple(float(f"{factor * distance:.14g}") for distance in scan.spacing)
 
@@ -178,5 +188,7 @@ def uniform_spacing(name: str, positions: Array) -> float:
         text = f"coordinate {name} is not uniform: its steps lie between {steps.min():g} and {steps.max():g}"
         raise ValueError(f"{text}; equal spacing is needed")
     if rounding > _UNIFORMITY * abs(mean) * steps.size and np.ptp(steps) > _UNIFORMITY * abs(mean):
-        raise ValueError(f"coordinate {name} is too coarse for its steps of {abs(mean):g}; --spacing is needed")
+        raise ValueError(
+            f"coordinate {name} is too coarse for its steps of {abs(mean):g}; {argument('spacing')} is needed"
+        )
     return abs(mean)

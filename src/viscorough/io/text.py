@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from viscorough.argument_names import spelled
 from viscorough.io.atomic import reading, reason
 from viscorough.io.grids import even_spacing, gridded
 from viscorough.io.headers import Spacing, read_header, states
@@ -294,7 +295,8 @@ def _check_not_profile(shape: tuple[int, ...]) -> None:
     count, name = min(zip(shape, ("row", "column"), strict=True))
     if count <= 2:
         text = f"a single {name}, as of a profile" if count == 1 else f"two {name}s, as x and z of a profile"
-        way = "viscorough reduce and read_line read profiles; a map of this shape needs both distances, --spacing DX,DY"
+        reads, both = spelled("viscorough reduce", "read_line"), spelled("--spacing DX,DY", "spacing=(dx, dy)")
+        way = f"{reads} reads profiles; a map of this shape needs both distances, {both}"
         raise ValueError(f"{text}; {way}")
 
 

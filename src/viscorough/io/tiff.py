@@ -7,6 +7,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.io.atomic import reading
 from viscorough.io.elevation import read_elevation
 from viscorough.io.instruments import read_instrument
@@ -66,7 +67,7 @@ def _page(pages: list[Any], channel: str | None) -> Any:
     if channel is None and len(pages) == 1:
         return pages[0]
     if channel is None or not (channel.isascii() and channel.isdigit() and int(channel) < len(pages)):
-        raise ValueError(f"it has {len(pages)} pages; --channel 0 to {len(pages) - 1} chooses one")
+        raise ValueError(f"it has {len(pages)} pages; {argument('channel')} 0 to {len(pages) - 1} chooses one")
     return pages[int(channel)]
 
 

@@ -64,7 +64,7 @@ def test_units_of_coordinates_and_heights(tmp_path, crs, metres, unit, height_me
 
 def test_a_height_unit_is_needed_where_the_file_states_none(tmp_path):
     path = elevation(tmp_path / "a.tif", crs="EPSG:2263")
-    with refused("heights in no stated unit; --unit is needed"):
+    with refused("heights in no stated unit; unit is needed"):
         read_heights(path)
     assert read_heights(path, unit="m").spacing == pytest.approx(2 * SURVEY_FOOT, rel=1e-12)
 
@@ -208,7 +208,7 @@ def test_coordinates_without_a_unit_that_may_be_degrees_are_refused(tmp_path, su
     for left, top, step in ((-105.56, 40.09, 3 / 3600), (-180.5, 90.5, 1)):  # points at -180 and 90
         near = rasterio.transform.from_origin(left, top, step, step)
         path = elevation(tmp_path / f"a{suffix}", crs=None, transform=near)
-        with refused("may be degrees; lengths are needed, and their unit by --unit"):
+        with refused("may be degrees; lengths are needed, with unit"):
             read_heights(path)
         assert read_heights(path, unit="mm").spacing == pytest.approx(step)
 
@@ -277,7 +277,7 @@ def test_bands_and_pages_are_chosen_by_number(tmp_path):
         np.testing.assert_array_equal(indenter.heights, 2 * HEIGHTS)
         assert (indenter.spacing, indenter.row_spacing) == (2, 3)
         for channel in (None, "2", "z"):
-            with refused(f"it has 2 {what}; --channel 0 to 1 chooses one"):
+            with refused(f"it has 2 {what}; channel 0 to 1 chooses one"):
                 read_heights(path, channel=channel, unit="m")
 
 

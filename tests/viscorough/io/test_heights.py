@@ -107,7 +107,7 @@ def test_counts_are_scaled(tmp_path):
         with refused(r"counts\.npy: "):
             viscorough.read_heights(tmp_path / "counts.npy", 20.0, scale=scale)
     indenter.save(tmp_path / "nm.nc")
-    with refused("--scale 0.053 nm: heights are in nm in the file"):
+    with refused("scale 0.053 nm: heights are in nm in the file"):
         viscorough.read_heights(tmp_path / "nm.nc", scale="0.053 nm")
     for odd in (["a", "b"], [True, False]):
         np.save(tmp_path / "odd.npy", np.array([odd, odd]))
@@ -118,7 +118,7 @@ def test_counts_are_scaled(tmp_path):
 def test_a_scale_converts_a_unit_that_is_no_length(tmp_path):
     """As the phase of an interferometer, in radians; the message about the unit names the option."""
     (tmp_path / "a.txt").write_text("# Z units: rad\n# pixel size: 2 um\n1 2 3\n4 5 7\n5 8 6\n")
-    with refused(r"unit 'rad': not a unit of length, .*; --scale, such as '5 nm', states the height of 1 rad"):
+    with refused(r"unit 'rad': not a unit of length, .*; scale, such as '5 nm', states the height of 1 rad"):
         read_heights(tmp_path / "a.txt")
     indenter = read_heights(tmp_path / "a.txt", scale="5 nm")
     np.testing.assert_allclose(indenter.heights, [[5, 10, 15], [20, 25, 35], [25, 40, 30]], rtol=1e-15)
@@ -149,7 +149,7 @@ SPIP = """# File Format = ASCII
 def test_a_header_with_the_height_of_a_count_is_refused_and_the_advice_works(tmp_path, factor):
     path = tmp_path / "spip.asc"
     path.write_text(SPIP.replace("Bit2nm = 0.5", factor))
-    with refused(f"header '# {factor}': .*; without this line, and with --scale, they are read"):
+    with refused(f"header '# {factor}': .*; without this line, and with scale, they are read"):
         read_heights(path, 1000, unit="nm")
     path.write_text(SPIP.replace("# Bit2nm = 0.5\n", ""))
     indenter = read_heights(path, "1000 nm", scale="0.5 nm")
@@ -187,7 +187,7 @@ def test_a_spacing_may_be_a_text_with_a_unit(tmp_path):
         assert (indenter.spacing, indenter.row_spacing) == (500.0, 500.0)
     with refused("spacing '0.5 Pa'|unit 'Pa': cannot be converted to nm"):
         read_heights(tmp_path / "a.npy", "0.5 Pa", unit="nm")
-    with refused(r"--spacing 0.5 um: needs a plain number, since the unit of length is not known; .* --unit"):
+    with refused(r"spacing 0.5 um: needs a plain number, since the unit of length is not known; .* unit"):
         read_heights(tmp_path / "a.npy", "0.5 um")
 
 

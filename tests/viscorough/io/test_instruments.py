@@ -66,13 +66,13 @@ def test_arrays_of_several_maps_are_listed(tmp_path, suffix):
     else:
         save = np.savez if suffix == "npz" else lambda path, **arrays: scipy.io.savemat(path, arrays)
         save(path, **arrays)
-    with refused("it holds several arrays, 'first', 'second'; --channel chooses one"):
+    with refused("it holds several arrays, 'first', 'second'; channel chooses one"):
         read_heights(path, 0.5, unit="um")
     second = read_heights(path, 0.5, unit="um", channel="second")
     np.testing.assert_array_equal(second.heights, 2 * MAP)
     assert (second.spacing, second.length_unit) == (0.5, "um")
     np.testing.assert_array_equal(read_heights(path, 1.0, channel="1").heights, 2 * MAP)
-    with refused("--spacing is needed"):
+    with refused("spacing is needed"):
         read_heights(path, channel="second")
     with refused("no map of heights is called 'third'; .* are 'first', 'second'"):
         read_heights(path, 0.5, channel="third")
@@ -124,7 +124,7 @@ def test_the_first_of_several_channels_of_an_instrument_is_read_with_a_warning(t
     path = gwyddion(
         tmp_path / "a.gwy", ("Trace", MAP, "m", "m"), ("Phase", MAP, "m", "deg"), ("Retrace", 2 * MAP, "m", "m")
     )
-    with pytest.warns(AccuracyWarning, match="the channel 'Trace' is read; --channel chooses another of 'Retrace'"):
+    with pytest.warns(AccuracyWarning, match="the channel 'Trace' is read; channel chooses another of 'Retrace'"):
         indenter = read_heights(path)
     np.testing.assert_array_equal(indenter.heights, MAP)
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2e-6, 3e-6))
@@ -137,7 +137,7 @@ def test_gwyddion_fields_without_units(tmp_path):
     indenter = read_heights(path, 1.0, unit="nm")
     np.testing.assert_array_equal(indenter.heights, np.where(MAP > 8e-8, np.nan, MAP))
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (1.0, 1.0, "nm")
-    with refused("--spacing is needed"):
+    with refused("spacing is needed"):
         read_heights(path, unit="nm")
     heights_only = gwyddion(tmp_path / "b.gwy", ("Topo", MAP, "", "m"))
     assert read_heights(heights_only, "5 um").spacing == pytest.approx(5e-6)
@@ -145,7 +145,7 @@ def test_gwyddion_fields_without_units(tmp_path):
     indenter = read_heights(lengths_only, unit="um")
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2, 3))
     two = gwyddion(tmp_path / "d.gwy", ("A", MAP, None, None), ("B", 2 * MAP, None, None), ("V", MAP, "m", "V"))
-    with refused("its maps are 'A', 'B'; --channel chooses one"):
+    with refused("its maps are 'A', 'B'; channel chooses one"):
         read_heights(two, 1.0)
     np.testing.assert_array_equal(read_heights(two, 1.0, channel="B").heights, 2 * MAP)
     with refused("it holds no map of heights"):

@@ -66,11 +66,11 @@ def test_positions_far_from_0_are_as_exact_as_their_precision():
 @pytest.mark.parametrize(
     ("content", "arguments", "what"),
     [
-        ({}, {"spacing": 0.5}, "--spacing 0.5 um contradicts the file, in which rows are 1 um apart"),
-        ({}, {"unit": "nm"}, "--unit nm contradicts the file, in which heights are in um"),
-        ({"unit": None}, {}, "coordinates are in um, heights in no stated unit; --unit"),
-        ({"x_unit": None, "y_unit": None}, {}, "coordinates in no stated unit; --spacing"),
-        ({"x": range(4), "y": range(3), "x_unit": None, "y_unit": None}, {}, "--spacing is needed"),
+        ({}, {"spacing": 0.5}, "spacing 0.5 um contradicts the file, in which rows are 1 um apart"),
+        ({}, {"unit": "nm"}, "unit nm contradicts the file, in which heights are in um"),
+        ({"unit": None}, {}, "coordinates are in um, heights in no stated unit; unit"),
+        ({"x_unit": None, "y_unit": None}, {}, "coordinates in no stated unit; spacing"),
+        ({"x": range(4), "y": range(3), "x_unit": None, "y_unit": None}, {}, "spacing is needed"),
         ({"y_unit": None}, {}, "coordinates are in um and 1"),
         ({"y_unit": "s"}, {}, "not a unit of length"),
         ({"unit": "V"}, {"unit": "um"}, "not a unit of length"),

@@ -122,9 +122,9 @@ def test_points_whose_lateral_unit_is_given(tmp_path):
     (tmp_path / "b.xyz").write_text(f"# Value units: um\n{POINTS}")
     assert read_heights(tmp_path / "b.xyz", lateral_unit="mm").spacing == 500
     (tmp_path / "c.xyz").write_text(f"x [um] y [um] z [nm]\n{POINTS}")
-    with refused("--lateral-unit mm contradicts the file, in which positions x and y are in um"):
+    with refused("lateral_unit mm contradicts the file, in which positions x and y are in um"):
         read_heights(tmp_path / "c.xyz", lateral_unit="mm")
-    with refused("heights are in no stated unit; --unit is needed"):
+    with refused("heights are in no stated unit; unit is needed"):
         read_heights(tmp_path / "a.xyz", lateral_unit="mm")
 
 

@@ -29,7 +29,7 @@ def test_units_of_imagej(tmp_path):
         imagej(tmp_path / "c.tif", unit="um", yunit="mm"),
         tmp_path / "plain.tif",
     ):
-        with refused("--spacing is needed"):
+        with refused("spacing is needed"):
             read_heights(path, unit="um")
 
 
@@ -62,7 +62,7 @@ def test_pages_are_chosen_by_number(tmp_path):
     tifffile.imwrite(tmp_path / "a.tif", np.stack([HEIGHTS, 2 * HEIGHTS]), photometric="minisblack")
     np.testing.assert_array_equal(read_heights(tmp_path / "a.tif", 1, channel="1").heights, 2 * HEIGHTS)
     for channel in ("2", "z"):
-        with refused("it has 2 pages; --channel 0 to 1"):
+        with refused("it has 2 pages; channel 0 to 1"):
             read_heights(tmp_path / "a.tif", 1, channel=channel)
 
 
@@ -75,7 +75,7 @@ def test_bad_files_are_one_line(tmp_path):
     tifffile.imwrite(tmp_path / "several.tif", np.zeros((2, 5, 7)), photometric="minisblack")
     complaints = {"cut": "not readable", "missing": "not readable", "colours": "3 colours"}
     complaints |= {"false": "in false colours", "white": "low numbers are white"}
-    for name, what in (complaints | {"several": "2 pages; --channel 0 to 1"}).items():
+    for name, what in (complaints | {"several": "2 pages; channel 0 to 1"}).items():
         with refused(f"{name}.tif.*{what}"):
             read_heights(tmp_path / f"{name}.tif", 1)
 

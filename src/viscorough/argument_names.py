@@ -1,0 +1,45 @@
+"""Names of arguments in messages: as in Python, or as options of the command line.
+
+A function of the library and a command read the same input, and their messages have one source. Each message names
+arguments by `argument`, which spells them as the caller gave them.
+"""
+
+import contextlib
+from collections.abc import Iterator
+from contextvars import ContextVar
+
+_AS_OPTIONS = ContextVar("_AS_OPTIONS", default=False)
+
+
+@contextlib.contextmanager
+def spelled_as_options() -> Iterator[None]:
+    """Context in which messages name options of the command line."""
+    token = _AS_OPTIONS.set(True)
+    try:
+        yield
+    finally:
+        _AS_OPTIONS.reset(token)
+
+
+def spelled(option: str, argument: str) -> str:
+    """Return the first text on the command line, and the second one in Python."""
+    return option if _AS_OPTIONS.get() else argument
+
+
+def argument(name: str, value: object = None, *, of: str = "") -> str:
+    """Return an argument, and its value unless that is None, as the user gives it.
+
+    of : function that has the argument; only in Python, since the command line names its command anyway
+
+    Examples
+    --------
+    >>> argument("lateral_unit"), argument("detrend", "plane")
+    ('lateral_unit', "detrend='plane'")
+    >>> with spelled_as_options():
+    ...     argument("lateral_unit"), argument("detrend", "plane")
+    ('--lateral-unit', '--detrend plane')
+    """
+    option = f"--{name.replace('_', '-')}"
+    if value is not None:
+        option, name = f"{option} {value}", f"{name}={value!r}"
+    return spelled(option, f"{of}: {name}" if of else name)

@@ -7,9 +7,9 @@ import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays, ReadOnlyTuple, real_number
 from viscorough.saved import Saved
-from viscorough.summaries import si_unit, unit_power, with_unit
+from viscorough.summaries import unit_power, with_unit
 from viscorough.types import Mask
-from viscorough.units import square_metres
+from viscorough.units import in_metres, result_units, square_metres
 
 # Mean area by which a whole element exceeds the contact, per change of contact between two elements, over dx dy.
 EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
@@ -107,13 +107,14 @@ class Contact(ReadOnlyArrays, Saved):
             f"depth u {with_unit(self.depth, unit)}, force F/G {with_unit(self.force, area)}, "
             f"stiffness k/G {with_unit(self.stiffness, unit)}\n"
             f"contact area {with_unit(self.contact_area, area)} ({100 * self.contact_fraction:.3g} %), "
+            f"corrected {with_unit(self.corrected_contact_area, area)}, "
             f"mean p/G {with_unit(self.mean_pressure)}, largest p/G {with_unit(self.largest_pressure)}"
         )
-        if self.shear_modulus is not None and self.normal_force is not None:
-            pressures = self.mean_pressure, self.largest_pressure
-            mean, largest = (with_unit(self.shear_modulus * p, si_unit("Pa", unit)) for p in pressures)
-            force = with_unit(self.normal_force, si_unit("N", unit))
-            text += f"\nforce F {force}, mean p {mean}, largest p {largest}"
+        if self.shear_modulus is not None:
+            read = result_units(unit, self.shear_modulus)
+            text += f"\nforce F {read['force'].text(self.force)}, mean p {read['pressure'].text(self.mean_pressure)}, "
+            text += f"largest p {read['pressure'].text(self.largest_pressure)}, "
+            text += f"stiffness k {read['stiffness'].text(self.stiffness)}"
         return text
 
     @property
@@ -122,6 +123,13 @@ class Contact(ReadOnlyArrays, Saved):
         if self.shear_modulus is None:
             return None
         return self.force * self.shear_modulus * square_metres(self.length_unit)
+
+    @property
+    def normal_stiffness(self) -> float | None:
+        """Stiffness k = dF/du [N/m], or in consistent units as `normal_force`; None without a shear modulus."""
+        if self.shear_modulus is None:
+            return None
+        return self.stiffness * self.shear_modulus * in_metres(self.length_unit)
 
     @property
     def elements(self) -> int:

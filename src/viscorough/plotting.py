@@ -41,9 +41,12 @@ _SYMBOLS = {"depth": "u", "force": "F/G", "stiffness": "k/G", "pressure": "p/G",
 # Name of a variable: what stands on its axis.
 _LABELS = {name: f"{name} ${symbol}$" for name, symbol in _SYMBOLS.items()}
 _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x": "$x$", "y": "$y$"}
-# Name of a number of a contact: what it is called above its maps.
+_LABELS |= {"normal_force": "force $F$", "normal_stiffness": "stiffness $k$", "normal_pressure": "pressure $p$"}
+# Name of a number of a contact: its label above the maps.
 _STATE = {"depth": "$u$", "force": "$F/G$", "normal_force": "$F$", "largest_normal_pressure": "largest $p$"}
-_STATE |= {"contact_fraction": "contact fraction", "patches": "patches"}
+_STATE |= {"contact_fraction": "contact fraction", "corrected_contact_area": "contact area", "patches": "patches"}
+_PRESSURES = ("normal_pressure", "mean_normal_pressure", "largest_normal_pressure")
+_AREAS = ("contact_area", "corrected_contact_area")
 
 
 def plot(result: Content | LoadingCurve | Kinetics | Contact | Indenter, path: FilePath | None = None) -> Figure:
@@ -119,10 +122,11 @@ def _surface(variables: Variables) -> Figure:
 
 def _fields(variables: Variables) -> Figure:
     variables = _in_readable_units(variables)
-    names = [name for name in ("pressure", "gap", "contact") if name in variables]
+    pressure = _with_modulus(variables, "pressure")
+    names = [name for name in (pressure, "gap", "contact") if name in variables]
     stacks = {name: variables[name].values.reshape(-1, *variables[name].values.shape[-2:]) for name in names}
-    outside = np.isnan(stacks["pressure"])
-    contacts = min(len(stacks["pressure"]), _MOST_MAPS)
+    outside = np.isnan(stacks[pressure])
+    contacts = min(len(stacks[pressure]), _MOST_MAPS)
     figure = Figure(figsize=(3.1 * len(names), 2.7 * contacts), layout="constrained")
     for i, part in enumerate(figure.subfigures(contacts, 1, squeeze=False)[:, 0]):
         part.suptitle(_state(variables, i), fontsize=mpl.rcParams["axes.titlesize"])
@@ -131,14 +135,24 @@ def _fields(variables: Variables) -> Figure:
     return figure
 
 
-def _in_readable_units(variables: Variables) -> Variables:
-    """The variables with positions, gap, heights and depth in units in which their numbers are easy to read.
+def _with_modulus(variables: Variables, name: str) -> str:
+    """Name of the variable in N, N/m or Pa, which a file has if a modulus was given; otherwise the name itself."""
+    return f"normal_{name}" if f"normal_{name}" in variables else name
 
-    Positions along x and y have one unit. Lengths of no known unit stay as they are.
+
+def _in_readable_units(variables: Variables) -> Variables:
+    """Convert positions, gap, heights and depth to units that suit their size, pressures to MPa and areas to um2.
+
+    Positions along x and y have one unit. Quantities whose unit of length is not known stay as they are.
     """
     changed = dict(variables)
+    for names, unit in ((_PRESSURES, "MPa"), (_AREAS, "um2")):
+        for name in names:
+            if (stated := _stated_unit(variables, name)) != "1":
+                values = variables[name].values * units.factor(stated, unit)
+                changed[name] = variables[name]._replace(values=values, attributes={"units": unit})
     for names in (("x", "y"), ("gap",), ("heights",), ("depth",)):
-        known = [name for name in names if name in variables and variables[name].attributes.get("units", "1") != "1"]
+        known = [name for name in names if _stated_unit(variables, name) != "1"]
         largest = max((np.nanmax(np.abs(variables[name].values)) for name in known), default=0)
         if len({variables[name].attributes["units"] for name in known}) != 1 or not 0 < largest < np.inf:
             continue
@@ -151,11 +165,16 @@ def _in_readable_units(variables: Variables) -> Variables:
     return changed
 
 
+def _stated_unit(variables: Variables, name: str) -> str:
+    """Unit of a variable as its file states it; "1" if there is no such variable."""
+    return str(variables[name].attributes.get("units", "1")) if name in variables else "1"
+
+
 def _state(variables: Variables, index: int) -> str:
-    """Numbers of one of the contacts in a file, as text."""
+    """Numbers of one of the contacts in a file, as text; F stands for F/G if a modulus was given."""
     texts = []
     for name, symbol in _STATE.items():
-        if name in variables and variables[name].values.size > index:
+        if name in variables and variables[name].values.size > index and _with_modulus(variables, name) == name:
             texts.append(f"{symbol} {with_unit(variables[name].values.flat[index], _unit(variables[name]))}")
     return ", ".join(texts)
 
@@ -167,17 +186,17 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
         step = (position[-1] - position[0]) / max(len(position) - 1, 1) or 1.0
         extent += [position[0] - step / 2, position[-1] + step / 2]
     left, right, top, bottom = extent  # the first row is at the top
-    look: dict[str, Any] = {"extent": [left, right, bottom, top], "cmap": _COLOURS.get(name)}
-    title = name
+    look: dict[str, Any] = {"extent": [left, right, bottom, top], "cmap": _COLOURS.get(name.removeprefix("normal_"))}
+    title = name.removeprefix("normal_")
     if name == "contact":
         look |= {"cmap": mpl.colors.ListedColormap(["white", _VERMILION]), "vmin": 0, "vmax": 1}
-    if name == "pressure" and (values > 0).any():
+    if title == "pressure" and (values > 0).any():
         look["vmax"] = np.percentile(values[values > 0], _PERCENTILE)
         title += f", colours to the {_PERCENTILE}th percentile"
     image = axes.imshow(values, origin="upper", **look)
     axes.set_facecolor("0.85")
     if name != "contact":
-        extend = "max" if name == "pressure" else "neither"
+        extend = "max" if title.startswith("pressure") else "neither"
         figure.colorbar(image, ax=axes, label=_label_of(variables, name), shrink=0.85, extend=extend)
     _label(axes, variables, "x", "y", title)
 
@@ -203,13 +222,14 @@ def _motion(variables: Variables) -> Figure:
 
 def _loading_curve(variables: Variables) -> Figure:
     dimensions = variables["depth"].values.ndim
-    pairs = [("depth", "force"), ("force", "stiffness"), ("force", "contact_fraction")]
+    force, stiffness = (_with_modulus(variables, name) for name in ("force", "stiffness"))
+    pairs = [("depth", force), (force, stiffness), (force, "contact_fraction")]
     pairs = [pair for pair in pairs if pair[1] in variables and variables[pair[1]].values.ndim == dimensions]
     figure, axes = _panels(len(pairs))
     for panel, (x, y) in zip(axes, pairs, strict=True):
         for along, over in zip(*(np.atleast_2d(variables[name].values) for name in (x, y)), strict=True):
             _curve(panel, along, over, thin=dimensions == 2)
-        _label(panel, variables, x, y, y)
+        _label(panel, variables, x, y, y.removeprefix("normal_"))
     return figure
 
 
@@ -242,9 +262,10 @@ def _label_of(variables: Variables, name: str) -> str:
 
 
 def _unit(variable: Variable) -> str:
-    """The unit of a variable as people write it: µm², µm/s; "1" without one."""
+    """The unit of a variable as people write it: µm², µm/s, N/m; "1" without one."""
     unit = str(variable.attributes.get("units") or "1").replace("um", "µm")
-    return re.sub(r"(?<=[^\W\d])-?\d", lambda power: power[0].translate(_SUPERSCRIPTS), unit).replace(" s⁻¹", "/s")
+    unit = re.sub(r"(?<=[^\W\d])-?\d", lambda power: power[0].translate(_SUPERSCRIPTS), unit)
+    return re.sub(r" (s|m)⁻¹", r"/\1", unit)
 
 
 _X = {"x": ("x",)}

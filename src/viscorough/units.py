@@ -10,8 +10,9 @@ import functools
 import math
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
+from viscorough import summaries
 from viscorough.argument_names import argument, spelled
 
 UNKNOWN = "1"
@@ -135,7 +136,50 @@ def square_metres(length_unit: str) -> float:
 
     Moduli in Pa and forces in N per this area are consistent with lengths in that unit.
     """
-    return 1.0 if length_unit == UNKNOWN else metres(length_unit) ** 2
+    return in_metres(length_unit) ** 2
+
+
+def in_metres(length_unit: str) -> float:
+    """Return a unit of length in m; 1 if it is not known, since units are then consistent by themselves."""
+    return 1.0 if length_unit == UNKNOWN else metres(length_unit)
+
+
+class ResultUnit(NamedTuple):
+    """Unit in which people read a quantity: its name, and the factor that converts the solver's number to it.
+
+    The solver's numbers are lengths in the unit of the heights, areas in this unit squared, and F/G, k/G and p/G.
+    """
+
+    name: str
+    factor: float
+
+    def text(self, value: float, digits: int = 4) -> str:
+        """Return a number of the solver as text in this unit."""
+        return summaries.with_unit(value * self.factor, self.name, digits)
+
+
+def result_units(length_unit: str, shear_modulus: float | None) -> dict[str, ResultUnit]:
+    """Return the units of "length", "area", "force", "stiffness" and "pressure" for readers.
+
+    Lengths are in um and areas in um2. Forces are in N, stiffnesses in N/m and pressures in MPa if the shear modulus is
+    given [Pa]; otherwise they are F/G in um2, k/G in um and p/G in 1. If the unit of length is not known, all numbers
+    are in consistent units, which are called "1".
+    """
+    if length_unit == UNKNOWN:
+        moduli = 1.0 if shear_modulus is None else shear_modulus
+        factors = {"length": 1.0, "area": 1.0, "force": moduli, "stiffness": moduli, "pressure": moduli}
+        return {name: ResultUnit("1", factor) for name, factor in factors.items()}
+    micrometres = factor(length_unit, "um")
+    length, area = ResultUnit("um", micrometres), ResultUnit("um2", micrometres**2)
+    if shear_modulus is None:
+        return {"length": length, "area": area, "force": area, "stiffness": length, "pressure": ResultUnit("1", 1.0)}
+    return {
+        "length": length,
+        "area": area,
+        "force": ResultUnit("N", shear_modulus * square_metres(length_unit)),
+        "stiffness": ResultUnit("N/m", shear_modulus * in_metres(length_unit)),
+        "pressure": ResultUnit("MPa", shear_modulus * 1e-6),
+    }
 
 
 def factor(unit: str, to: str) -> float:

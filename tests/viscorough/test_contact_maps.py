@@ -49,9 +49,13 @@ def test_forces_in_newtons_on_a_modulus():
     contact = viscorough.contact_at(indenter, force="10 uN", shear_modulus="0.5 MPa")
     assert contact.force == pytest.approx(2e7, rel=1e-12)
     assert contact.normal_force == pytest.approx(1e-5, rel=1e-12)
+    assert contact.normal_stiffness == pytest.approx(contact.stiffness * 1e-9 * 0.5e6, rel=1e-12)
     assert np.nansum(contact.pressure) * 0.5e6 * 5e-6**2 == pytest.approx(1e-5, rel=1e-6)
-    assert str(contact).splitlines()[-1].startswith("force F 1e-05 N, mean p ")
-    assert viscorough.contact_at(indenter, force=2e7).normal_force is None
+    last = str(contact).splitlines()[-1]
+    assert last.startswith("force F 1e-05 N, mean p ")
+    assert f"largest p {0.5 * contact.largest_pressure:.4g} MPa, stiffness k {contact.normal_stiffness:.4g} N/m" in last
+    plain = viscorough.contact_at(indenter, force=2e7)
+    assert (plain.normal_force, plain.normal_stiffness) == (None, None)
     assert viscorough.contact_at(indenter, depth="20 nm").depth == 20
     curve = viscorough.indent(indenter, forces=["5 uN", "10 uN"], shear_modulus=0.5e6)
     np.testing.assert_allclose(curve.force, [1e7, 2e7], rtol=1e-12)

@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from viscorough.contact_maps import Contact
-from viscorough.io.curves import NORMAL_FORCE, OVER_LEVELS
+from viscorough.io.curves import OVER_LEVELS, WITH_MODULUS
 from viscorough.io.netcdf import Content, Quantities, Variable, centred_axes, described, padded
-from viscorough.summaries import si_unit
 from viscorough.types import Array
 
 COMMENT = (
@@ -32,7 +31,14 @@ NUMBERS = {
     "largest_pressure": ("largest pressure over shear modulus", 0),
     "residual": OVER_LEVELS["residual"],
 }
-_PATCHES = {"patches": ("number of patches of contact", 0), "patch_area": ("area of a patch", 2)}
+# Numbers, and a map, of contacts whose shear modulus is given.
+NUMBERS_WITH_MODULUS = {
+    **WITH_MODULUS,
+    "mean_normal_pressure": ("mean normal pressure p", "Pa"),
+    "largest_normal_pressure": ("largest normal pressure p", "Pa"),
+}
+_MAP_WITH_MODULUS = {"normal_pressure": ("normal pressure p", "Pa")}
+PATCHES = {"patches": ("number of patches of contact", 0), "patch_area": ("area of a patch", 2)}
 # Tolerance from which on maps are stored in single precision, as the solver has them, and the range of their numbers.
 _SINGLE_FROM, _SINGLE_RANGE = 1e-4, (1e-25, 1e30)
 
@@ -61,15 +67,15 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     add(("y", "x"), MAPS, **maps)
     variables["contact"].attributes.update(flag_values=np.array([0, 1], np.int8), flag_meanings="apart in_contact")
     add((), NUMBERS, **{name: [getattr(contact, name) for contact in contacts] for name in NUMBERS})
-    if first.shear_modulus is not None:
-        add((), NORMAL_FORCE, normal_force=[contact.normal_force for contact in contacts])
-        for name, text in {"": "", "mean_": "mean ", "largest_": "largest "}.items():
-            dimensions, values, _ = variables[f"{name}pressure"]
-            about = {"long_name": f"{text}normal pressure p", "units": si_unit("Pa", unit)}
-            variables[f"{name}normal_pressure"] = Variable(dimensions, values * first.shear_modulus, about)
+    if (modulus := first.shear_modulus) is not None:
+        numbers = {name: [getattr(contact, name) for contact in contacts] for name in WITH_MODULUS}
+        pressures = {f"{name}_normal_pressure": f"{name}_pressure" for name in ("mean", "largest")}
+        numbers |= {new: [modulus * getattr(contact, old) for contact in contacts] for new, old in pressures.items()}
+        add((), NUMBERS_WITH_MODULUS, **numbers)
+        add(("y", "x"), _MAP_WITH_MODULUS, normal_pressure=[modulus * each for each in maps["pressure"]])
     areas = [contact.patches().areas for contact in contacts]
-    add((), _PATCHES, patches=[len(of_contact) for of_contact in areas])
-    add(("patch",), _PATCHES, patch_area=list(padded(areas)))
+    add((), PATCHES, patches=[len(of_contact) for of_contact in areas])
+    add(("patch",), PATCHES, patch_area=list(padded(areas)))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
 

@@ -31,7 +31,8 @@ OVER_LEVELS: dict[str, tuple[str, int]] = {
     "contact_fraction": ("share of the indenter's elements in contact", 0),
     "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
 }
-NORMAL_FORCE = {"normal_force": ("normal force F", "N")}
+# Quantities of curves and contacts whose shear modulus is given.
+WITH_MODULUS = {"normal_force": ("normal force F", "N"), "normal_stiffness": ("normal stiffness k = dF/du", "N m-1")}
 STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]  # fields of LoadingCurve, not derived
 PER_CURVE = {
     "elements": (int, "number of elements of the indenter"),
@@ -44,14 +45,15 @@ PER_CURVE = {
 def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) -> Content:
     """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE.
 
-    shear_modulus : G [Pa], for the force F [N] as well, or both in consistent units if that of length is not known
+    shear_modulus : G [Pa], or in consistent units if the unit of length is not known; adds WITH_MODULUS
     """
     values, unit = {name: getattr(curve, name) for name in OVER_LEVELS}, curve.length_unit
     if shear_modulus is not None:
         values["normal_force"] = curve.force * (shear_modulus * units.square_metres(unit))
+        values["normal_stiffness"] = curve.stiffness * (shear_modulus * units.in_metres(unit))
     attributes = {"title": "Loading curve of a rigid indenter", "comment": COMMENT}
     attributes |= {name: getattr(curve, name) for name in PER_CURVE}
-    return Content(described(("level",), values, {**OVER_LEVELS, **NORMAL_FORCE}, unit), attributes)
+    return Content(described(("level",), values, {**OVER_LEVELS, **WITH_MODULUS}, unit), attributes)
 
 
 def curve_from_content(content: Content) -> LoadingCurve:

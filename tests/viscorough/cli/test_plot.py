@@ -92,6 +92,23 @@ def test_axes_have_symbols_and_units(here):
     assert axes_of("medium.nc") == ["time $t$ (s)", "depth $u$"]
 
 
+def test_axes_are_in_si_units_with_a_modulus(here):
+    """G = 2 MPa: G um2 is 2e-6 N and G um is 2 N/m."""
+    assert run("indent disc.nc --shear-modulus '2 MPa' -o si_curve.nc") == 0
+    curve, figure = viscorough.load_curve("si_curve.nc"), viscorough.plot(netcdf.read("si_curve.nc"))
+    force, stiffness, _ = figure.axes
+    assert axes_of("si_curve.nc")[:4] == ["depth $u$ (µm)", "force $F$ (N)", "force $F$ (N)", "stiffness $k$ (N/m)"]
+    np.testing.assert_allclose(force.lines[0].get_ydata(), 2e-6 * curve.force)
+    np.testing.assert_allclose(stiffness.lines[0].get_ydata(), 2 * curve.stiffness)
+    assert run("contact disc.nc --depth 0.3 --shear-modulus '2 MPa' -o si_fields.nc") == 0
+    figure, fields = viscorough.plot(netcdf.read("si_fields.nc")), netcdf.read("si_fields.nc").variables
+    assert "pressure $p$ (MPa)" in axes_of("si_fields.nc")
+    np.testing.assert_allclose(figure.axes[0].images[0].get_array(), 2 * fields["pressure"].values, rtol=1e-6)
+    line = figure.subfigs[0].get_suptitle()
+    assert f"contact area {float(fields['corrected_contact_area'].values):.4g} µm²" in line
+    assert "F/G" not in line
+
+
 def test_without_matplotlib_one_line_says_what_to_install(monkeypatch, complaint):
     monkeypatch.delattr(viscorough, "plotting")
     monkeypatch.setitem(sys.modules, "viscorough.plotting", None)  # as if it could not be imported
@@ -121,4 +138,4 @@ def test_results_are_drawn_from_python(here):
     assert (here / "contact.png").exists()
     assert figure.axes[0].get_title() == "pressure, colours to the 99th percentile"
     limit = figure.axes[0].images[0].get_clim()[1]
-    assert limit == pytest.approx(np.percentile(contact.pressure[contact.contact], 99))
+    assert limit == pytest.approx(2 * np.percentile(contact.pressure[contact.contact], 99))  # MPa

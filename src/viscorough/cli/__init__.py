@@ -1,34 +1,49 @@
 """The command line: the command `viscorough`, with a module for each of its subcommands.
 
 A user's mistake is answered with one line on stderr, "viscorough COMMAND: what, where, what is allowed", exit code 2
-and no output file; exit code 1 means that a solver did not converge, exit code 0 that the output file is complete, also
-if the closing line could not be written to stdout. Where warnings are errors (PYTHONWARNINGS=error), a warning is
-answered like a mistake. Modules that take long to import are imported where a command needs them, so that help and
-messages come quickly.
+and no output file. Exit code 1 means that a solver did not converge, 3 that a table of several files is complete but
+some of them failed, and 0 that the output file is complete, also if the closing line could not be written to stdout.
+Where warnings are errors (PYTHONWARNINGS=error), a warning is answered like a mistake. Modules that take long to import
+are imported where a command needs them, so that help and messages come quickly.
 """
 
+import os
 import sys
 import warnings
 from importlib import import_module
 from signal import SIG_DFL
 
 import click
+from click.shell_completion import shell_complete
 
 from viscorough.argument_names import spelled_as_options
 from viscorough.cli import messages
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
 
-@click.group(no_args_is_help=False, context_settings={"show_default": True})
+# Variable of the environment by which the shell asks for completions, as click names it.
+_COMPLETE = "_VISCOROUGH_COMPLETE"
+
+
+@click.group(
+    invoke_without_command=True, context_settings={"show_default": True, "help_option_names": ["-h", "--help"]}
+)
 @click.version_option(package_name="viscorough", message="%(prog)s %(version)s")
-def cli() -> None:
+@click.pass_context
+def cli(context: click.Context) -> None:
     """Penetration of rough rigid indenters into a linearly viscous half-space.
 
     \b
     Example: a map of heights in metres, points 2 micrometres apart, pressed by 5 N into 1e6 Pa s:
         viscorough indent heights.npy --spacing 2e-6 -o curve.nc
         viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
+
+    \b
+    Completion of commands, options and files by the tab key, in bash (in zsh: zsh_source):
+        eval "$(_VISCOROUGH_COMPLETE=bash_source viscorough)"
     """
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
 
 
 for _name in ("indent", "contact", "kinetics", "creep", "march", "reduce", "generate", "estimate", "plot"):
@@ -42,6 +57,8 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
     commands : the click.Group to run
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if instruction := os.environ.get(_COMPLETE):
+        return shell_complete(commands, {}, "viscorough", _COMPLETE, instruction)
     command = " ".join(["viscorough", *(name for name in arguments[:1] if name in commands.commands)])
     messages.escape_unencodable_characters()
     try:
@@ -63,7 +80,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
     except ConvergenceError as error:
         messages.report(command, error)
         return 1
-    except (click.ClickException, ValueError, OSError, MemoryError, Warning) as error:
+    except messages.ERRORS as error:
         messages.report(command, error)
         return 2
     finally:

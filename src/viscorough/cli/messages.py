@@ -10,9 +10,11 @@ from pathlib import Path
 
 import click
 
-from viscorough.errors import AccuracyWarning
+from viscorough.errors import AccuracyWarning, ConvergenceError
 
 _DELAY = 1.0  # seconds: what is done sooner shows no progress
+# Errors that are answered with one line; any other one is a fault of viscorough.
+ERRORS = (click.ClickException, ValueError, OSError, MemoryError, Warning, ConvergenceError)
 
 
 def announce(output: Path, text: str) -> None:
@@ -40,18 +42,20 @@ def complain(command: str, text: str) -> None:
 def report(command: str, error: BaseException) -> None:
     """Write one line about an error to stderr."""
     hint = ""
-    if isinstance(error, click.ClickException):
-        text = error.format_message()
-        if isinstance(error, click.UsageError):
-            command = error.ctx.command_path if error.ctx else command
-            hint = f"; see {command} --help"
-    elif isinstance(error, MemoryError):
-        text = f"not enough memory{f' ({error})' if str(error) else ''}; a smaller map of heights is needed"
-    elif isinstance(error, OSError) and error.errno and error.filename is None:  # those of files are named
-        text = f"standard output cannot be written ({error.strerror})"
-    else:
-        text = str(error)
-    complain(command, f"{text.strip().removesuffix('.')}{hint}")
+    if isinstance(error, click.UsageError):
+        command = error.ctx.command_path if error.ctx else command
+        hint = f"; see {command} --help"
+    if isinstance(error, OSError) and error.errno and error.filename is None:  # those of files are named
+        error = OSError(f"standard output cannot be written ({error.strerror})")
+    complain(command, f"{error_text(error)}{hint}")
+
+
+def error_text(error: BaseException) -> str:
+    """Return the message of an error without a full stop."""
+    text = error.format_message() if isinstance(error, click.ClickException) else str(error)
+    if isinstance(error, MemoryError):
+        text = f"not enough memory{f' ({text})' if text else ''}; a smaller map of heights is needed"
+    return text.strip().removesuffix(".")
 
 
 def escape_unencodable_characters() -> None:
@@ -85,6 +89,6 @@ def progress_bar(label: str, wanted: bool | None) -> Iterator[Callable[[float], 
         delay=_DELAY,
         disable=sys.stderr is None or (None if wanted is None else not wanted),  # None where it was closed
         leave=False,
-        bar_format="{desc}: {percentage:3.0f} % |{bar:30}| {elapsed} gone, about {remaining} left",
+        bar_format="{desc}: {percentage:3.0f} % |{bar:30}| {elapsed} elapsed, about {remaining} left",
     ) as bar:
         yield lambda done: bar.update(done - bar.n)

@@ -60,6 +60,38 @@ def test_disagreement_of_an_audit_is_a_warning(here, capsys, monkeypatch):
     assert printed.out.endswith(f"49 of 49 elements in contact\n{attributes['audit']}\n")
 
 
+def test_the_bare_command_lists_the_commands(capsys):
+    listings = []
+    for arguments in ([], ["-h"], ["--help"]):
+        assert cli.main(arguments) == 0
+        listings.append(capsys.readouterr())
+    assert listings[0] == listings[1] == listings[2]
+    assert listings[0].err == ""
+    for name in cli.cli.commands:
+        assert f"\n  {name} " in listings[0].out
+    assert cli.main(["indent", "-h"]) == 0
+    assert capsys.readouterr().out.startswith("Usage: viscorough indent ")
+
+
+@pytest.mark.parametrize(
+    ("words", "completions"),
+    [("viscorough in", ["plain,indent"]), ("viscorough contact --tol", ["plain,--tolerance"]), ("viscorough x", [])],
+)
+def test_shells_complete_commands_and_options(capsys, monkeypatch, words, completions):
+    """As bash asks for them, with the script that the help names."""
+    monkeypatch.setenv("_VISCOROUGH_COMPLETE", "bash_complete")
+    monkeypatch.setenv("COMP_WORDS", words)
+    monkeypatch.setenv("COMP_CWORD", str(len(words.split()) - 1))
+    assert cli.main([]) == 0
+    assert capsys.readouterr().out.split() == completions
+
+
+def test_the_script_for_completion_is_printed(capsys, monkeypatch):
+    monkeypatch.setenv("_VISCOROUGH_COMPLETE", "zsh_source")
+    assert cli.main([]) == 0
+    assert "#compdef viscorough" in capsys.readouterr().out
+
+
 def test_errors_in_the_code_are_not_hidden():
     with pytest.raises(ZeroDivisionError):
         run_indent_as(lambda: 1 / 0)

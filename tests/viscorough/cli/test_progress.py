@@ -25,6 +25,7 @@ def short_delay(monkeypatch):
 def test_after_a_while_share_and_time_left_are_shown_and_erased_at_the_end(capsys):
     middle, end = shown(capsys, True)
     assert "viscorough indent:  50 % |" in middle
+    assert " elapsed, about " in middle
     assert " left" in middle
     assert "\n" not in middle + end
     assert end.replace("\r", "").strip() == ""

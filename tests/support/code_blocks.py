@@ -1,6 +1,7 @@
 """Blocks of code of a page, run in the working directory."""
 
 import contextlib
+import glob
 import io
 import re
 import shlex
@@ -16,7 +17,8 @@ def run_python(text, page, line, names):
 
 def run_command(line):
     """Run a command of viscorough, and return its output."""
-    command, *arguments = shlex.split(line, comments=True)
+    command, *words = shlex.split(line, comments=True)
+    arguments = [argument for word in words for argument in sorted(glob.glob(word)) or [word]]  # as a shell does
     with contextlib.redirect_stdout(io.StringIO()) as printed:
         assert (command, main(arguments)) == ("viscorough", 0), line
     return printed.getvalue()

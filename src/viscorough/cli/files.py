@@ -39,7 +39,12 @@ def check_output(output: Path, **inputs: Path | None) -> None:
 
 def printable_name(file: Path) -> str:
     """Name of a file, for an attribute: bytes that are not letters appear with backslashes."""
-    return file.name.encode(errors="backslashreplace").decode()
+    return printable_path(Path(file.name))
+
+
+def printable_path(file: Path) -> str:
+    """Return the path of a file as text: bytes that are not letters appear with backslashes."""
+    return str(file).encode(errors="backslashreplace").decode()
 
 
 LONGEST = 60  # seconds that opening a file may take
@@ -58,7 +63,8 @@ def check_opens(path: Path) -> None:
         messages.complain(command, text)
         os._exit(2)
 
-    command = click.get_current_context().command_path
+    context = click.get_current_context(silent=True)  # none in the processes of a table
+    command = context.command_path if context else "viscorough"
     timer = threading.Timer(LONGEST, end)
     timer.daemon = True
     timer.start()

@@ -1,19 +1,27 @@
-"""`viscorough indent`: a map of heights to a loading curve."""
+"""`viscorough indent`: maps of heights to loading curves."""
 
+from __future__ import annotations
+
+import functools
+import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 import viscorough
-from viscorough.cli import files, messages, options, surface_options
+from viscorough.cli import files, messages, options, scans, surface_options
 from viscorough.summaries import with_unit
-from viscorough.units import Quantity
+from viscorough.types import Progress
+from viscorough.units import Quantity, result_units
+
+if TYPE_CHECKING:
+    from viscorough.io.load_tables import Rows
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")
-@surface_options.heights_input()
+@surface_options.heights_input(several=True)
 @options.output("CURVE.nc")
 @click.option(
     "--depths", type=options.Increasing("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
@@ -24,10 +32,11 @@ from viscorough.units import Quantity
 @click.option("--until-force", type=options.QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
 @click.option("--audit", is_flag=True, help="Compare two integrals of the curve with their exact values.")
 @options.elastic_constants
+@options.jobs
 @options.threads
 @options.progress
 def indent(
-    surface: surface_options.Surface,
+    surfaces: Sequence[surface_options.Surface],
     output: Path,
     *,
     depths: Sequence[Quantity] | None,
@@ -36,11 +45,12 @@ def indent(
     until_fraction: float,
     until_force: Quantity | None,
     audit: bool,
+    jobs: int | None,
     threads: int,
-    progress: bool,
+    progress: bool | None,
     **constants: Any,
 ) -> None:
-    """Loading curve of an indenter pressed into an elastic half-space.
+    """Loading curves of indenters pressed into an elastic half-space.
 
     HEIGHTS is a map of heights: .npy, NetCDF, text (a matrix, an ESRI grid, columns x, y, z), TIFF, or a format of an
     instrument, for which pip install 'viscorough[formats]' is needed. Rows are along y, columns along x. Spacing and
@@ -65,10 +75,15 @@ def indent(
     added until the estimated errors of the integrals are within the tolerance. If the integrals do not agree, a warning
     says so.
 
+    Several files of HEIGHTS need a table, -o TABLE.csv. It has one row for each file and level, with lengths in um,
+    areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or --forces
+    its columns are those of viscorough contact; see there for files that fail and for interrupts.
+
     \b
     Example:
         viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 -o curve.nc
         viscorough indent scan.txt --spacing 0.37,0.5 --unit um --detrend plane -o curve.nc
+        viscorough indent scans/*.txt --forces "1 mN,5 mN" --young "2 MPa" -o table.csv
     """
     levels = {"--depths": depths, "--forces": forces}
     others = {"--until-fraction": until_fraction, "--until-force": until_force, "--audit": audit or None}
@@ -76,31 +91,64 @@ def indent(
     if len(stated) > 1:
         exclusive = f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed"
         options.require(stated[0] not in levels and not audit, exclusive)
+    options.elasticity(length_unit="m", **constants)  # raises an error for options that exclude each other
+    settings: dict[str, Any] = {"depths": depths, "forces": forces, "tolerance": tolerance}
+    settings |= {"until_fraction": until_fraction, "until_force": until_force}
+    given = dict(settings)
+    if until_fraction is None:
+        given["until_fraction"] = 0.9 if until_force is None else 1.0
+    if until_force is None:
+        given["until_force"] = math.inf
+    if len(surfaces) > 1 and output.suffix.lower() == ".csv":
+        options.require(not audit, "--audit is for one file of heights; leave it out, or audit one file at a time")
+        evaluate = functools.partial(_rows, given=given, constants=constants, threads=threads)
+        settings |= constants
+        scans.tabulate(surfaces, output, evaluate, settings=settings, jobs=jobs, threads=threads, progress=progress)
+        return
+    surface = scans.only_one(surfaces, output)
     indenter = surface_options.read_indenter(surface, output)
-    unit = indenter.length_unit
-    modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
-    given: dict[str, Any] = {"depths": depths, "forces": forces, "shear_modulus": modulus}
-    if until_force is not None:
-        given |= {"until_force": until_force, "until_fraction": 1.0}  # unless stated
-    if until_fraction is not None:
-        given["until_fraction"] = until_fraction
+    modulus, elastic_constants = options.elasticity(length_unit=indenter.length_unit, **constants)
 
     from viscorough.io.curves import curve_to_content
 
     attributes, lines = surface.attributes(indenter) | elastic_constants, []
     with messages.progress_bar("viscorough indent", progress) as report:
-        how: dict[str, Any] = {"tolerance": tolerance, "progress": report, "threads": threads}
+        how: dict[str, Any] = {"progress": report, "threads": threads}
         if audit:
-            result = viscorough.audit(indenter, **how)
+            result = viscorough.audit(indenter, tolerance=tolerance, **how)
             curve, lines, attributes["audit"] = result.curve, str(result).splitlines(), str(result)
             if not result.agrees:
                 messages.warn(lines[0])
         else:
-            curve = viscorough.indent(indenter, **given, **how)
-    content, depth = curve_to_content(curve, modulus), with_unit(curve.depth[-1], unit, 6)
+            curve = viscorough.indent(indenter, **given, shear_modulus=modulus, **how)
+    files.write_output(curve_to_content(curve, modulus), output, **attributes)
+    text = f"{curve.depth.size} levels, the last at depth {with_unit(curve.depth[-1], curve.length_unit, 6)}"
     if modulus is not None:
-        force = content.variables["normal_force"]
-        depth += f", F {with_unit(force.values[-1], force.attributes['units'], 6)},"
-    files.write_output(content, output, **attributes)
-    count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
-    messages.announce(output, "\n".join([f"{curve.depth.size} levels, the last at depth {depth} with {count}", *lines]))
+        read, area = result_units(curve.length_unit, modulus), indenter.spacing * indenter.row_spacing
+        text += f", F {read['force'].text(curve.force[-1], 6)}, k {read['stiffness'].text(curve.stiffness[-1])}"
+        text += f", contact area {read['area'].text(curve.contact_count[-1] * area)},"
+    text += f" with {curve.contact_count[-1]} of {curve.elements} elements in contact"
+    messages.announce(output, "\n".join([text, *lines]))
+
+
+def _rows(
+    indenter: viscorough.Indenter,
+    *,
+    given: dict[str, Any],
+    constants: dict[str, Any],
+    threads: int,
+    progress: Progress | None = None,
+) -> Rows:
+    """Return a row of a table for each level, and {column: unit}.
+
+    given : keyword arguments of viscorough.indent; constants : of options.elasticity
+    """
+    how: dict[str, Any] = {"threads": threads, "progress": progress}
+    if given["depths"] is not None or given["forces"] is not None:
+        where = {"depth": given["depths"], "force": given["forces"], "tolerance": given["tolerance"]}
+        return scans.rows_at_loads(indenter, **where, constants=constants, **how)
+
+    from viscorough.io.load_tables import rows_of_curve
+
+    modulus, _ = options.elasticity(length_unit=indenter.length_unit, **constants)
+    return rows_of_curve(viscorough.indent(indenter, **given, shear_modulus=modulus, **how), indenter, modulus)

@@ -1,5 +1,6 @@
 """Types of options, and options, that the commands of the command line share."""
 
+import itertools
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -54,20 +55,25 @@ class QuantityOption(click.ParamType):
 
 
 class Increasing(click.ParamType):
-    """Numbers above 0 separated by commas; where they are used it is checked that each is larger than the one before.
+    """Numbers above 0 separated by commas, each larger than the one before.
 
-    unit : what all of them, or none, may have; they are converted to viscorough.units.Quantity then, else to floats
+    unit : unit that all of them, or none, may have; they are then converted to viscorough.units.Quantity. None for
+        plain numbers, which are converted to floats
     """
 
     name = "a,b,c"
 
     def __init__(self, unit: str | None = None) -> None:
+        self.unit = unit
         self.entry: click.ParamType = QuantityOption(unit) if unit else PositiveNumber()
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
         entries = [self.entry.convert(entry.strip(), param, ctx) for entry in value.split(",")]
         if len({bool(entry.unit) for entry in entries if isinstance(entry, Quantity)}) == 2:
             self.fail(f"{value!r}: some numbers have a unit; all or none of them may have one", param, ctx)
+        numbers = [entry.to(self.unit) if self.unit else entry for entry in entries]
+        if any(later <= earlier for earlier, later in itertools.pairwise(numbers)):
+            self.fail(f"{value!r}: needed are increasing numbers, each larger than the one before", param, ctx)
         return entries
 
 
@@ -117,6 +123,11 @@ threads = click.option(
     type=click.IntRange(1, 1024),
     default=1,
     help="Threads of the processor; the result does not depend on them.",
+)
+jobs = click.option(
+    "--jobs",
+    type=click.IntRange(1, 1024),
+    help="Files that are evaluated at a time; the results do not depend on it  [default: cores over --threads]",
 )
 _PROGRESS = "Show progress on standard error, after a second  [default: if it is a terminal]"
 progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS)

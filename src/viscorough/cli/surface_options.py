@@ -27,6 +27,22 @@ class Surface:
     path: Path
     options: dict[str, Any]
 
+    def parsed(self) -> dict[str, Any]:
+        """Return the options as read_heights takes them. Raises ValueError, which names the option, for a mistake."""
+        from viscorough.io.atomic import path_named
+
+        values = dict(self.options)
+        for name in values.keys() & _VALUES.keys():
+            with path_named(f"--{name} {values[name]}"):
+                values[name] = _VALUES[name](values[name])
+        return values
+
+    def read(self) -> viscorough.Indenter:
+        """Read and prepare the heights. Raises ValueError for invalid ones."""
+        if self.path.suffix == ".nc":
+            files.check_opens(self.path)
+        return viscorough.read_heights(self.path, **self.parsed())
+
     def attributes(self, indenter: viscorough.Indenter) -> dict[str, object]:
         """What an output file says about the surface and how it was read and prepared."""
         attributes = {"heights": files.printable_name(self.path), "spacing": indenter.spacing}
@@ -63,11 +79,14 @@ _VALUES: dict[str, Callable[[str], Any]] = {
 }
 
 
-def heights_input(argument: str = "heights") -> Callable[..., Any]:
-    """Decorator that adds the argument HEIGHTS and the options to read it, which reach the command as `surface`."""
+def heights_input(argument: str = "heights", *, several: bool = False) -> Callable[..., Any]:
+    """Decorator that adds the argument HEIGHTS and the options to read it, which reach the command as `surface`.
+
+    several : whether one or more files are allowed, which reach the command as `surfaces`
+    """
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
-        @click.argument(argument, type=options.FILE)
+        @click.argument(argument, type=options.FILE, nargs=-1 if several else 1, required=True)
         @click.option(
             "--spacing",
             metavar="DX[,DY]",
@@ -95,9 +114,11 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
         )
         @functools.wraps(command)
         def packed(**values: Any) -> Any:
-            path, stated = values.pop(argument), {name: values.pop(name) for name in _OF_READING + _OF_PREPARATION}
+            paths, stated = values.pop(argument), {name: values.pop(name) for name in _OF_READING + _OF_PREPARATION}
             given = {name: value for name, value in stated.items() if value not in (None, False, "none")}
-            return command(surface=Surface(path, given), **values)
+            if several:
+                return command(surfaces=[Surface(path, given) for path in paths], **values)
+            return command(surface=Surface(paths, given), **values)
 
         return packed
 
@@ -110,13 +131,5 @@ def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> visc
     inputs : further files that are read, as of files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights.
     """
-    from viscorough.io.atomic import path_named
-
-    path, values = surface.path, dict(surface.options)
-    files.check_output(output, heights=path, **inputs)
-    if path.suffix == ".nc":
-        files.check_opens(path)
-    for name in values.keys() & _VALUES.keys():
-        with path_named(f"--{name} {values[name]}"):
-            values[name] = _VALUES[name](values[name])
-    return viscorough.read_heights(path, **values)
+    files.check_output(output, heights=surface.path, **inputs)
+    return surface.read()

@@ -27,10 +27,17 @@ def write(content: Content, path: FilePath) -> None:
     attributes = content.attributes | global_attributes()
     attributes |= {f"column {name}": variable.attributes["long_name"] for name, variable in columns.items()}
     units = {name: variable.attributes.get("units", "1") for name, variable in columns.items()}
-    cells = [["" if value != value else repr(value) for value in v.values.tolist()] for v in columns.values()]
+    cells = [[_cell(value) for value in variable.values.tolist()] for variable in columns.values()]
     with atomic_write(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
         for name, value in attributes.items():
             file.write(f"# {name}: {json.dumps(np.asarray(value).tolist(), ensure_ascii=False)}\n")
         table = csv.writer(file, lineterminator="\n")
         table.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in units.items())
         table.writerows(zip(*cells, strict=True))
+
+
+def _cell(value: float | str) -> str:
+    """Return a text as it is, a number in full precision, and nothing for a missing number."""
+    if isinstance(value, str):
+        return value
+    return "" if value != value else repr(value)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from support.command_line import run, values
+from support.tables import read_table
 from viscorough import Indenter, contact_at, self_affine_disc
 from viscorough.io import netcdf
 
@@ -58,8 +59,15 @@ def test_several_forces_have_a_dimension(here, capsys):
 
 
 def test_closing_lines_say_what_was_found_in_the_unit_that_is_known(here, capsys):
-    contact("--depth 0.5 --unit um")
-    assert re.match(r"out.nc: depth 0.5 um, F/G \S+ um2, contact fraction 0.*patches$", capsys.readouterr().out)
+    written = contact("--depth 0.5 --unit um")
+    line = capsys.readouterr().out
+    assert re.match(r"out.nc: depth 0.5 um, F/G \S+ um2, contact fraction 0.*patches$", line)
+    areas = [written[name].item() for name in ("contact_area", "corrected_contact_area")]
+    assert "contact area {:.4g} um2 (corrected {:.4g} um2), ".format(*areas) in line
+    written = contact("--depth 0.5 --shear-modulus '2 MPa'", heights="um.nc")
+    line = capsys.readouterr().out
+    assert f"F {2e-6 * written['force']:.6g} N, largest p {2 * written['largest_pressure']:.4g} MPa, " in line
+    assert f"k {2 * written['stiffness']:.4g} N/m, " in line
     contact("--depth 0.001")
     assert re.match(r"out.nc: depth 0.001, F/G \S+, contact fraction 0.*, 1 patch$", capsys.readouterr().out)
     assert run("indent heights.npy --spacing 1 --unit um --depths 0.5 -o curve.nc") == 0
@@ -80,6 +88,21 @@ def test_moduli_are_in_consistent_units_where_no_unit_is_known(here):
     force = contact("--force 60 --young 1.5 --poisson 0.25")["force"]
     assert force == pytest.approx(60 / (1.5 / (4 * (1 - 0.25**2))), rel=1e-12)
     assert netcdf.read("out.nc").attributes.items() >= {"young_modulus": 1.5, "poisson_ratio": 0.25}.items()
+
+
+def test_files_have_force_stiffness_and_pressure_in_si_units(here):
+    """G = 2 MPa and lengths in um: G um2 is 2e-6 N and G um is 2 N/m."""
+    written = contact("--depth 0.5 --shear-modulus '2 MPa'", heights="um.nc")
+    variables = netcdf.read("out.nc").variables
+    names = {"normal_force": "N", "normal_stiffness": "N m-1", "normal_pressure": "Pa", "largest_normal_pressure": "Pa"}
+    assert {name: variables[name].attributes["units"] for name in names} == names
+    factors = {"force": 2e-6, "stiffness": 2.0, "pressure": 2e6}
+    for name, factor in factors.items():
+        np.testing.assert_allclose(written[f"normal_{name}"], factor * written[name], rtol=1e-6)
+    assert run("indent um.nc --depths 0.5 --shear-modulus '2 MPa' -o curve.csv") == 0
+    table, units = read_table("curve.csv")
+    assert table["normal_stiffness"].tolist() == pytest.approx((2 * table["stiffness"]).tolist())
+    assert (units["normal_force"], units["normal_stiffness"]) == ("N", "N m-1")
 
 
 def test_curves_stand_at_forces_and_end_at_one(here):

@@ -1,0 +1,306 @@
+"""Many files of heights, evaluated side by side to one table that can be continued.
+
+1. Take the rows of unchanged files from the table, or from the unfinished table of an earlier run.
+2. Evaluate the other files in separate processes. After each file, write an unfinished table, TABLE.csv.unfinished.
+3. Write the table and remove the unfinished one.
+
+A file that cannot be evaluated becomes a row with the reason; the others go on. A run that is interrupted or killed
+leaves the unfinished table beside the table of an earlier run, or beside none. Rows depend neither on the order of the
+files nor on the number of processes.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import signal
+import threading
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import click
+
+import viscorough
+from viscorough.argument_names import spelled_as_options
+from viscorough.cli import files, messages, options, surface_options
+from viscorough.interrupts import on_interrupt
+from viscorough.types import Progress
+from viscorough.units import Quantity
+
+if TYPE_CHECKING:
+    from viscorough.io.load_tables import LoadRows, Rows
+
+# Exit code if the table is complete, but some of several files have an error instead of numbers.
+SOME_FAILED = 3
+# Libraries of linear algebra compute with one thread in each process: more would compete for the cores, and the
+# rounding of results would depend on their number.
+_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+_DIED = "its process ended without a result, as happens if there is not enough memory; --jobs 1 needs less"
+
+
+class Scan(NamedTuple):
+    """A file of heights to evaluate; can be sent to another process.
+
+    name : of the file in the table
+    surface : the file, and how it is read and prepared
+    digest : of the file and the settings
+    evaluate : function of the indenter and of `progress` that returns rows of the table and {column: unit}
+    """
+
+    name: str
+    surface: surface_options.Surface
+    digest: str
+    evaluate: Callable[..., Rows]
+
+
+def tabulate(
+    surfaces: Sequence[surface_options.Surface],
+    output: Path,
+    evaluate: Callable[..., Rows],
+    *,
+    settings: dict[str, Any],
+    jobs: int | None,
+    threads: int,
+    progress: bool | None,
+) -> None:
+    """Write the rows of all files as a table, and a closing line.
+
+    surfaces : the files, which are read and prepared alike
+    evaluate : as in Scan
+    settings : {option: value} of everything else that the rows depend on; None for options that are not given
+    jobs : number of files that are evaluated at a time; None for the number of cores over `threads`
+
+    An error of a single file is raised. If some of several files have an error, raises Exit with SOME_FAILED after
+    writing the table.
+    """
+    from viscorough.io import load_tables, tables
+
+    label, unfinished = click.get_current_context().command_path, output.with_name(f"{output.name}.unfinished")
+    named = {files.printable_path(surface.path): surface for surface in surfaces}
+    for surface in named.values():
+        files.check_output(output, heights=surface.path)
+    files.check_output(unfinished)
+    surfaces[0].parsed()  # a mistake in an option is no error of a file
+    spelled = _spelled(surfaces[0].options | settings)
+    finished = load_tables.finished_rows(output) | load_tables.finished_rows(unfinished)
+    results, scans = {}, []
+    for name, surface in sorted(named.items()):
+        try:
+            digest = load_tables.digest_of_scan(surface.path, f"{viscorough.__version__} {label} {spelled}")
+        except ValueError as error:
+            if len(named) == 1:
+                raise
+            results[name] = load_tables.LoadRows(name, "", error=_without_path(error, surface.path))
+            continue
+        if name in finished and finished[name].digest == digest:
+            results[name] = finished[name]
+        else:
+            scans.append(Scan(name, surface, digest, evaluate))
+    unchanged = len(named) - len(scans)
+
+    def write(path: Path) -> list[LoadRows]:
+        listed = load_tables.with_one_unit(results.values())
+        tables.write(load_tables.load_table(listed, options=spelled), path)
+        return listed
+
+    try:
+        with messages.progress_bar(label, progress) as report, on_interrupt(signal.default_int_handler):
+            if len(named) == 1:
+                evaluated = (_in_this_process(scan, report) for scan in scans)
+            else:
+                evaluated = _in_processes(scans, jobs or max(1, _cores() // threads))
+            for result in evaluated:
+                results[result.file] = result
+                if len(named) > 1:
+                    write(unfinished)
+                    report(len(results) / len(named))
+            listed = write(output)
+            unfinished.unlink(missing_ok=True)
+    except KeyboardInterrupt:
+        if len(named) > 1:
+            done = f"{len(results)} of {len(named)} files are finished"
+            messages.complain(label, f"interrupted: {done}; the same command continues")
+        raise
+    _close(output, listed, unchanged, label)
+
+
+def only_one(surfaces: Sequence[surface_options.Surface], output: Path) -> surface_options.Surface:
+    """Return the only file of heights. Raises UsageError if there are several, whose results need a table."""
+    text = f"{output}: {len(surfaces)} files of heights need a table; -o TABLE.csv, or one file at a time, is allowed"
+    options.require(len(surfaces) == 1, text)
+    return surfaces[0]
+
+
+def rows_at_loads(
+    indenter: viscorough.Indenter,
+    *,
+    depth: Sequence[Quantity] | None,
+    force: Sequence[Quantity] | None,
+    tolerance: float,
+    constants: dict[str, Any],
+    threads: int,
+    progress: Progress | None = None,
+) -> Rows:
+    """Return a row of a table for each depth or force, and {column: unit}. Errors as viscorough.contact_at.
+
+    constants : of options.elasticity
+    """
+    from viscorough.io.load_tables import rows_of_contacts
+
+    modulus, _ = options.elasticity(length_unit=indenter.length_unit, **constants)
+    how: dict[str, Any] = {"depth": depth, "force": force, "tolerance": tolerance, "shear_modulus": modulus}
+    contacts: Any = viscorough.contact_at(indenter, **how, threads=threads, progress=progress)
+    return rows_of_contacts(contacts)
+
+
+def _close(output: Path, listed: Sequence[LoadRows], unchanged: int, label: str) -> None:
+    """Write the closing line, and what failed or is doubtful. Raises Exit if a file failed."""
+    from viscorough.io.load_tables import text_of_row
+
+    if len(listed) == 1:
+        (result,) = listed
+        text = text_of_row(result.rows[-1], result.units)
+        messages.announce(output, text if len(result.rows) == 1 else f"{len(result.rows)} loads, the last at {text}")
+        return
+    failed, doubtful = ([each for each in listed if each.error], [each for each in listed if each.warnings])
+    text = f"{sum(len(result.rows) for result in listed)} rows of {len(listed)} files"
+    text += f", {unchanged} of them unchanged" if unchanged else ""
+    messages.announce(output, text + (f", {len(failed)} failed" if failed else ""))
+    if doubtful:
+        first = f"the first is {doubtful[0].file}: {doubtful[0].warnings}"
+        messages.complain(label, f"warning: {len(doubtful)} of {len(listed)} files have warnings; {first}")
+    if failed:
+        first = f"the first is {failed[0].file}: {failed[0].error}"
+        messages.complain(label, f"{len(failed)} of {len(listed)} files failed; {first}")
+        raise click.exceptions.Exit(SOME_FAILED)
+
+
+def _spelled(values: dict[str, Any]) -> str:
+    """Return options as they are given on the command line, in alphabetical order."""
+
+    def text(value: Any) -> str:
+        if isinstance(value, Quantity):
+            return f"{value.number!r} {value.unit}".rstrip()
+        return ",".join(map(text, value)) if isinstance(value, list | tuple) else str(value)
+
+    given = {name.replace("_", "-"): value for name, value in sorted(values.items()) if value is not None}
+    return " ".join(f"--{name}" if value is True else f"--{name} {text(value)}" for name, value in given.items())
+
+
+def _in_this_process(scan: Scan, progress: Callable[[float], object]) -> LoadRows:
+    """Return the rows of a file. Errors are raised, and warnings are given to the command as well."""
+    from viscorough.io.load_tables import LoadRows
+
+    rows, units = scan.evaluate(scan.surface.read(), progress=progress)
+    texts = messages.warning_texts(click.get_current_context().obj)
+    return LoadRows(scan.name, scan.digest, rows, units, warnings="; ".join(texts))
+
+
+def _in_a_process(scan: Scan) -> LoadRows:
+    """Return the rows of a file, or its error."""
+    from viscorough.io.load_tables import LoadRows
+
+    result = LoadRows(scan.name, scan.digest)
+    with warnings.catch_warnings(record=True) as caught, spelled_as_options():
+        try:
+            rows, units = scan.evaluate(scan.surface.read())
+            result = result._replace(rows=rows, units=units)
+        except messages.ERRORS as error:
+            result = result._replace(error=_without_path(error, scan.surface.path))
+        except Exception as error:  # a fault of viscorough; the other files may not have it
+            text = f"{type(error).__name__}: {_without_path(error, scan.surface.path)}"
+            result = result._replace(error=text)
+    texts = [_without_path(text, scan.surface.path) for text in messages.warning_texts(caught)]
+    return result._replace(warnings="; ".join(texts))
+
+
+def _without_path(text: object, path: Path) -> str:
+    """Return the text of an error or warning on one line, without the name of the file that has its own column."""
+    text = messages.error_text(text) if isinstance(text, BaseException) else str(text)
+    return " ".join(text.split()).removeprefix(f"{path}: ")
+
+
+def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
+    """Yield the rows or the error of each file, in the order in which they are finished.
+
+    If a process dies, the files that are not finished are evaluated one at a time, each in a process of its own.
+    """
+    waiting = {scan.name: scan for scan in scans}
+    try:
+        with _processes(min(jobs, len(scans) or 1)) as submit:
+            # One file at a time until the inner loops are compiled: processes that all compile them can crash.
+            for scan in scans:
+                result = submit(scan).result()
+                del waiting[result.file]
+                yield result
+                if not result.error:
+                    break
+            for future in as_completed([submit(scan) for scan in waiting.values()]):
+                result = future.result()
+                del waiting[result.file]
+                yield result
+    except BrokenProcessPool:
+        for scan in waiting.values():
+            yield _alone(scan)
+
+
+def _alone(scan: Scan) -> LoadRows:
+    """Return the rows or the error of a file that is evaluated in a process of its own, which may die."""
+    from viscorough.io.load_tables import LoadRows
+
+    try:
+        with _processes(1) as submit:
+            return submit(scan).result()
+    except BrokenProcessPool:
+        return LoadRows(scan.name, scan.digest, error=_DIED)
+
+
+@contextlib.contextmanager
+def _processes(count: int) -> Iterator[Callable[[Scan], Future[LoadRows]]]:
+    """Context that yields a function that has a file evaluated by one of so many processes.
+
+    They start anew (spawn), since a copy of this process could hold locks of its threads. They ignore Ctrl-C, and end
+    if the context is left early or this process dies.
+    """
+    others, environment = set(multiprocessing.active_children()), {name: os.environ.get(name) for name in _ONE_THREAD}
+    os.environ.update(_ONE_THREAD)
+    pool = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
+
+    def submit(scan: Scan) -> Future[LoadRows]:
+        with on_interrupt(signal.SIG_IGN):  # processes that are started here inherit it
+            return pool.submit(_in_a_process, scan)
+
+    try:
+        yield submit
+    except BaseException:
+        for process in set(multiprocessing.active_children()) - others:
+            process.terminate()
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
+        for name, value in environment.items():
+            os.environ.pop(name)
+            if value is not None:
+                os.environ[name] = value
+
+
+def _end_with_parent() -> None:
+    """End this process when its parent dies; otherwise it would wait for work without end."""
+    parent = multiprocessing.parent_process()
+
+    def end() -> None:
+        if parent is not None:
+            parent.join()
+        os._exit(1)
+
+    threading.Thread(target=end, daemon=True).start()
+
+
+def _cores() -> int:
+    """Return the number of cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

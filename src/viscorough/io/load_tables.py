@@ -1,0 +1,213 @@
+"""Tables with one row for each load of each file of heights: depth, force, stiffness, contact area and pressures.
+
+Numbers are in the units of viscorough.units.result_units: um, um2, and with a modulus N, N/m and MPa. A file that could
+not be evaluated has one row, without numbers but with the error. Every row has a digest of its file and of the
+settings, so that a table can be continued: the rows of unchanged files are read from it instead of computed again.
+"""
+
+import csv
+import hashlib
+import itertools
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from viscorough import units
+from viscorough.argument_names import argument
+from viscorough.contact_maps import Contact
+from viscorough.indenter import Indenter
+from viscorough.io.atomic import reading
+from viscorough.io.contacts import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
+from viscorough.io.curves import OVER_LEVELS
+from viscorough.io.netcdf import Content, Variable
+from viscorough.loading_curve import LoadingCurve
+from viscorough.types import Array, FilePath
+
+# What each column measures, a key of units.result_units; None for counts and shares.
+_MEASURES = {
+    "depth": "length",
+    "force": "force",
+    "stiffness": "stiffness",
+    "contact_count": None,
+    "contact_fraction": None,
+    "contact_area": "area",
+    "corrected_contact_area": "area",
+    "mean_pressure": "pressure",
+    "largest_pressure": "pressure",
+    "patches": None,
+}
+# Names of columns if a modulus is given; F, k and p then take the place of F/G, k/G and p/G.
+_WITH_MODULUS = {"force": "normal_force", "stiffness": "normal_stiffness"}
+_WITH_MODULUS |= {"mean_pressure": "mean_normal_pressure", "largest_pressure": "largest_normal_pressure"}
+_OF_CONTACTS = [name for name in _MEASURES if name != "contact_count"]
+_OF_CURVES = ["depth", "force", "stiffness", "contact_count", "contact_fraction", "contact_area", "mean_pressure"]
+_COUNTS = ("contact_count", "patches")
+_GIVEN = ("depth", "force", "normal_force")  # quantities that users give, with six digits in texts
+_TEXTS = {
+    "file": "file of heights",
+    "error": "why the file has no numbers; empty if it has",
+    "warnings": "doubts about the numbers; empty if there are none",
+    "digest": "SHA-256, first 16 digits, of the file, of the settings and of the version of viscorough",
+}
+_MEANINGS = {name: text for name, (text, _) in (OVER_LEVELS | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()}
+_DIGITS = 16
+# Files that GDAL reads together with a scan: by another suffix, and by a suffix added to the name of the scan.
+_COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")
+
+Row = dict[str, float | int]
+Rows = tuple[Sequence[Row], dict[str, str]]  # rows, and {column: unit}
+
+
+class LoadRows(NamedTuple):
+    """Rows of one file of heights in a table of loads.
+
+    file : name of the file
+    digest : of the file and the settings
+    rows : {column: number} for each load; empty if the file could not be evaluated
+    units : {column: unit} of the rows
+    error : why there are no rows, or ""
+    warnings : doubts about the numbers, or ""
+    """
+
+    file: str
+    digest: str
+    rows: Sequence[Row] = ()
+    units: dict[str, str] = {}  # noqa: RUF012  # of a tuple, which nobody changes
+    error: str = ""
+    warnings: str = ""
+
+
+def rows_of_contacts(contacts: Sequence[Contact]) -> Rows:
+    """Return a row of a table for each contact, and {column: unit}."""
+    values: dict[str, list[float]] = {name: [] for name in _OF_CONTACTS}
+    for contact in contacts:
+        for name in values:
+            values[name].append(contact.patches().areas.size if name == "patches" else getattr(contact, name))
+    return _rows(values, contacts[0].length_unit, contacts[0].shear_modulus)
+
+
+def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float | None) -> Rows:
+    """Return a row of a table for each level of the loading curve of an indenter, and {column: unit}.
+
+    shear_modulus : G [Pa], or in consistent units if the unit of length is not known; None if it is not given
+    """
+    area = curve.contact_count * indenter.spacing * indenter.row_spacing
+    derived = {"contact_area": area, "mean_pressure": curve.force / area}
+    values = {name: derived[name] if name in derived else getattr(curve, name) for name in _OF_CURVES}
+    return _rows(values, curve.length_unit, shear_modulus)
+
+
+def _rows(values: dict[str, Any], length_unit: str, shear_modulus: float | None) -> Rows:
+    """Convert {quantity: solver's numbers} to rows in the units of people who read them."""
+    read, stated = units.result_units(length_unit, shear_modulus), {}
+    columns: dict[str, list[float | int]] = {}
+    for quantity, numbers in values.items():
+        measure = _MEASURES[quantity]
+        name = quantity if shear_modulus is None else _WITH_MODULUS.get(quantity, quantity)
+        stated[name], factor = ("1", None) if measure is None else read[measure]
+        if quantity in _COUNTS:
+            columns[name] = [int(number) for number in numbers]
+        else:
+            columns[name] = [_rounded(number * (factor or 1.0)) for number in numbers]
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)], stated
+
+
+def _rounded(number: float) -> float:
+    """Return a number to 15 digits, so that a force of 5 uN is 5e-06 N after its conversion to F/G and back."""
+    return float(f"{number:.15g}")
+
+
+def text_of_row(row: Row, stated: dict[str, str]) -> str:
+    """Return the numbers of a contact in one line, in the units of its table."""
+
+    def text(name: str) -> str:
+        return units.ResultUnit(stated[name], 1.0).text(row[name], 6 if name in _GIVEN else 4)
+
+    parts = [f"depth {text('depth')}"]
+    if "normal_force" in row:
+        parts += [f"F {text('normal_force')}", f"largest p {text('largest_normal_pressure')}"]
+        parts += [f"k {text('normal_stiffness')}"]
+    else:
+        parts += [f"F/G {text('force')}"]
+    parts += [f"contact fraction {text('contact_fraction')}", f"contact area {text('contact_area')}"]
+    parts[-1] += f" (corrected {text('corrected_contact_area')})"
+    return ", ".join([*parts, f"{row['patches']} patch{'' if row['patches'] == 1 else 'es'}"])
+
+
+def digest_of_scan(path: FilePath, settings: str) -> str:
+    """Return a digest of a file of heights, of the files that GDAL reads with it, and of the settings.
+
+    Raises a one-line ValueError if a file cannot be read.
+    """
+    file = Path(path)
+    companions = [file.with_suffix(suffix) for suffix in _COMPANIONS] + [Path(f"{file}{end}") for end in _ADDED]
+    digest = hashlib.sha256(settings.encode(errors="backslashreplace"))
+    for each in [file, *(companion for companion in companions if companion != file and companion.is_file())]:
+        with reading(each, "a file of heights is needed"), open(each, "rb") as opened:
+            digest.update(hashlib.file_digest(opened, "sha256").digest())
+    return digest.hexdigest()[:_DIGITS]
+
+
+def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
+    """Return the rows of files, sorted by name; those in no known unit of length become errors if others have one.
+
+    Numbers in one column have one unit.
+    """
+    listed = sorted(results, key=lambda result: result.file)
+    if len({result.units["depth"] for result in listed if result.rows}) < 2:
+        return listed
+    without = f"states no unit of length, but other files do; {argument('unit')} is needed"
+    return [
+        result._replace(rows=(), units={}, error=without) if result.units.get("depth") == units.UNKNOWN else result
+        for result in listed
+    ]
+
+
+def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
+    """Return the rows of files, as `with_one_unit` gives them, as the Content of a table."""
+    stated = next((result.units for result in results if result.rows), {})
+    lines: list[tuple[LoadRows, Row]] = [(result, row) for result in results for row in result.rows or [{}]]
+    texts = {name: [getattr(result, name) for result, _ in lines] for name in _TEXTS}
+    variables = {"file": _column(texts.pop("file"), _TEXTS["file"])}
+    for name, unit in stated.items():
+        variables[name] = _column([row.get(name, np.nan) for _, row in lines], _MEANINGS[name], units=unit)
+    variables |= {name: _column(values, _TEXTS[name]) for name, values in texts.items()}
+    return Content(variables, {"title": "Contacts of rigid indenters with an elastic half-space"} | attributes)
+
+
+def _column(values: list[Any], meaning: str, **attributes: str) -> Variable:
+    column: Array = np.empty(len(values), dtype=object)  # whole numbers stay whole beside missing values
+    column[:] = values
+    return Variable(("row",), column, {"long_name": meaning, **attributes})
+
+
+def finished_rows(path: FilePath) -> dict[str, LoadRows]:
+    """Return {file: its rows} of a table that `load_table` made, without the files that had an error.
+
+    Any other file, and a table that another program changed beyond recognition, gives no rows.
+    """
+    found: dict[str, LoadRows] = {}
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            table = csv.DictReader(itertools.dropwhile(lambda line: line.startswith("# "), file))
+            headings = [_heading(name) for name in table.fieldnames or ()]
+            stated = {name: unit for name, unit in headings if name in _MEANINGS}
+            for line in table:
+                cells = {name: line[text] for (name, _), text in zip(headings, table.fieldnames or (), strict=True)}
+                if cells["error"]:
+                    continue
+                row: Row = {name: (int if name in _COUNTS else float)(cells[name]) for name in stated}
+                name = cells["file"]
+                before = found.get(name, LoadRows(name, cells["digest"], units=stated, warnings=cells["warnings"]))
+                found[name] = before._replace(rows=[*before.rows, row])
+    except (OSError, KeyError, TypeError, ValueError, csv.Error):
+        return {}
+    return found
+
+
+def _heading(text: str) -> tuple[str, str]:
+    """Return the name and the unit, by default "1", of a heading such as "depth (um)"."""
+    name, _, unit = text.removesuffix(")").partition(" (")
+    return name, unit or units.UNKNOWN

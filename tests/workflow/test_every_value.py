@@ -58,8 +58,8 @@ RUNS = {
         },
         "methods": {"bodies": ["cone"]},
     },
-    "peak": {
-        "figures": {"rms_convention": "peak", "window_rule": "upper_half"},
+    "upper_half": {
+        "figures": {"window_rule": "upper_half"},
         "surface": {"corners": True, "amplitudes": "fixed", "rms_over": "square"},
     },
 }

@@ -19,7 +19,7 @@ endif
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
 .PHONY: help environment environment-slurm settings reproduce paper report check lint ready-to-test test docs test-slurm bench \
-	speed light stability sizes law large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
+	speed light stability sizes law law-errors large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -35,6 +35,7 @@ help:
 	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
 	@echo "make law         the calibrated law of the interface, from discs to complete contact; 10 minutes"
 	@echo "make intervals   coverage of the 95 % intervals of identified media, 43200 records; an hour"
+	@echo "make law-errors  error of this law on other discs, and the interval of single surfaces; 10 minutes"
 	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"
 	@echo "make article     results/article.pdf, a replication report on the run; with the SETTINGS of the run"
 	@echo "make outside     our values beside numbers that others published; two minutes"
@@ -145,6 +146,10 @@ law: environment
 
 intervals: environment
 	$(BIN)/python benchmarks/identification.py --cores $(CORES) --output results/tables/identification.csv
+
+law-errors: environment
+	$(BIN)/python benchmarks/law_errors.py --cores $(CORES) --output results/tables/law_errors.csv \
+		--scatter results/tables/law_scatter.csv
 
 large: environment
 	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv \

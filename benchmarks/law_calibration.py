@@ -54,8 +54,8 @@ COLUMNS = {
 }
 
 
-def complete_curve(hurst, across, seed):
-    """g and the interface's part of u/h of a disc at the abscissae `X`, (2, abscissae), and its control variates.
+def complete_curve(hurst, across, seed, x=X):
+    """g and the interface's part of u/h of a disc at the abscissae x, (2, abscissae), and its control variates.
 
     hurst, across, seed : arguments of self_affine_disc
 
@@ -65,10 +65,10 @@ def complete_curve(hurst, across, seed):
     heights, diameter, end = disc.heights[~np.isnan(disc.heights)], across * disc.spacing, complete_contact(disc)
     rms = heights.std()
     scaled = (heights - heights.mean()) / rms
-    force = 4 * rms * diameter * X
+    force = 4 * rms * diameter * x
     before = force[force < end.force]
     depth, stiffness = indent(disc, tolerance=TOLERANCE, forces=before).at_force(before)
-    parts = np.zeros((2, X.size))
+    parts = np.zeros((2, x.size))
     parts[:, : before.size] = before * (1 / stiffness - 1 / end.stiffness), depth - before / end.stiffness
     parts[1, before.size :] = end.mean_gap
     integrals = end.mean_gap / rms, end.energy / (4 * rms**2 * diameter)

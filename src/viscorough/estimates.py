@@ -27,9 +27,10 @@ class Estimate(ReadOnlyArrays):
 
     time : t; x : X = F·J(t)/(4hL)
     depth, velocity : u and v = du/dt, arithmetic means over many surfaces at the same X, with h of each surface in X;
-        a single surface scatters more than the intervals tell
-    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that follow from those of the law
-    law : the PenetrationLaw, which holds from law.x_low to law.x_high
+        u in the unit of the rms height, v in that unit per unit of time
+    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals in which 95 % of single surfaces lie
+    law : the PenetrationLaw, which holds from law.x_low to law.x_high; the mean over many surfaces lies within
+        law.depth_error and law.velocity_error of depth and velocity, relative to them
     """
 
     time: np.ndarray
@@ -48,7 +49,7 @@ class Estimate(ReadOnlyArrays):
         return np.select([self.x < self.law.x_low, self.x > self.law.x_high], ["below", "above"], "")
 
     def __str__(self) -> str:
-        """A table: time, X, depth and velocity with their intervals."""
+        """A table: time, X, depth and velocity with the intervals of a single surface, and the interval of the mean."""
         head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
         columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)
         columns += (self.velocity, self.velocity_low, self.velocity_high)
@@ -57,7 +58,12 @@ class Estimate(ReadOnlyArrays):
             + (f"  {where}" if where else "")
             for *row, where in zip(*columns, self.where, strict=True)
         ]
-        return "\n".join([head, *rows])
+        law = self.law
+        intervals = (
+            f"from, to: 95 % of single surfaces; mean of many surfaces: depth ± {100 * law.depth_error:.2g} %, "
+            f"velocity ± {100 * law.velocity_error:.2g} %"
+        )
+        return "\n".join([head, *rows, intervals])
 
 
 def estimate(
@@ -110,8 +116,7 @@ def estimate(
         )
     per_time, covered = rms * rate[inside] / creep[inside], x[inside]
     values = np.full((6, times.size), np.nan)
-    ends = np.array([[0.0], [-1.0], [1.0]])  # of the intervals, in units of the relative error
-    values[:3, inside] = rms * law.depth(covered) * (1 + ends * law.depth_error)
-    values[3:, inside] = per_time * law.velocity(covered) * (1 + ends * law.velocity_error)
+    values[:3, inside] = rms * np.array([law.depth(covered), *law.depth_interval(covered)])
+    values[3:, inside] = per_time * np.array([law.velocity(covered), *law.velocity_interval(covered)])
     depth, depth_low, depth_high, velocity, velocity_low, velocity_high = values
     return Estimate(times, x, depth, depth_low, depth_high, velocity, velocity_low, velocity_high, law)

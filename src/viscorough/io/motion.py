@@ -61,10 +61,17 @@ def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
     """An estimates.Estimate as a Content; values are nan at times at which the law does not hold."""
     quantities = {name: _QUANTITIES[name] for name in ("time", "x")}
     for name, text, unit in (("depth", "depth of penetration u", 1), ("velocity", *_QUANTITIES["velocity"])):
-        for end, meaning in {"": "", "_low": ", lower end of 95 %", "_high": ", upper end of 95 %"}.items():
-            quantities[name + end] = text + meaning, unit
+        for end, side in {"": "", "_low": "lower", "_high": "upper"}.items():
+            of_single = f", {side} end of the interval of 95 % of single surfaces" if end else ", mean over surfaces"
+            quantities[name + end] = text + of_single, unit
     variables = described(("level",), {name: getattr(estimate, name) for name in quantities}, quantities, length_unit)
-    return Content(variables, {"title": "Penetration of a self-affine indenter by the calibrated law, no simulation"})
+    attributes = {
+        "title": "Penetration of a self-affine indenter by the calibrated law, no simulation",
+        "depth_error": estimate.law.depth_error,
+        "velocity_error": estimate.law.velocity_error,
+        "comment": "The mean over many surfaces lies within these shares of depth and velocity.",
+    }
+    return Content(variables, attributes)
 
 
 def read_force_history(path: FilePath, length_unit: str = "1") -> ForceHistory:

@@ -25,13 +25,23 @@ def test_table_on_standard_output(here, capsys):
     assert run(command()) == 0
     captured = capsys.readouterr()
     assert captured.err == ""
-    law, head, *rows = captured.out.splitlines()
+    law, units, head, *rows, intervals = captured.out.splitlines()
     low, high = WANTED.law.x_low, WANTED.law.x_high
     assert law.startswith(f"vt/h = X + g(X) for H = 0.8, X from {low:.3g} to {high:.3g}, discs of 257 ")
+    assert "unit of --rms" in units
+    assert "of single surfaces" in intervals
     assert head.split() == ["time", "X", "depth", "from", "to", "velocity", "from", "to"]
     numbers = np.array([[float(cell) for cell in row.split()] for row in rows])
     np.testing.assert_allclose(numbers.T, [getattr(WANTED, name) for name in NAMES], rtol=1e-3)
     assert not list(here.iterdir())
+
+
+def test_units_of_results_are_stated(capsys):
+    lengths = {"rms": "1 um", "diameter": "1 cm"}
+    assert run(command(**lengths)) == 0
+    _, units, _, row, *_ = capsys.readouterr().out.splitlines()
+    assert units == "depth [m], velocity [m/s]"
+    assert float(row.split()[2]) == pytest.approx(WANTED.depth[0], rel=1e-3)
 
 
 def test_files_hold_every_number(capsys):
@@ -43,6 +53,8 @@ def test_files_hold_every_number(capsys):
         np.testing.assert_array_equal(content.variables[variable].values, getattr(WANTED, variable))
         np.testing.assert_array_equal(table[variable], getattr(WANTED, variable))
     assert content.attributes["hurst"] == 0.8
+    for name in ("depth_error", "velocity_error"):
+        assert content.attributes[name] == getattr(WANTED.law, name)
     assert content.variables["depth"].attributes["units"] == "1"
 
 
@@ -61,6 +73,6 @@ def test_times_outside_of_the_range_are_marked_and_warned_about(capsys):
     assert run(command(times="1e-9,1e-5,1")) == 0
     captured = capsys.readouterr()
     assert captured.err.startswith("viscorough estimate: warning: 2 of 3 times are outside the range of the law")
-    rows = captured.out.splitlines()[2:]
+    rows = captured.out.splitlines()[3:-1]
     assert [row.split()[-1] for row in rows] == ["below", rows[1].split()[7], "above"]
     assert rows[0].split()[2:8] == ["-"] * 6

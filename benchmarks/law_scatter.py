@@ -1,7 +1,7 @@
 """Intervals of single surfaces about the calibrated law, by quantile regression over the Hurst exponent.
 
 At every abscissa X, the ratio of vt/h or u/h of a disc to the law has the quantile exp(a + b H + c H² + d H³). The four
-numbers minimise the pinball loss Σ w (q r⁺ + (1 − q) r⁻) of the residuals r of the logarithm, with q = 0.025 or 0.975
+numbers minimise the pinball loss Σ w (q r⁺ + (1 − q) r⁻) of the residuals r of the logarithm, with q = 0.02 or 0.98
 (Koenker & Bassett, Econometrica 46, 33 (1978)). Quantiles need no form of the distribution, which is skew. Both grids
 have the same weight: the interval covers the differences between surfaces of 129 and of 257 elements across.
 """
@@ -11,10 +11,12 @@ import pandas as pd
 from scipy.optimize import linprog
 from scipy.sparse import hstack, identity
 
-from viscorough.calibrated_law import LEVEL, interface_depth, interface_velocity, penetration_law
 from viscorough.calibrated_law import SCATTER_COLUMNS as COLUMNS
+from viscorough.calibrated_law import interface_depth, interface_velocity, penetration_law
 
 _POWERS = 4  # of H in a quantile, from 0 on
+# Quantiles at the ends of the interval. The quantiles 0.025 and 0.975 of a finite sample contain 94 % of other discs.
+ENDS = {"low": 0.02, "high": 0.98}
 
 
 def law_at(hurst, x):
@@ -33,7 +35,7 @@ def calibrated_scatter(samples, x):
     hursts = np.unique(hurst)
     table = pd.DataFrame({"hurst": np.repeat(hursts, x.size), "x": np.tile(x, hursts.size)})
     for i, name in enumerate(("velocity", "depth")):
-        for end, probability in (("low", (1 - LEVEL) / 2), ("high", (1 + LEVEL) / 2)):
+        for end, probability in ENDS.items():
             ends = [quantile(hurst, column, weight, probability, hursts) for column in logarithms[:, i].T]
             table[f"{name}_{end}"] = np.exp(np.array(ends).T).ravel().round(6)
     return table[list(COLUMNS)]

@@ -37,7 +37,6 @@ from viscorough.reference import one_element_stiffness
 from viscorough.types import Array, Numbers
 
 ACROSS = 257  # elements across the discs of the calibration
-LEVEL = 0.95  # share of single surfaces in their interval
 LARGEST_DEVIATION = 0.05  # of g from its mean over discs that were not used for the calibration, in the law's range
 # Exponents of the law that are common to all H: of the transition from region (a), and of the last factor of g₁.
 _ONSET, _LAST = 1.5, 4.0

@@ -1,6 +1,7 @@
 """Test of the calibrated law on fresh discs: the tables of the command, and intervals of known distributions."""
 
 import law_errors
+import law_scatter
 import numpy as np
 import pandas as pd
 import pytest
@@ -72,7 +73,8 @@ def test_errors_are_the_law_over_the_mean_and_coverage_the_share_in_the_interval
     table = law_errors.errors(0.5, 129, parts, parts, scatter)
     assert table["velocity_error"].to_numpy() == pytest.approx(1 / 1.1 - 1, abs=0.03)
     assert table["velocity_standard_error"].to_numpy() == pytest.approx(0.15 / np.sqrt(600), rel=0.1)
-    shifted = norm.cdf(norm.ppf(0.975) - np.log(1.1) / 0.15) - norm.cdf(norm.ppf(0.025) - np.log(1.1) / 0.15)
+    ends = norm.ppf(list(law_scatter.ENDS.values()))
+    low, high = norm.cdf(ends - np.log(1.1) / 0.15)
     for name in ("velocity", "depth"):
-        assert table[f"{name}_coverage"].to_numpy() == pytest.approx(shifted, abs=0.04)
-        assert relative_interval(scatter, name, 0.5, 1.0) == pytest.approx(np.exp([-0.294, 0.294]), rel=0.04)
+        assert table[f"{name}_coverage"].to_numpy() == pytest.approx(high - low, abs=0.04)
+        assert relative_interval(scatter, name, 0.5, 1.0) == pytest.approx(np.exp(0.15 * ends), rel=0.04)

@@ -4,10 +4,11 @@
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
-of paper include the verdicts and the calibrated power law, those of law the law of the interface, those of reproduce
-verdicts and cost of the default run, those of seeds the dependence of the verdicts on the seed, that is, on
-the surfaces drawn. Without results (`--pages-only`) only the tables in README.md and docs/ are written, from the last
-published results and from the statements in resources/paper/claims.yaml. The workflow writes only into results/.
+of paper include the verdicts and the calibrated power law, those of law the law of the interface, those of law-errors
+its errors and the intervals of single surfaces, those of reproduce verdicts and cost of the default run, those of seeds
+the dependence of the verdicts on the seed, that is, on the surfaces drawn. Without results (`--pages-only`) only the
+tables in README.md and docs/ are written, from the last published results and from the statements in
+resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
 import json
@@ -67,6 +68,7 @@ PUBLISHED = {
     "bench": ["benchmarks.json"],
     "outside": ["outside.csv"],
     "law": _made(tables="law"),
+    "law-errors": _made(tables="law_errors"),
     "reproduce": [],
     "seeds": [],
 }
@@ -77,6 +79,7 @@ KEPT = {
         "tables/calibration.csv": "src/viscorough/data/calibration.csv",
     },
     "law": {"tables/law.csv": "src/viscorough/data/law.csv"},
+    "law-errors": {"tables/law_scatter.csv": "src/viscorough/data/law_scatter.csv"},
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,
         "tables/claims.csv": DEFAULT_CLAIMS,
@@ -275,6 +278,43 @@ def interface_law():
     return constants + "\n" + markdown_table(head, filled(row, table))
 
 
+def largest_errors():
+    """Largest errors of the law from X = 0.003 to 13, and shares of discs in the interval of a single surface there.
+
+    One row for each H and grid. Shares are a mean over X, and the least and the largest at one X.
+    """
+    rows = []
+    judged = pd.read_csv(ROOT / "docs/results/law_errors.csv").query("x > 0.003")
+    for (hurst, across), table in judged.groupby(["hurst", "across"]):
+        row = {"hurst": hurst, "across": across, **table[["discs", "tested"]].iloc[0]}
+        for name in ("velocity", "interface", "depth"):
+            worst = table.loc[table[f"{name}_error"].abs().idxmax()]
+            row |= {name: worst[f"{name}_error"], f"{name}_standard": worst[f"{name}_standard_error"]}
+            row[f"{name}_x"] = worst["x"]
+        for name in ("velocity", "depth"):
+            shares = table[f"{name}_coverage"].agg(["mean", "min", "max"])
+            row |= {f"{name}_coverage": shares["mean"], f"{name}_least": shares["min"], f"{name}_most": shares["max"]}
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def law_errors():
+    """Largest errors of the law on fresh discs, and the shares of single discs in their interval, as two tables."""
+    table = largest_errors().sort_values(["across", "hurst"], ascending=[False, True])
+    row, head = "| {hurst:g} | {across:g} | {discs:g} |", "| *H* | elements across | discs |"
+    for name, text in {"velocity": "*vt*/*h*", "interface": "*g*", "depth": "*u*/*h*"}.items():
+        row += f" {{{name}:+.1%}} ± {{{name}_standard:.1%}} at {{{name}_x:.2g}} |"
+        head += f" {text}: error ± standard error at *X* |"
+    errors = markdown_table(head, filled(row, table)).replace("%", " %").replace("| -", "| −")
+    row, head = "| {hurst:g} | {across:g} | {tested:g} |", "| *H* | elements across | discs |"
+    for name, text in {"velocity": "*vt*/*h*", "depth": "*u*/*h*"}.items():
+        row += f" {{{name}_coverage:.1%}}, {{{name}_least:.1%}} to {{{name}_most:.1%}} |"
+        head += f" {text}: mean over *X*, least to most |"
+    shares = markdown_table(head, filled(row, table[table["tested"] > 0])).replace("%", " %")
+    caption = "Shares of single discs that lie in the interval of a single surface, nominally 95 %:"
+    return f"{errors}\n{caption}\n\n{shares}"
+
+
 def published_results(records):
     """Contents of docs/results/, in Markdown: for every command its origin, its figures, and links to its tables.
 
@@ -310,6 +350,7 @@ def tables():
         ("docs/verification.md", "sum rules"): sum_rules(),
         ("docs/scaling.md", "infinite grid"): infinite_grid(),
         ("docs/theory.md", "interface law"): interface_law(),
+        ("docs/verification.md", "law errors"): law_errors(),
         ("docs/published.md", "results"): published_results(records),
     }
 

@@ -14,6 +14,7 @@ from support.documentation import ROOT, read
 from support.study import CLAIMS, SHOWN
 from support.workflow import merged, read_settings
 from viscorough import Indenter, indent, self_affine_disc
+from viscorough.calibrated_law import penetration_law
 from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE
 from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.reference import exponent_beta
@@ -200,6 +201,24 @@ def reduction_costs():
     return [100 * np.divide(*milliseconds(settings)) for settings in (DEFAULT, PAPER)]
 
 
+def single_surfaces(x):
+    """Ends of the interval of vt/h of a single surface, over the law, at H = 0.1 and 0.85."""
+    laws = [penetration_law(hurst) for hurst in (0.1, 0.85)]
+    return [end for law in laws for end in law.velocity_interval(x) / law.velocity(x)]
+
+
+def law_errors(*names):
+    """Largest errors of the law over the mean of fresh discs of 257 elements across, rounded up [%]."""
+    table = publish.largest_errors().query("across == 257")
+    return [np.ceil(100 * table[name].abs().max()) for name in names]
+
+
+def depth_error_on_coarse_grid():
+    """Errors of u/h of the law on 129 elements across at X = 0.003, at H = 0.85 and 0.1 [%]."""
+    table = published("law_errors.csv").query("across == 129 and 0.003 < x < 0.004").set_index("hurst")
+    return 100 * table["depth_error"][[0.85, 0.1]]
+
+
 # {page: {sentence: function of what fills its brackets, a text, a number or a list of them}}
 QUOTED = {
     "README.md": {
@@ -230,11 +249,24 @@ QUOTED = {
         "a factor of {:.1f} to": lambda: value("single_surface", column="least").min(),
         "to {:.1f} in region (b)": lambda: value("single_surface", column="largest").max(),
         "above *H*/(1 + *H*), by {1:.2f} and {0:.2f}": above_expected,
+        "between {:.2f} and {:.2f} times the law at *H* = 0.1, and between {:.2f} and {:.2f} times": lambda: (
+            single_surfaces(0.01)
+        ),
+        "At *X* = 1 these are {:.2f} and {:.2f}, and {:.2f} and {:.2f} times": lambda: single_surfaces(1.0),
         "by {:.2f} and {:.2f}": lambda: value("coincide").abs()[["H = 0.1", "H = 0.4"]],
         "elements change it by at most {:.3f}, at any": lambda: trends("X = 0.01 to 0.1").abs().max(),
         "which would be {} to {}": lambda: ends(value("gamma", column="expected"), 2),
         "by {:.2f}, {:.2f} and {:.2f} at *H* = 0.1, 0.4 and 0.6, and leave": lambda: grid_factors("κ at u/h = 1")[:3],
         "by {:.0f}, {:.0f}, {:.0f} and {:.0f} % at *H*": lambda: 100 * (grid_factors("u/h at X = 0.1")[:4] - 1),
+    },
+    "src/viscorough/cli/estimate.py": {
+        "vt/h within {:.0f} % of the law, and of g within {:.0f} %": lambda: law_errors("velocity", "interface"),
+    },
+    "src/viscorough/calibrated_law.py": {
+        "vt/h within {:.0f} % of the law, of g within {:.0f} % and of u/h within {:.0f} %": lambda: law_errors(
+            "velocity", "interface", "depth"
+        ),
+        "the law is {:.0f} to {:.0f} % too large from H = 0.85 to 0.1": depth_error_on_coarse_grid,
     },
     "docs/theory.md": {
         "it is {} to {} at *H* = 0.1, 0.6 and 0.9": lambda: periodic(roll_off=False),
@@ -299,6 +331,22 @@ QUOTED = {
 def test_numbers_on_pages_are_those_of_the_tables(page, sentence):
     numbers = np.ravel(np.asarray(QUOTED[page][sentence](), dtype=object))
     assert sentence.format(*numbers) in words(page)
+
+
+def test_most_single_discs_lie_in_their_interval():
+    """The interval was calibrated on other discs; nominally 95 %."""
+    table = publish.largest_errors().query("tested > 0")
+    assert set(table["across"]) == {129, 257}
+    for name in ("velocity", "depth"):
+        assert table[f"{name}_coverage"].between(0.9, 0.98).all(), name
+
+
+def test_law_is_within_its_stated_error_on_fresh_discs():
+    """Up to two standard errors of their mean, on the grid of the law."""
+    table = published("law_errors.csv").query("across == 257")
+    for name in ("velocity", "depth"):
+        stated = table["hurst"].map(lambda hurst, name=name: getattr(penetration_law(hurst), f"{name}_error"))
+        assert (table[f"{name}_error"].abs() <= stated + 2 * table[f"{name}_standard_error"]).mean() >= 0.95
 
 
 def test_tolerances_on_the_page_of_verdicts():

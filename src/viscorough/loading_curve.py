@@ -113,6 +113,11 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         """Share of the indenter's elements that are in contact, shape (levels,)."""
         return self.contact_count / self.elements
 
+    @property
+    def starts_straight(self) -> bool:
+        """True if the tangent of the first level passes through the origin: the elements in contact have one height."""
+        return bool(abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0])
+
     def normalised(self, rms: float, diameter: float) -> tuple[Array, Array]:
         """X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) for rms height h and diameter L; both of shape (levels,)."""
         unit = self.length_unit
@@ -148,8 +153,7 @@ class LoadingCurve(ReadOnlyArrays, Saved):
             force = np.where(np.abs(force - end) <= _ROUNDING * end, end, force)
         depth, stiffness = np.full(force.shape, np.nan), np.full(force.shape, np.nan)
 
-        straight = abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0]
-        first = (force >= 0) & (force <= self.force[0]) if straight else force == self.force[0]
+        first = (force >= 0) & (force <= self.force[0]) if self.starts_straight else force == self.force[0]
         depth[first] = force[first] / self.force[0] * self.depth[0]
         stiffness[first] = self.stiffness[0]
         depth[force == 0] = 0.0

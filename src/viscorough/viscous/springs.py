@@ -1,0 +1,146 @@
+"""Row of independent springs with a given loading curve.
+
+The contact sets of a loading curve are nested, and its stiffness k never decreases, so that with s₊ = max(s, 0)
+
+    F_el(u)/G = ∫ (u − g)₊ dk(g)/G
+
+reads the curve as a row of springs: those with gaps from g to g + dg have the stiffness dk (docs/theory.md). The row
+that is made here has the force of the curve's own interpolant (LoadingCurve.at_force) at chosen depths, and chords of
+it in between:
+
+- Where at most one element joins between two levels the curve consists of two tangents. They meet at the gap of one
+  spring, whose stiffness is the jump of k. Such a row is exact.
+- Elsewhere the interpolant is cut into so many chords that their depth deviates by less than a twentieth of the
+  tolerance of the curve, and that k jumps by little.
+- Before a first level whose tangent misses the origin, the curve is taken for the power law with its force and tangent.
+- The greatest convex function below all these points makes k monotone, since dk ≥ 0.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from viscorough.compilation import njit
+from viscorough.loading_curve import LoadingCurve
+from viscorough.types import Array, Mask
+
+# Largest deviation in depth of chords from the interpolant, over the tolerance of the curve, and the smallest tolerance
+# that counts: below it the interpolant is not known well enough.
+_DEVIATION, _FINEST = 0.04, 1e-7
+# Largest relative jump of the stiffness from one chord to the next; the velocity has an error of about half of it.
+_STIFFNESS_STEP = 2e-3
+# Largest number of chords between two levels, and of all, roughly.
+_MOST_CHORDS, _MOST_SPRINGS = 2000, 100_000
+# Chords of the power law before the first level.
+_EARLY_CHORDS = 64
+# Rounding by which a load may exceed the last level.
+ROUNDING = 1e-10
+
+
+class RowOfSprings(NamedTuple):
+    """Independent springs with the force of a loading curve; arrays of shape (springs,).
+
+    gap : increasing initial gaps [length]; the first one is 0
+    stiffness : dk/G > 0 [length]
+    contact_fraction : share of the elements in contact when this spring is the last one in contact [1]
+    limit : depth up to which the curve is known; infinite at complete contact
+    first_depth : depth below which the curve is not known, but taken for a power law; 0 if it is known
+    """
+
+    gap: Array
+    stiffness: Array
+    contact_fraction: Array
+    limit: float
+    first_depth: float
+
+
+def row_of_springs(curve: LoadingCurve) -> RowOfSprings:
+    """Return the row of springs of a loading curve."""
+    parts = [_before_first_level(curve)]
+    if curve.depth.size > 1:
+        parts.append(_between_levels(curve))
+    depth, force, count = np.hstack(parts)
+    kept = _below_all(depth, force)
+    depth, force, count = depth[kept], force[kept], count[kept]
+    chords = np.diff(force) / np.diff(depth)
+    gap, limit = depth[:-1], curve.depth[-1] * (1 + ROUNDING)
+    if curve.contact_count[-1] == curve.elements:
+        # Beyond complete contact the curve is straight.
+        chords, gap, limit = np.append(chords, max(chords[-1], curve.stiffness[-1])), depth, np.inf
+    jumps = np.diff(chords, prepend=0.0)
+    first_depth = 0.0 if curve.starts_straight else float(curve.depth[0])
+    used = jumps > 0
+    fraction = np.maximum(count[: gap.size], 1) / curve.elements
+    return RowOfSprings(gap[used], jumps[used], fraction[used], float(limit), first_depth)
+
+
+def _before_first_level(curve: LoadingCurve) -> Array:
+    """Depths, forces and numbers of elements in contact from the origin to the first level, as rows."""
+    depth, force, stiffness, count = (x[0] for x in (curve.depth, curve.force, curve.stiffness, curve.contact_count))
+    exponent = stiffness * depth / force
+    if curve.starts_straight or exponent <= 1:
+        return np.array([[0.0, depth], [0.0, force], [count, count]])
+    share = np.linspace(0, 1, _EARLY_CHORDS + 1) ** 2
+    return np.array([depth * share, force * share**exponent, count * share])
+
+
+def _between_levels(curve: LoadingCurve) -> Array:
+    """Depths, forces and numbers of elements in contact after the first level, as rows; all levels are among them."""
+    depth, force, stiffness, count = curve.depth, curve.force, curve.stiffness, curve.contact_count
+    joined, rise = np.diff(count), np.diff(depth)
+    tangents = (joined >= 0) & (joined <= 1)
+    chords = np.ones(joined.size, int)
+    deviation = np.diff(force) * np.maximum(-np.diff(1 / stiffness), 0) / 8
+    allowed = _DEVIATION * max(curve.tolerance, _FINEST) * depth[:-1]
+    needed = np.maximum(np.sqrt(deviation / allowed), np.abs(np.diff(np.log(stiffness))) / _STIFFNESS_STEP)
+    needed *= min(1.0, _MOST_SPRINGS / max(needed.sum(), 1.0))
+    chords[~tangents] = np.clip(np.ceil(needed[~tangents]), 1, _MOST_CHORDS).astype(int)
+
+    interval = np.repeat(np.arange(joined.size), chords)
+    number = np.arange(interval.size) - np.repeat(np.cumsum(chords) - chords, chords) + 1
+    share = number / chords[interval]
+    is_level = number == chords[interval]
+    forces = force[interval] * (force[1:] / force[:-1])[interval] ** share
+    forces[is_level] = force[1:]
+    depths = np.empty_like(forces)
+    depths[is_level] = depth[1:]
+    depths[~is_level] = curve.at_force(forces[~is_level])[0]
+    counts = count[interval] + joined[interval] * (depths - depth[interval]) / rise[interval]
+
+    meeting = _meeting_of_tangents(curve, tangents)
+    between = np.flatnonzero(np.isfinite(meeting))
+    at = np.cumsum(chords)[between] - 1  # before the level that ends the interval
+    depths = np.insert(depths, at, meeting[between])
+    forces = np.insert(forces, at, force[between] + stiffness[between] * (meeting[between] - depth[between]))
+    counts = np.insert(counts, at, count[between + 1].astype(float))
+    return np.array([depths, forces, counts])
+
+
+def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
+    """Depths at which the tangents of neighbouring levels meet; nan unless it is between them and asked for."""
+    depth, force, stiffness = curve.depth, curve.force, curve.stiffness
+    jump, rise = np.diff(stiffness), np.diff(depth)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        step = (stiffness[1:] * rise - np.diff(force)) / jump
+    inside = tangents & (jump > 0) & (step > 0) & (step < rise)
+    return np.where(inside, depth[:-1] + step, np.nan)
+
+
+@njit
+def _below_all(depth, force):
+    """Indices of the corners of the greatest convex function below points with increasing depths."""
+    corners = np.empty(depth.size, np.int64)
+    count = 0
+    for i in range(depth.size):
+        if i > 0 and depth[i] <= depth[corners[count - 1]]:
+            continue  # the same depth to rounding
+        while count > 1:
+            a, b = corners[count - 2], corners[count - 1]
+            before = (force[b] - force[a]) / (depth[b] - depth[a])
+            after = (force[i] - force[b]) / (depth[i] - depth[b])
+            if after >= before:
+                break
+            count -= 1
+        corners[count] = i
+        count += 1
+    return corners[:count]

@@ -1,0 +1,163 @@
+"""Rows of unilateral springs, against steps in time by an independent solver, and against themselves."""
+
+import numpy as np
+import pytest
+
+from support.media import SPRINGS_AND_DASHPOTS
+from support.small_motion import SpringsAndDashpots, row_of_springs, small_motion
+from viscorough import Springpot
+from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
+from viscorough.viscous.spectra import power_law_spectrum, relaxation_spectrum
+from viscorough.viscous.unilateral import BEYOND, INFINITE, SETTLED, law_of, move_row
+
+
+def moved(gaps, weights, medium, times, load, *, by_depth, limit=np.inf):
+    law = law_of(medium.relaxation, medium.retardation)
+    motion, ended, _ = move_row(gaps, weights, limit, law, times, load, by_depth=by_depth)
+    assert ended == SETTLED
+    return motion
+
+
+def random_case(number):
+    """A row of springs, a medium, and a history with holds, rests, and steps where the medium allows them."""
+    random = np.random.default_rng([54, number])
+    medium = random_medium(random)
+    springs = random.integers(2, 12)
+    gaps = np.append(0, np.cumsum(random.random(springs - 1) * 10 ** random.uniform(-2, 0)))
+    weights = 10 ** random.uniform(-1, 1, springs)
+    times = np.cumsum(10 ** random.uniform(-1.5, 0.5, 9))
+    by_depth = bool(number % 2)
+    rigid = medium.relaxation.viscosity > 0
+    if not (by_depth and rigid):
+        times = np.repeat(times, 1 + (random.random(times.size) < 0.2))
+    shape = random.random(times.size) * random.choice([0, 1, 1, 1], times.size)
+    held = np.flatnonzero(random.random(times.size - 1) < 0.3)
+    shape[held + 1] = shape[held]
+    if by_depth:
+        load = shape * (gaps[-1] * random.uniform(0.3, 1.5) + 0.01) - random.choice([0, 0.1]) * (shape > 0)
+        load[0] = 0.0 if rigid else load[0]
+    else:
+        load = shape * weights.sum() * 10 ** random.uniform(-1, 1)
+    return gaps, weights, medium, times, load, by_depth
+
+
+def random_medium(random):
+    first, second, third = 10 ** random.uniform(-1, 1, 3)
+    kind = random.integers(5)
+    if kind == 0:
+        return Newtonian(first)
+    if kind == 1:
+        return Maxwell(first, second)
+    if kind == 2:
+        return KelvinVoigt(first, second)
+    if kind == 3:
+        return StandardLinearSolid(first * (1 + second), first, third)
+    count = random.integers(2, 6)
+    relaxed = random.choice([0.0, first])
+    return Prony(relaxed, 10 ** random.uniform(-2, 1, count), 10 ** random.uniform(-3, 3, count))
+
+
+def refined(times, load, parts):
+    """The same history with more samples, and the indices of the old ones."""
+    shares = np.arange(1, parts + 1) / parts
+    new_times, new_load, place = [times[:1]], [load[:1]], [0]
+    for k in range(1, times.size):
+        share = shares if times[k] > times[k - 1] else np.ones(1)
+        new_times.append(np.where(share == 1, times[k], times[k - 1] + share * (times[k] - times[k - 1])))
+        new_load.append(np.where(share == 1, load[k], load[k - 1] + share * (load[k] - load[k - 1])))
+        place.append(place[-1] + share.size)
+    return np.concatenate(new_times), np.concatenate(new_load), np.array(place)
+
+
+@pytest.mark.parametrize("number", range(10))
+def test_steps_in_time_approach_the_exact_motion(number):
+    """The independent solver makes steps in time, which springs that touch or let go within a step do not notice."""
+    gaps, weights, medium, times, load, by_depth = random_case(number)
+    spectrum = medium.relaxation
+    same = SpringsAndDashpots(
+        spectrum.viscosity, spectrum.relaxed_modulus, tuple(spectrum.moduli), tuple(spectrum.times)
+    )
+    motion = moved(gaps, weights, medium, times, load, by_depth=by_depth)
+    found = []
+    for parts in (8, 64):
+        fine_times, fine_load, place = refined(times, load, parts)
+        steps = small_motion(
+            *row_of_springs(gaps, weights), same, fine_times, **{"depth" if by_depth else "force": fine_load}
+        )
+        found.append((steps.force if by_depth else steps.depth)[place])
+    exact = motion.force if by_depth else motion.depth
+    # The steps have the force of a dashpot just before each time.
+    compared = np.append(np.diff(times) == 0, True) if by_depth and spectrum.viscosity else slice(None)
+    coarse, fine = (np.abs(values - exact)[compared].max() / np.abs(exact).max() for values in found)
+    assert fine < 1e-12 or fine < min(2e-3, 0.4 * coarse), (coarse, fine)
+
+
+@pytest.mark.parametrize("number", range(40))
+def test_more_samples_of_the_same_history_change_nothing(number):
+    *row, times, load, by_depth = random_case(number)
+    motion = moved(*row, times, load, by_depth=by_depth)
+    fine_times, fine_load, place = refined(times, load, 7)
+    again = moved(*row, fine_times, fine_load, by_depth=by_depth)
+    for name in ("depth", "force"):
+        values = getattr(motion, name)
+        np.testing.assert_allclose(
+            getattr(again, name)[place], values, rtol=0, atol=1e-11 * max(np.abs(values).max(), 1e-300), err_msg=name
+        )
+
+
+@pytest.mark.parametrize("number", range(40))
+def test_the_forces_of_the_springs_fall_along_the_row_and_add_up(number):
+    """c = −∂φ/∂g ≥ 0, so that all pressures are positive."""
+    gaps, weights, medium, times, load, by_depth = random_case(number)
+    motion = moved(gaps, weights, medium, times, load, by_depth=by_depth)
+    largest = max(motion.force.max() / weights.sum(), motion.pressures.max())
+    assert (motion.pressures >= -1e-12 * largest).all()
+    assert (np.diff(motion.pressures) <= 1e-12 * largest).all()
+    total = weights @ motion.pressures
+    assert total == pytest.approx(motion.force[-1], abs=1e-11 * max(motion.force.max(), 1e-300))
+
+
+def test_release_and_recovery_of_one_spring():
+    """Pressed for a time t₁, a standard linear solid lets go at once and recovers as J does."""
+    medium = StandardLinearSolid(4.0, 1.0, 0.5)
+    times = np.array([0.0, 2.0, 2.0, 3.0, 7.0])
+    motion = moved(np.zeros(1), np.ones(1), medium, times, np.array([1.0, 1, 0, 0, 0]), by_depth=False)
+    creep = medium.creep_compliance
+    expected = [creep(0.0), creep(2.0), creep(2.0) - creep(0.0), creep(3.0) - creep(1.0), creep(7.0) - creep(5.0)]
+    np.testing.assert_allclose(motion.depth, expected, rtol=1e-13)
+    assert motion.velocity[3] == pytest.approx(medium.creep_rate(3.0) - medium.creep_rate(1.0), rel=1e-12)
+
+
+def test_a_newtonian_surface_does_not_recover():
+    gaps, times = np.linspace(0, 1, 11), np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+    depth = np.array([0.0, 0.55, 0.2, 0.55, 0.75])
+    motion = moved(gaps, np.ones(11), Newtonian(2.0), times, depth, by_depth=True)
+    # The force just after each time; no spring is touched before the depth of 0.55 is reached again.
+    np.testing.assert_allclose(motion.force, [2.0 * 0.55, 0, 0, 2.0 * 6 * 0.2, 2.0 * 8 * 0.2], rtol=1e-12)
+    assert motion.in_contact.tolist() == [1, 0, 0, 6, 8]
+    assert motion.receding_from == 1.0
+
+
+def test_limits():
+    gaps, times = np.array([0.0, 0.5]), np.array([0.0, 1.0])
+    law = law_of(*(getattr(SPRINGS_AND_DASHPOTS["solid"], name) for name in ("relaxation", "retardation")))
+    motion, ended, until = move_row(gaps, np.ones(2), 0.8, law, times, np.array([0.0, 1.0]), by_depth=True)
+    assert (ended, until) == (BEYOND, pytest.approx(0.8, rel=1e-12))
+    assert np.isnan(motion.depth[1])
+    dashpot = law_of(*(getattr(SPRINGS_AND_DASHPOTS["newtonian"], name) for name in ("relaxation", "retardation")))
+    step = np.array([0.0, 0.0, 1.0])
+    _, ended, until = move_row(gaps, np.ones(2), np.inf, dashpot, times[[0, 1, 1]], step, by_depth=True)
+    assert (ended, until) == (INFINITE, 1.0)
+
+
+@pytest.mark.parametrize("exponent", [0.05, 0.5, 0.95])
+def test_power_law_of_springs_and_dashpots(exponent):
+    medium, times = Springpot(2.0, exponent), np.geomspace(1e-4, 1e3, 50)
+    retardation = power_law_spectrum(2.0, exponent, 1e-5, 1e3)
+    relaxation = relaxation_spectrum(retardation)
+    creep = retardation.instantaneous_compliance + retardation.fluidity * times
+    creep = creep - np.expm1(-times[:, None] / retardation.times) @ retardation.compliances
+    np.testing.assert_allclose(creep, medium.creep_compliance(times), rtol=1e-10)
+    modulus = np.exp(-times[:, None] / relaxation.times) @ relaxation.moduli
+    np.testing.assert_allclose(modulus[5:], medium.relaxation_modulus(times[5:]), rtol=3e-6)
+    assert relaxation.instantaneous_modulus * retardation.instantaneous_compliance == pytest.approx(1, rel=1e-12)

@@ -1,4 +1,4 @@
-"""Names of arguments in messages: as in Python, or as options of the command line.
+"""Spell the names of arguments in messages: in Python as arguments, on the command line as options.
 
 A function of the library and a command read the same input, and their messages have one source. Each message names
 arguments by `argument`, which spells them as the caller gave them.

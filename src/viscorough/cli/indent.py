@@ -77,7 +77,7 @@ def indent(
 
     Several files of HEIGHTS need a table, -o TABLE.csv. It has one row for each file and level, with lengths in um,
     areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or --forces
-    its columns are those of viscorough contact; see there for files that fail and for interrupts.
+    it has the columns of viscorough contact, whose help explains failures and interrupts.
 
     \b
     Example:

@@ -1,11 +1,11 @@
-"""Many files of heights, evaluated side by side to one table that can be continued.
+"""Evaluate many files of heights in parallel, and write one table that can be continued.
 
 1. Take the rows of unchanged files from the table, or from the unfinished table of an earlier run.
 2. Evaluate the other files in separate processes. After each file, write an unfinished table, TABLE.csv.unfinished.
 3. Write the table and remove the unfinished one.
 
 A file that cannot be evaluated becomes a row with the reason; the others go on. A run that is interrupted or killed
-leaves the unfinished table beside the table of an earlier run, or beside none. Rows depend neither on the order of the
+leaves the unfinished table, and does not change the table of an earlier run. Rows depend neither on the order of the
 files nor on the number of processes.
 """
 
@@ -48,7 +48,7 @@ class Scan(NamedTuple):
 
     name : of the file in the table
     surface : the file, and how it is read and prepared
-    digest : of the file and the settings
+    digest : of the file and the settings; "" if the file cannot be read
     evaluate : function of the indenter and of `progress` that returns rows of the table and {column: unit}
     """
 
@@ -56,6 +56,10 @@ class Scan(NamedTuple):
     surface: surface_options.Surface
     digest: str
     evaluate: Callable[..., Rows]
+
+    def is_in(self, finished: dict[str, LoadRows]) -> bool:
+        """Return True if there are rows of the same file and settings."""
+        return bool(self.digest) and self.name in finished and finished[self.name].digest == self.digest
 
 
 def tabulate(
@@ -71,62 +75,55 @@ def tabulate(
     """Write the rows of all files as a table, and a closing line.
 
     surfaces : the files, which are read and prepared alike
-    evaluate : as in Scan
-    settings : {option: value} of everything else that the rows depend on; None for options that are not given
+    evaluate : function of the indenter and of `progress` that returns rows of the table and {column: unit}; picklable
+    settings : {option: value} of all further inputs of the rows; None for options that are not given
     jobs : number of files that are evaluated at a time; None for the number of cores over `threads`
 
     An error of a single file is raised. If some of several files have an error, raises Exit with SOME_FAILED after
     writing the table.
     """
-    from viscorough.io import load_tables, tables
+    from viscorough.io.load_tables import digest_of_scan, finished_rows
 
     label, unfinished = click.get_current_context().command_path, output.with_name(f"{output.name}.unfinished")
-    named = {files.printable_path(surface.path): surface for surface in surfaces}
-    for surface in named.values():
+    for surface in surfaces:
         files.check_output(output, heights=surface.path)
     files.check_output(unfinished)
     surfaces[0].parsed()  # a mistake in an option is no error of a file
     spelled = _spelled(surfaces[0].options | settings)
-    finished = load_tables.finished_rows(output) | load_tables.finished_rows(unfinished)
-    results, scans = {}, []
-    for name, surface in sorted(named.items()):
-        try:
-            digest = load_tables.digest_of_scan(surface.path, f"{viscorough.__version__} {label} {spelled}")
-        except ValueError as error:
-            if len(named) == 1:
-                raise
-            results[name] = load_tables.LoadRows(name, "", error=_without_path(error, surface.path))
-            continue
-        if name in finished and finished[name].digest == digest:
-            results[name] = finished[name]
+    scans = []
+    for name, surface in sorted({files.printable_path(surface.path): surface for surface in surfaces}.items()):
+        digest = digest_of_scan(surface.path, f"{viscorough.__version__} {label} {spelled}")
+        scans.append(Scan(name, surface, digest, evaluate))
+    finished = finished_rows(output) | finished_rows(unfinished)
+    results = {scan.name: finished[scan.name] for scan in scans if scan.is_in(finished)}
+    unchanged, remaining = len(results), [scan for scan in scans if scan.name not in results]
+    with messages.progress_bar(label, progress) as report:
+        if len(scans) == 1:
+            results |= {scan.name: _in_this_process(scan, report) for scan in remaining}
+            listed = _write(results, output, spelled)
         else:
-            scans.append(Scan(name, surface, digest, evaluate))
-    unchanged = len(named) - len(scans)
-
-    def write(path: Path) -> list[LoadRows]:
-        listed = load_tables.with_one_unit(results.values())
-        tables.write(load_tables.load_table(listed, options=spelled), path)
-        return listed
-
-    try:
-        with messages.progress_bar(label, progress) as report, on_interrupt(signal.default_int_handler):
-            if len(named) == 1:
-                evaluated = (_in_this_process(scan, report) for scan in scans)
-            else:
-                evaluated = _in_processes(scans, jobs or max(1, _cores() // threads))
-            for result in evaluated:
-                results[result.file] = result
-                if len(named) > 1:
-                    write(unfinished)
-                    report(len(results) / len(named))
-            listed = write(output)
-            unfinished.unlink(missing_ok=True)
-    except KeyboardInterrupt:
-        if len(named) > 1:
-            done = f"{len(results)} of {len(named)} files are finished"
-            messages.complain(label, f"interrupted: {done}; the same command continues")
-        raise
+            try:
+                with on_interrupt(signal.default_int_handler):
+                    for result in _in_processes(remaining, jobs or max(1, _cores() // threads)):
+                        results[result.file] = result
+                        _write(results, unfinished, spelled)
+                        report(len(results) / len(scans))
+                    listed = _write(results, output, spelled)
+                    unfinished.unlink(missing_ok=True)
+            except KeyboardInterrupt:
+                done = f"{len(results)} of {len(scans)} files are finished"
+                messages.complain(label, f"interrupted: {done}; the same command continues")
+                raise
     _close(output, listed, unchanged, label)
+
+
+def _write(results: dict[str, LoadRows], path: Path, options: str) -> list[LoadRows]:
+    """Write the rows of files as a table, and return them as they are in it."""
+    from viscorough.io import load_tables, tables
+
+    listed = load_tables.with_one_unit(results.values())
+    tables.write(load_tables.load_table(listed, options=options), path)
+    return listed
 
 
 def only_one(surfaces: Sequence[surface_options.Surface], output: Path) -> surface_options.Surface:
@@ -159,7 +156,7 @@ def rows_at_loads(
 
 
 def _close(output: Path, listed: Sequence[LoadRows], unchanged: int, label: str) -> None:
-    """Write the closing line, and what failed or is doubtful. Raises Exit if a file failed."""
+    """Write the closing line, failures and warnings. Raises Exit if a file failed."""
     from viscorough.io.load_tables import text_of_row
 
     if len(listed) == 1:
@@ -228,7 +225,7 @@ def _without_path(text: object, path: Path) -> str:
 def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
     """Yield the rows or the error of each file, in the order in which they are finished.
 
-    If a process dies, the files that are not finished are evaluated one at a time, each in a process of its own.
+    If a process dies, the files that are not finished are evaluated one at a time, each in a new process.
     """
     waiting = {scan.name: scan for scan in scans}
     try:
@@ -250,7 +247,7 @@ def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
 
 
 def _alone(scan: Scan) -> LoadRows:
-    """Return the rows or the error of a file that is evaluated in a process of its own, which may die."""
+    """Evaluate a file in a new process, and return its rows, its error, or that the process died."""
     from viscorough.io.load_tables import LoadRows
 
     try:

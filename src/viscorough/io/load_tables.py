@@ -25,7 +25,7 @@ from viscorough.io.netcdf import Content, Variable
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, FilePath
 
-# What each column measures, a key of units.result_units; None for counts and shares.
+# Kind of quantity in each column, a key of units.result_units; None for counts and shares.
 _MEASURES = {
     "depth": "length",
     "force": "force",
@@ -139,14 +139,17 @@ def text_of_row(row: Row, stated: dict[str, str]) -> str:
 def digest_of_scan(path: FilePath, settings: str) -> str:
     """Return a digest of a file of heights, of the files that GDAL reads with it, and of the settings.
 
-    Raises a one-line ValueError if a file cannot be read.
+    Returns "" if a file cannot be read.
     """
     file = Path(path)
     companions = [file.with_suffix(suffix) for suffix in _COMPANIONS] + [Path(f"{file}{end}") for end in _ADDED]
     digest = hashlib.sha256(settings.encode(errors="backslashreplace"))
-    for each in [file, *(companion for companion in companions if companion != file and companion.is_file())]:
-        with reading(each, "a file of heights is needed"), open(each, "rb") as opened:
-            digest.update(hashlib.file_digest(opened, "sha256").digest())
+    try:
+        for each in [file, *(companion for companion in companions if companion != file and companion.is_file())]:
+            with reading(each, "a file of heights is needed"), open(each, "rb") as opened:
+                digest.update(hashlib.file_digest(opened, "sha256").digest())
+    except ValueError:
+        return ""
     return digest.hexdigest()[:_DIGITS]
 
 
@@ -178,7 +181,7 @@ def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
 
 
 def _column(values: list[Any], meaning: str, **attributes: str) -> Variable:
-    column: Array = np.empty(len(values), dtype=object)  # whole numbers stay whole beside missing values
+    column: Array = np.empty(len(values), dtype=object)  # whole numbers stay whole although others are missing
     column[:] = values
     return Variable(("row",), column, {"long_name": meaning, **attributes})
 

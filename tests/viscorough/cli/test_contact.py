@@ -105,6 +105,24 @@ def test_files_have_force_stiffness_and_pressure_in_si_units(here):
     assert (units["normal_force"], units["normal_stiffness"]) == ("N", "N m-1")
 
 
+@pytest.mark.parametrize("radius", [40.0, 40.5, 60.0])
+def test_hertz_in_si_units(here, radius):
+    """A ball of radius 0.1 mm on E = 2 MPa: depth, corrected area and largest pressure to 0.5 %.
+
+    radius : of the contact in elements, which are 0.25 um wide. F = 4/3 E* a^3/R, u = a^2/R, p = 2 E* a/(pi R).
+    """
+    points, ball, reduced_modulus = 2 * int(1.15 * radius) + 1, 100.0, 2 / 0.75  # um, MPa
+    position, a = 0.25 * (np.arange(points) - points // 2), 0.25 * radius
+    np.save("ball.npy", -np.add.outer(position**2, position**2) / (2 * ball))
+    force = 4 / 3 * reduced_modulus * a**3 / ball  # uN
+    assert run(f"contact ball.npy --spacing 0.25 --unit um --young '2 MPa' --force '{force!r} uN' -o out.csv") == 0
+    table, units = read_table("out.csv")
+    expected = {"depth": a**2 / ball, "corrected_contact_area": np.pi * a**2}
+    expected |= {"largest_normal_pressure": 2 * reduced_modulus * a / (np.pi * ball), "normal_force": 1e-6 * force}
+    assert table.loc[0, [*expected]].tolist() == pytest.approx([*expected.values()], rel=5e-3)
+    assert [units[name] for name in expected] == ["um", "um2", "MPa", "N"]
+
+
 def test_curves_stand_at_forces_and_end_at_one(here):
     command = "indent um.nc --spacing 1 -o out.nc --shear-modulus '1 MPa'"
     assert run(f"{command} --forces '1 uN,30 uN'") == 0

@@ -113,4 +113,5 @@ def test_digest_changes_with_file_settings_and_companions(tmp_path):
     scan.write_bytes(b"2")
     digests.append(load_tables.digest_of_scan(scan, "a"))
     assert len(set(digests)) == 4
+    assert load_tables.digest_of_scan(tmp_path / "missing.tif", "a") == ""
     assert load_tables.digest_of_scan(scan, "a") == digests[-1]

@@ -7,12 +7,15 @@ import pandas as pd
 import pytest
 
 from support.cf import violations
+from support.command_line import run
 from support.page import Page
+from support.tables import read_table
 from support.workflow import TEST, jobs, plan, settings_file, snakemake
 from viscorough.surfaces import self_affine_disc
 
 SCANS = {"ground_a", "ground_b", "polished_c"}
 MADE = {"prepare_measured", "indent_surfaces", "aggregate_curves", "evaluate_measured", "plot_measured"}
+MADE |= {"press_measured"}
 MADE |= {"tabulate_rule_costs", "make_page"}
 
 
@@ -23,7 +26,8 @@ def write_scans(folder):
         heights = self_affine_disc(0.6, 25, rms=0.5, diameter=250.0, seed=seed).heights
         np.save(folder / f"scans/{name}.npy", heights)
     shared = {"spacing": [10.0], "unit": "um"}
-    ground = {"name": "ground", "files": ["scans/[ab].npy"], "forces": [1e-4, 1e-3], **shared}
+    ground = {"name": "ground", "files": ["scans/[ab].npy"], "forces": [1e-3, 1e-4], **shared}
+    ground["young_modulus"] = 2e6
     polished = {"name": "polished", "files": ["scans/c.npy"], "preparation": {"detrend": "plane"}, **shared}
     return settings_file(folder, "scans", measured=[ground, polished])
 
@@ -63,6 +67,17 @@ def test_kinetics_under_the_forces_in_every_medium(folder):
     depths = rows.groupby((rows["force"] * rows["time"]).round(15))["depth"]
     np.testing.assert_allclose(depths.max(), depths.min(), rtol=1e-9)  # one depth for one impulse
     assert (depths.size() == 2).sum() > 5
+
+
+def test_contacts_have_the_numbers_of_the_command_line(folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    contacts = pd.read_csv("results/tables/measured_contacts.csv")
+    assert contacts["scan"].tolist() == ["ground_a", "ground_a", "ground_b", "ground_b"]
+    how = "--spacing 10 --unit um --force 1e-4,1e-3 --young 2e6"
+    assert run(f"contact scans/a.npy {how} -o {folder / 'contacts.csv'}") == 0
+    table, units = read_table("contacts.csv")
+    for name in set(units) - {"file", "error", "warnings", "digest"}:
+        np.testing.assert_allclose(contacts[:2][name], table[name], rtol=1e-2, err_msg=name)
 
 
 def test_the_page_has_a_section(folder):

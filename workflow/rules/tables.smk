@@ -8,6 +8,8 @@ TABLE_INPUTS = {
 SEED = {"seed": config["seed"]}
 BETA_HURST_MIN = paper("numbers")["agreement"]["beta_hurst_min"]["value"]
 CONTROLS = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
+# Settings of a measured surface that determine its contacts; the digest makes them new if the file changes.
+PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces", "young_modulus", "poisson_ratio")
 # {rule: further arguments of its function}
 TABLE_PARAMS = {
     "fit_scaling": config["scaling"] | SEED,
@@ -66,6 +68,9 @@ TABLE_PARAMS = {
         **config["media"],
         **chosen("figures", "rms_convention"),
         "discs": cases.first_combination(config),
+    },
+    "press_measured": {
+        "scans": [{"name": name} | {key: scan[key] for key in PRESSED} for name, scan in MEASURED.items()],
     },
     "evaluate_measured": {
         "names": list(MEASURED),

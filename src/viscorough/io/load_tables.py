@@ -52,6 +52,15 @@ _TEXTS = {
     "digest": "SHA-256, first 16 digits, of the file, of the settings and of the version of viscorough",
 }
 _MEANINGS = {name: text for name, (text, _) in (OVER_LEVELS | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()}
+# {column: (meaning, unit)} of rows_of_contacts if a modulus and the unit of length are known.
+SI_COLUMNS = {
+    _WITH_MODULUS.get(name, name): (
+        _MEANINGS[_WITH_MODULUS.get(name, name)],
+        "1" if measure is None else units.result_units("um", 1.0)[measure].name,
+    )
+    for name, measure in _MEASURES.items()
+    if name in _OF_CONTACTS
+}
 _DIGITS = 16
 # Files that GDAL reads together with a scan: by another suffix, and by a suffix added to the name of the scan.
 _COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")

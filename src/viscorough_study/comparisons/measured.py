@@ -1,14 +1,17 @@
-"""Tables of measured surfaces: lengths, power laws of their groups, and kinetics."""
+"""Tables of measured surfaces: lengths, power laws of their groups, kinetics, and contacts on an elastic half-space."""
 
 import json
 from itertools import chain, product
 
 import pandas as pd
 
+from viscorough.contact.one_contact import contact_at
 from viscorough.io.curves import unstack_curves
+from viscorough.io.load_tables import SI_COLUMNS, rows_of_contacts
 from viscorough.viscous.correspondence import kinetics
 from viscorough_study.comparisons.media_kinetics import named_media, reached_times
 from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.ensembles.measured import measured_indenter
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.fit_table import fit_rows
 
@@ -32,6 +35,32 @@ KINETICS = {
     "depth": ("depth u", "m"),
     "velocity": ("velocity v = du/dt", "m s-1"),
 }
+CONTACTS = {
+    "scan": ("name of the scan", None),
+    "group": ("group of scans", None),
+    "file": ("file of heights", None),
+    **SI_COLUMNS,
+}
+
+
+def measured_contacts(scans):
+    """Table of the contacts of measured surfaces with an elastic half-space; its columns are `CONTACTS`.
+
+    The rows have the numbers of `viscorough contact` with the same modulus and forces.
+
+    scans : mappings with name, group, file, spacing, unit, preparation, forces [N], young_modulus [Pa] (None for no
+        rows) and poisson_ratio
+    """
+    rows = []
+    for scan in scans:
+        if scan["young_modulus"] is None or not scan["forces"]:
+            continue
+        indenter = measured_indenter(scan["file"], **{name: scan[name] for name in ("spacing", "unit", "preparation")})
+        modulus = scan["young_modulus"] / (1 - scan["poisson_ratio"] ** 2) / 4
+        contacts = contact_at(indenter, force=sorted(scan["forces"]), shear_modulus=modulus)
+        labels = {"scan": scan["name"], "group": scan["group"], "file": scan["file"]}
+        rows += [labels | row for row in rows_of_contacts(contacts)[0]]
+    return pd.DataFrame(rows, columns=list(CONTACTS))
 
 
 def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):

@@ -13,11 +13,12 @@ def scans(entries, indentation):
     indentation : setting of that name
 
     A description has pool, realizations, batch, indentation and group; file, its bytes and a digest of its content; and
-    spacing, unit, preparation and forces of the entry. A scan is named after its group and file. Raises
-    ValueError if a pattern matches no file, or two names agree.
+    spacing, unit, preparation, forces, young_modulus and poisson_ratio of the entry. A scan is named after its group
+    and file. Raises ValueError if a pattern matches no file, or two names agree.
     """
     shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": indentation | {"whole_curves": 1}}
     shared |= {"spacing": [], "unit": None, "preparation": {}, "forces": []}
+    shared |= {"young_modulus": None, "poisson_ratio": 0.5}
     result = {}
     for entry in entries:
         for pattern in entry["files"]:

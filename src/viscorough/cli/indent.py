@@ -13,11 +13,11 @@ import click
 import viscorough
 from viscorough.cli import files, messages, options, scans, surface_options
 from viscorough.summaries import with_unit
-from viscorough.types import Progress
 from viscorough.units import Quantity, result_units
 
 if TYPE_CHECKING:
     from viscorough.io.load_tables import Rows
+    from viscorough.types import Progress
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")

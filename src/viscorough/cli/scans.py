@@ -29,11 +29,11 @@ import viscorough
 from viscorough.argument_names import spelled_as_options
 from viscorough.cli import files, messages, options, surface_options
 from viscorough.interrupts import on_interrupt
-from viscorough.types import Progress
 from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.load_tables import LoadRows, Rows
+    from viscorough.types import Progress
 
 # Exit code if the table is complete, but some of several files have an error instead of numbers.
 SOME_FAILED = 3

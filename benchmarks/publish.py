@@ -97,18 +97,20 @@ def verdicts():
 
 
 def other_runs(table):
-    """Sentences that compare the verdicts with those of the default run and of other root seeds."""
-    seeds = dict(tuple(published_claims("docs/seeds.csv").groupby("seed")))
-    runs, differ = [published_claims(DEFAULT_CLAIMS), *seeds.values()], []
+    """Sentences that compare the verdicts with those of the default run and, where published, of other root seeds."""
+    runs, seeds, differ = [published_claims(DEFAULT_CLAIMS)], "", []
+    if (ROOT / "docs/seeds.csv").is_file():
+        with_seeds = dict(tuple(published_claims("docs/seeds.csv").groupby("seed")))
+        runs += with_seeds.values()
+        seeds = f" and also with {len(with_seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)),"
     for claim, verdict in overall(table).items():
         if others := {overall(run)[claim] for run in runs} - {verdict}:
             differ.append(f"{claim} ({', '.join(sorted(others))})")
     opposed = [f"{claim}, {case}" for claim, case in opposed_cases([table, *runs])]
     return (
-        "With the paper's own number of discs, 2880 (`make reproduce`, `resources/published/default_claims.csv`), and "
-        f"also with {len(seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)), the verdicts are the same, "
-        f"but for: {'; '.join(differ) or 'none'}. Cases that are reproduced in one of these runs and not reproduced in "
-        f"another: {'; '.join(opposed) or 'none'}."
+        f"With the paper's own number of discs, 2880 (`make reproduce`, `{DEFAULT_CLAIMS}`),{seeds} the verdicts are "
+        f"the same, but for: {'; '.join(differ) or 'none'}. Cases that are reproduced in one of these runs and not "
+        f"reproduced in another: {'; '.join(opposed) or 'none'}."
     )
 
 

@@ -64,8 +64,8 @@ def base_fits():
 
 def prefactors():
     """ζ of both formulas of the paper and of discs, as the article shows them, by Hurst exponent."""
-    results = Results({"scaling": published("scaling.csv")}, {})
-    return pd.DataFrame(article.prefactors(results, SHOWN)).set_index("hurst")
+    results = Results({"scaling": published("scaling.csv"), "claims": pd.read_csv(ROOT / "docs/claims.csv")}, {})
+    return pd.DataFrame(article.prefactors(results, SHOWN)["rows"]).set_index("hurst")
 
 
 def stiffness_over():
@@ -74,7 +74,7 @@ def stiffness_over():
     for hurst, fit in base_fits().iterrows():
         ends_of_region = fit[["x_low", "x_high"]].to_numpy(dtype=float)
         grown = ends_of_region ** (exponent_beta(hurst) - fit["beta"])
-        ratios[hurst] = [*(fit["zeta"] / prefactors()[law][hurst] * grown for law in ("elastic", "viscous"))]
+        ratios[hurst] = [*(fit["zeta"] / prefactors()[law][hurst] * grown for law in ("eq_4", "eq_11"))]
     return {hurst: np.ravel(both) for hurst, both in ratios.items()}
 
 
@@ -224,10 +224,10 @@ QUOTED = {
     "README.md": {
         "At H = 0.4 and 0.1 it is {:.2f} and {:.2f} larger": above_expected,
         "begins with {} to {} % of the elements": lambda: ends(100 * value("complete_contact")),
-        "at X = 28, {} to {} % touch": lambda: ends(100 * value("complete_contact_end")),
-        "means ζ = {:.2f}, {:.2f}, {:.2f} and {:.2f} at": lambda: prefactors()["viscous"],
-        "says {:.2f}, {:.2f}, {:.2f} and {:.2f}; ours, at X = 1,": lambda: prefactors()["elastic"],
-        "lies between: {:.2f}, {:.2f}, {:.2f} and {:.2f}.": lambda: prefactors()["here"],
+        "not almost all; {} to {} % touch": lambda: ends(100 * value("complete_contact_end")),
+        "means ζ = {:.2f}, {:.2f}, {:.2f} and {:.2f} at": lambda: prefactors()["eq_11"],
+        "says {:.2f}, {:.2f}, {:.2f} and {:.2f}; ours, at X = 1,": lambda: prefactors()["eq_4"],
+        "lies between: {:.2f}, {:.2f}, {:.2f} and {:.2f}.": lambda: prefactors()["value"],
         "the velocity by {1:.0f} to {0:.0f} %": grid_errors,
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().max(),
         "at {:.0f} to {:.0f} % of the cost": reduction_costs,
@@ -274,21 +274,21 @@ QUOTED = {
         "the same, {:.3f}, {:.3f} and {:.3f}, but lie at larger *X*, {:.1f}, {:.1f} and": lambda: largest(
             roll_off=True
         ),
-        "| Eq. 4, π(3 − *H*)/10 | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["elastic"],
-        "elements here | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["here"],
-        "(2 − *H*)Γ(2 − *α*) | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["viscous"],
-        "by a factor of {:.1f} to {:.1f}, so": lambda: (prefactors()["viscous"] / prefactors()["elastic"]).agg(
+        "| Eq. 4, π(3 − *H*)/10 | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["eq_4"],
+        "elements here | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["value"],
+        "(2 − *H*)Γ(2 − *α*) | {:.2f} | {:.2f} | {:.2f} | {:.2f} |": lambda: prefactors()["eq_11"],
+        "by a factor of {:.1f} to {:.1f}, so": lambda: (prefactors()["eq_11"] / prefactors()["eq_4"]).agg(
             ["min", "max"]
         ),
         "it is {:.1f} to {:.1f} times that of Eq. 4 there, and {:.1f} to {:.1f} times": lambda: stiffness_over()[0.1],
-        "then be {:.2f}, {:.2f}, {:.2f} and {:.2f} times Eq. 11": lambda: prefactors()["as_radius"],
+        "then be {:.2f}, {:.2f}, {:.2f} and {:.2f} times Eq. 11": lambda: prefactors()["ratio_if_radius"],
         "{:.2f} at *H* = 0.1. Why": lambda: 1 - base_fits()["beta"][0.1],
-        "ensembles end, {:.0f}, {:.0f}, {:.0f} and {:.0f} % of": lambda: 100 * value("complete_contact_end"),
+        "*H* = 0.9, 20), {:.0f}, {:.0f}, {:.0f} and {:.0f} % of": lambda: 100 * value("complete_contact_end"),
         "Up to {} times the bound": lambda: str(_RELAXED_BOUND),
     },
     "docs/verdicts.md": {
         "touch: {:.0f}, {:.0f}, {:.0f} and {:.0f} % at": lambda: 100 * value("complete_contact"),
-        "*X* = 28, {:.0f}, {:.0f}, {:.0f} and {:.0f} % touch": lambda: 100 * value("complete_contact_end"),
+        "*H* = 0.9, 20), {:.0f}, {:.0f}, {:.0f} and {:.0f} % touch": lambda: 100 * value("complete_contact_end"),
     },
     "docs/scaling.md": {
         "| {:.0f} s | `make large`": lambda: large(4097)["wall"],
@@ -365,15 +365,14 @@ def test_what_pages_conclude_from_the_tables():
     assert plateaus["base"]["control_passes"].max() == 0
     assert plateaus["base"]["decades_low"].min() >= 1.5 > plateaus["roll_off"]["decades_low"].max()
     assert 1.5 <= plateaus["roll_off"]["decades_high"].max() < 2
-    assert (value("power_law", column="low") >= 2).tolist() == [False, True, True, True]
+    assert (value("power_law_decades", column="low") >= 2).tolist() == [False, True, True, True]
     assert set(LAW.index) == set(plateaus["roll_off"]["hurst"]) | {1.0} == {0.1, 0.4, 0.6, 0.9, 1.0}
     # Boundary elements and the MDR.
     assert value("coincide").abs()[["H = 0.6", "H = 0.9"]].max() < 0.02
     assert value("coincide_equal_windows").abs().iloc[:2].round(2).tolist() == [0.08, 0.08]
     assert published("reduction.csv")["stiffness_ratio"].between(0.75, 1.25).all()
     assert (PAPER["lines"]["points"], DEFAULT["lines"]["points"]) == (4_000_000, 131_072)
-    assert 50 < value("computing_time").iloc[0] < 1000
-    assert value("contact_problems").iloc[0] < 0.0015
+    assert 3e4 < value("contact_problems", "changes of the contact") < 4.5e4
     assert value("complete_contact").iloc[0] < 0.2
     # Grids.
     limits = published("infinite_grid.csv").query("law == 'corrected'")

@@ -106,21 +106,23 @@ def cases_by_outcome(results, claim):
 def prefactors(results, conventions):
     """ζ of the run beside Eqs. 4 and 11, at each Hurst exponent of the discs.
 
-    rows : H, Eq. 4, Eq. 11 without its factor 1/Γ(2 − α), ζ with its interval, and its extremes over conventions
+    rows : H, Eq. 4, Eq. 11 without its factor 1/Γ(2 − α), ζ with its interval, and its extremes over conventions; as
+        ratio_if_radius ζ over Eq. 11, both with the factor, if L were the radius of the disc
     between : whether ζ lies between both formulas at every H
     conventions : number of combinations of conventions; agreeing : largest number of them in which ζ has the value of
         one of the formulas within its tolerance, over formulas and H
-    radius : smallest and largest ζ over Eq. 11, both with the factor, if L were the radius of the disc
+    radius : smallest and largest ratio_if_radius
     """
-    every, rows, ratios = results.rows("scaling", source="discs", case_group="base"), [], []
+    every, rows = results.rows("scaling", source="discs", case_group="base"), []
     for row in fits(every, conventions | {"gamma": "without"}).itertuples():
         zeta, eq_11 = every.loc[every["hurst"] == row.hurst, "zeta"], reference.zeta_viscous(row.hurst)
         numbers = {"hurst": row.hurst, "value": row.zeta, "low": row.zeta_low, "high": row.zeta_high}
         numbers |= {"least": zeta.min(), "largest": zeta.max()}
         without_gamma = eq_11 * _gamma(reference.exponent_beta(row.hurst))
-        rows.append(numbers | {"eq_4": reference.zeta_elastic(row.hurst), "eq_11": without_gamma})
+        numbers |= {"eq_4": reference.zeta_elastic(row.hurst), "eq_11": without_gamma}
         # X and κ double if L is the radius, and ζ = κ/X^α grows by 2^β.
-        ratios.append(2**row.beta * row.zeta / _gamma(row.beta) / eq_11)
+        rows.append(numbers | {"ratio_if_radius": 2**row.beta * row.zeta / _gamma(row.beta) / eq_11})
+    ratios = [row["ratio_if_radius"] for row in rows]
     both = results.tables["claims"].query("claim in ('zeta_elastic', 'zeta_viscous')")
     return {
         "rows": rows,

@@ -115,7 +115,7 @@ class LoadingCurve(ReadOnlyArrays, Saved):
 
     @property
     def starts_straight(self) -> bool:
-        """True if the tangent of the first level passes through the origin: the elements in contact have one height."""
+        """Whether the tangent of the first level passes through the origin, as with all contacts at one height."""
         return bool(abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0])
 
     def normalised(self, rms: float, diameter: float) -> tuple[Array, Array]:

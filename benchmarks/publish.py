@@ -161,7 +161,7 @@ def time_sentence():
     costs = pd.read_csv(ROOT / DEFAULT_COSTS).iloc[0]
     weeks = read_paper(ROOT / "resources/paper", "numbers")["boundary_elements"]["computing_time"]["value"]
     text = f"**{weeks.capitalize()} in the paper, {default_minutes()} here**: `make reproduce` on virtual machines "
-    text += f"({costs['machine']}, {costs['measured']}), with as many discs and with shorter lines."
+    text += f"({costs['machine']}, {costs['measured']}), with as many discs as in the paper, and shorter lines."
     return paragraph(text)
 
 

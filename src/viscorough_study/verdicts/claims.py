@@ -47,7 +47,7 @@ KINDS = {
 }
 # What the claims that fail have in common: {finding of a claim in claims.yaml: the finding in words}.
 FINDINGS = {
-    "small_hurst": "small H departs, on every grid tried, at fixed X",
+    "small_hurst": "at small H the exponents depart from H/(1 + H), on every grid tried at fixed X",
     "prefactor": "the prefactor differs",
     "gamma": "the factor 1/Γ(2 − α) is an error",
     "region_c": "region (c) begins far before complete contact",

@@ -11,7 +11,7 @@ import numpy as np
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 # Units of UDUNITS in these files, with integer powers, separated by spaces; files may hold any unit of length.
-UNIT = re.compile(r"(1|m|mm|um|nm|s|N|Pa|byte|Mbyte|element|decade)(-?\d)?( (m|s|N|Pa)(-?\d)?)*")
+UNIT = re.compile(r"(1|m|mm|um|nm|s|N|N/m|Pa|MPa|byte|Mbyte|element|decade)(-?\d)?( (m|s|N|Pa)(-?\d)?)*")
 
 
 def violations(path):

@@ -23,7 +23,7 @@ def test_contact_in_three_lines():
     first, second, third = str(contact).splitlines()
     assert first == "Contact of 2 of 3 elements"
     assert second.startswith("depth u 0.1 um, force F/G ")
-    assert third.startswith("contact area 8 um2 (66.7 %), mean p/G ")
+    assert third.startswith("contact area 8 um2 (66.7 %), corrected 7.528 um2, mean p/G ")
 
 
 def test_indenter_in_three_lines():

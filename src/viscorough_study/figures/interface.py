@@ -46,7 +46,7 @@ def plot_interface(table, curves, literature, periodic):
     ratio.axhspan(1 - LARGEST_DEVIATION, 1 + LARGEST_DEVIATION, color="0.92", linewidth=0, zorder=0)
     ratio.axhline(1, color=style.BLACK, linewidth=0.6)
     ratio.set(title="(c) the law over boundary elements", ylabel="$g$ of the law over the mean", ylim=(0.7, 1.3))
-    _name_discs(ratio, base[base["source"] == "discs"], looks)
+    _name_discs(ratio, base[base["source"] == "discs"])
     _draw_literature(plateaus, literature)
     _draw_plateaus(plateaus, table, looks)
     plateaus.set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.2, 0.7))
@@ -80,12 +80,13 @@ def _draw_law(axes, ratios, curve, law, look):
     ratios.fill_between(curve["x"], *ends, color=look["color"], alpha=0.15, linewidth=0)
 
 
-def _name_discs(axes, table, looks):
+def _name_discs(axes, table):
     """State at how many discs the mean of each curve of the law is taken."""
     shown = table[(table["across"] == ACROSS) & table["hurst"].isin(interface_calibration()["hurst"])]
-    labels = {row.hurst: f"{row.realizations:g} discs" for row in shown.sort_values("hurst").itertuples()}
-    handles = [style.handle(label, **looks[hurst] | {"marker": ""}) for hurst, label in labels.items()]
-    axes.legend(handles=handles, loc="lower left", ncols=3, columnspacing=1)
+    hurst_by_number = shown.sort_values("hurst").groupby("realizations", sort=False)["hurst"]
+    labels = [f"{number:g} discs: $H$ = {', '.join(f'{h:g}' for h in hurst)}" for number, hurst in hurst_by_number]
+    handles = [style.handle(label, linestyle="") for label in labels]
+    axes.legend(handles=handles, loc="lower left", handlelength=0, handletextpad=0)
 
 
 def _draw_literature(axes, literature):

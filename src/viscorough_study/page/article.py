@@ -11,6 +11,7 @@ from markupsafe import Markup
 
 from viscorough import reference
 from viscorough.calibrated_law import ACROSS
+from viscorough_study.comparisons.literature import X_COMPARED
 from viscorough_study.fits.conventions import fits
 from viscorough_study.page.results import Number, read_published
 from viscorough_study.run.readable import readable
@@ -58,6 +59,7 @@ def article(project, contents, *, paper, figures, repository):
         law=law[law["across"] == ACROSS].to_dict("records"),
         plateaus=results.tables["plateaus"].to_dict("records"),
         control=control(results),
+        x_compared=X_COMPARED,
         earlier=results.rows("literature", source="Pohrt and Popov").iloc[0],
         sum_rules=sum_rules_shown(sum_rules),
         audited={"plain": float(PLAIN), "audit": float(AUDITED), "across": sum_rules["across"]},

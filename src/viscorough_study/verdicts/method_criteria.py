@@ -61,15 +61,16 @@ def elements(evidence, tolerance):
 def contact_problems(evidence, tolerance):
     """Number of contact problems in one indentation: of changes of the contact, and of steps to a given accuracy.
 
-    Every element that comes into contact is a change; the extremes are over the discs. The steps are those of explicit
-    integration with an error of the velocity below `SMALL_ERROR`, on discs as large as the paper's; the extremes are
-    over the Hurst exponents.
+    Every element that comes into contact is a change; the extremes are over the discs. The steps are the fewest of
+    explicit integration with an error of the velocity below `SMALL_ERROR`; the extremes are over the rough discs on
+    which it was reached, of any number of elements.
     """
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
-    steps = _rough_discs(evidence).query("method == @EXPLICIT and error <= @SMALL_ERROR")
+    methods = evidence.tables["methods"]
+    steps = methods[methods["hurst"].notna()].query("method == @EXPLICIT and error <= @SMALL_ERROR")
     numbers = {
         "changes of the contact": np.concatenate(counts),
-        f"steps to {SMALL_ERROR:.0%}": steps.groupby("hurst")["steps"].min().to_numpy(),
+        f"steps to {SMALL_ERROR:.0%}": steps.groupby(["hurst", "elements"])["steps"].min().to_numpy(),
     }
     for name, values in numbers.items():
         if not values.size:

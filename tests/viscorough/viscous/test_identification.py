@@ -154,6 +154,17 @@ def test_force_may_step_down_in_a_record(kind):
     assert found.compliance[-1] == pytest.approx(20, rel=0.02)
 
 
+@pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
+@pytest.mark.parametrize(("rows", "seed"), [(6, 152), (8, 98), (20, 15), (100, 4), (200, 11)])
+def test_noise_of_level_records_is_not_taken_for_receding_depths(rows, seed):
+    """Few rows show their own standard deviation badly, and the last depths of this record are equal but for noise."""
+    times = np.geomspace(10, 60, rows)
+    force, _ = record(MEDIA["kelvin-voigt"])
+    depth = kinetics(CURVE, force, MEDIA["kelvin-voigt"], times).depth
+    noisy = depth + 1e-2 * depth[-1] * np.random.default_rng([rows, seed]).standard_normal(rows)
+    assert identify_medium(CURVE, force, times, noisy).compliance.size
+
+
 def test_slowly_receding_depths_are_refused():
     """Means over rows scatter less than single rows: a drop of three standard deviations in the mean is no noise."""
     times = np.geomspace(0.02, 60, 64)

@@ -203,10 +203,12 @@ def test_law_has_the_band_and_the_number_of_discs_of_the_mean(drawn):
     bands = [band for band in law.collections if len(band.get_paths()) and len(band.get_paths()[0].vertices) > 10]
     heights = np.concatenate([band.get_paths()[0].vertices[:, 1] for band in bands])
     close([heights.min(), heights.max()], [1.02 / 1.1, 1.02 / 0.9])
-    numbers = published("interface").query("source == 'discs' and across == 257")["realizations"]
+    discs = published("interface").query("source == 'discs' and across == 257 and case_group == 'base'")
     labels = [text.get_text() for text in law.get_legend().get_texts()]
-    assert len(labels) == len(bands)
-    assert set(labels) <= {f"{number:g} discs" for number in numbers}
+    (number,) = set(discs["realizations"])
+    hurst = ", ".join(f"{value:g}" for value in sorted(discs["hurst"]))
+    assert labels[0] == f"{number:g} discs: $H$ = {hurst}"
+    assert len(labels) == 1 + (len(bands) > len(discs))
 
 
 def test_axes_of_lambda_show_its_change_within_region_b(drawn):

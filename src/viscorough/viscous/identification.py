@@ -319,8 +319,8 @@ def _check_growth(times: Array, depth: Array, scatter: float) -> None:
             where = int(np.argmax(drop > allowed))
             raise ValueError(
                 f"record: at time {times[where * size]:.6g} the depth has receded by {drop[where]:.3g}, more than its "
-                f"scatter, {max(scatter, found):.3g}, explains; allowed: depths that grow, under which the contact does "
-                "not recede"
+                f"scatter, {max(scatter, found):.3g}, explains; allowed: depths that grow, under which the contact "
+                "does not recede"
             )
 
 

@@ -17,6 +17,7 @@ from viscorough.contact.complete_contact import joined_surface
 from viscorough.contact.grid.memory_demand import require_for_complete_contact
 from viscorough.contact.ranking import elements_of
 from viscorough.contact.solver import ContactSolver
+from viscorough.viscous.integration.elements import elements_of_map
 
 # What any contact requires, however small.
 CONSTANT = 6e6
@@ -39,6 +40,12 @@ def demand(compute, monkeypatch):
         with pytest.raises(MemoryError) as error:
             compute()
     return float(re.search(r"takes (\S+) bytes", str(error.value))[1])
+
+
+def test_dense_interactions_of_direct_integration_require_three_matrices(monkeypatch):
+    elements = elements_of_map(Indenter(np.random.default_rng(1).random((20, 20)), 1.0), "march")
+    members = np.arange(200)
+    assert demand(lambda: elements.influence_among(members), monkeypatch) == 3 * 8 * 200**2
 
 
 ROW, COLUMN = np.mgrid[:300, :300]

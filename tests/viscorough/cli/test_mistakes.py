@@ -52,7 +52,10 @@ MISTAKES = [
     (f"{CONTACT} --force '1 mN' --shear-modulus 1", NO_UNIT),
     (f"{CONTACT} --force 1 --shear-modulus '1 um'", "--shear-modulus"),
     (f"{CONTACT.replace('--spacing 1', '--spacing 1e-170')} --depth 1", "too small to represent areas"),
-    (f"{CONTACT} --depth 1e300", "up to which depths are allowed"),
+    (
+        f"{CONTACT} --depth 1e300",
+        "contact at depth 1e+300: larger than 1e+25 times the largest initial gap, up to which depths are allowed",
+    ),
     (f"{CONTACT} --force 1 --shear-modulus 1 --young 1", EXCLUDE),
     (f"{CONTACT} --force 1 --shear-modulus 1 --poisson 0.3", "--poisson is for use with --young"),
     (f"{CONTACT} --force 1 --young 1 --poisson 0.6", "0.6 is not in the range -1<x<=0.5"),

@@ -34,6 +34,16 @@ def test_lambda_of_a_line_stretched_in_height():
     np.testing.assert_allclose(match.deviation(best, inner)[0], 0, atol=1e-9)
 
 
+def test_best_stretch_makes_the_deviations_of_both_signs_equal():
+    """Lines with another exponent deviate at one end of the window as much as at the other, with the opposite sign."""
+    match = match_lines(x, scattered(0.5, 3, seed=1), scattered(0.4, 3, seed=1), **GEOMETRIC)
+    window = (1e-4, 1e-2)
+    inside = (x > 0.99e-4) & (x < 1.01e-2)
+    deviation = match.deviation(match.best_stretch(window), inside)[0]
+    assert deviation.max() == pytest.approx(-deviation.min(), rel=1e-9)
+    assert deviation.max() == pytest.approx(0.1 * np.log(10), rel=1e-6)  # half of 0.5 - 0.4 over two decades
+
+
 def test_nothing_is_known_beyond_the_lines():
     lines = scattered(0.4, 3, seed=1)
     lines[0, x > 1e-2] = np.nan

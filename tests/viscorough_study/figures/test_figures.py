@@ -12,7 +12,7 @@ from viscorough import reference
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures.collapse import SHIFT
 from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
-from viscorough_study.figures.speed import FLOOR, RING
+from viscorough_study.figures.speed import FLOOR, METHODS, PARETO, RING
 from viscorough_study.figures.style import SMALL
 from viscorough_study.fits.conventions import fits
 from viscorough_study.performance.costs import pareto_front
@@ -105,7 +105,11 @@ def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
 def test_speed_has_the_front_of_all_methods_and_rings_around_the_fastest():
     table = published("methods")
     table.loc[table["error"].idxmin(), "error"] = 0.0
-    rough, sphere = plot("speed", table).axes
+    figure = plot("speed", table)
+    rough, sphere = figure.axes
+    (legend,) = figure.legends
+    labels = {*METHODS.values(), RING["label"], PARETO["label"]}
+    assert {text.get_text() for text in legend.get_texts()} == labels
     assert rough.get_title() == "(a) rough disc, H = 0.4, 257 elements across"
     assert sphere.get_title().startswith("(b) sphere, ")
     costs = table.query("problem == 'rough disc, H = 0.4' and elements == 257")

@@ -8,7 +8,8 @@ of paper include the verdicts and the calibrated power law, those of law the law
 its errors and the intervals of single surfaces, those of reproduce verdicts and cost of the default run, those of seeds
 the dependence of the verdicts on the seed, that is, on the surfaces drawn. Without results (`--pages-only`) only the
 tables in README.md and docs/ are written, from the last published results and from the statements in
-resources/paper/claims.yaml. The workflow writes only into results/.
+resources/paper/claims.yaml. The addresses of the project in pyproject.toml are written to README.md, docs/ and
+CITATION.cff in both cases. The workflow writes only into results/.
 """
 
 import json
@@ -16,6 +17,7 @@ import re
 import shutil
 import subprocess
 import textwrap
+import tomllib
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -86,6 +88,8 @@ KEPT = {
     },
     "seeds": {"seeds.csv": "docs/seeds.csv"},
 }
+# {key of CITATION.cff: name of its address in pyproject.toml}
+CITED_ADDRESSES = {"repository-code": "Repository", "url": "Documentation"}
 CLAIMS = read_paper(ROOT / "resources/paper", "claims")
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 
@@ -154,6 +158,36 @@ def sentences():
         verdict = judged or f"not judged: {sentence['why']}"
         rows.append(f"| {sentence['where']} | {sentence['says']} | {sentence['origin']} | {verdict} |")
     return markdown_table("| where | what the paper says | origin | verdict |", rows)
+
+
+def addresses():
+    """Addresses of the project, of pyproject.toml: {name: address}."""
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["urls"]
+
+
+def installation():
+    """Lines of a shell that install the library with its plots, from a checkout or from the repository."""
+    return (
+        "```shell\n"
+        "python3 -m venv venv && . venv/bin/activate\n"
+        'pip install ".[plot]"  # in a folder with the sources, or from the repository:\n'
+        f'pip install "viscorough[plot] @ git+{addresses()["Repository"]}"\n'
+        "```\n"
+    )
+
+
+def project_links():
+    """Sentence with the addresses of the project."""
+    links = {name: addresses()[name] for name in ("Repository", "Documentation", "Issues")}
+    text = " · ".join(f"[{name}]({address})" for name, address in links.items())
+    return paragraph(f"{text} (placeholders until the project is published)")
+
+
+def citation(text):
+    """CITATION.cff with the addresses of pyproject.toml; text : as it is"""
+    for key, name in CITED_ADDRESSES.items():
+        text = re.sub(rf"^{key}: .*$", f"{key}: {addresses()[name]}", text, flags=re.MULTILINE)
+    return text
 
 
 def time_sentence():
@@ -344,6 +378,9 @@ def tables():
         ("docs/verdicts.md", "answer"): answer_lines(),
         ("docs/verdicts.md", "sentences"): sentences(),
         ("README.md", "time"): time_sentence(),
+        ("README.md", "installation"): installation(),
+        ("docs/getting_started.md", "installation"): installation(),
+        ("docs/index.md", "addresses"): project_links(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
         ("docs/performance.md", "large maps"): large_maps(),
@@ -358,11 +395,13 @@ def tables():
 
 
 def write_tables():
-    """Write the generated parts between their marks."""
+    """Write the generated parts between their marks, and the addresses of CITATION.cff."""
     for (page, name), table in tables().items():
         begin, end = BEGIN.format(name), END.format(name)
         before, rest = (ROOT / page).read_text(encoding="utf-8").split(begin)
         (ROOT / page).write_text(before + begin + "\n" + table + "\n" + end + rest.split(end)[1], encoding="utf-8")
+    cited = ROOT / "CITATION.cff"
+    cited.write_text(citation(cited.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def copy_other_solvers(table, target, machine, date):

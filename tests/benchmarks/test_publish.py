@@ -10,6 +10,7 @@ import click
 import pandas as pd
 import publish
 import pytest
+import yaml
 from PIL import Image
 
 from support.documentation import ROOT, read
@@ -25,6 +26,15 @@ TABLES = publish.tables()
 def test_pages_have_the_published_tables(page, name):
     between = re.search(rf"<!-- {name}: .*? -->\n\n(.*?)\n<!-- end of {name} -->", read(ROOT / page), re.DOTALL)[1]
     assert between == TABLES[page, name]
+
+
+def test_citation_has_the_addresses_of_the_project():
+    text = read(ROOT / "CITATION.cff")
+    assert publish.citation(text) == text
+    cited = yaml.safe_load(text)
+    assert {key: cited[key] for key in publish.CITED_ADDRESSES} == {
+        key: publish.addresses()[name] for key, name in publish.CITED_ADDRESSES.items()
+    }
 
 
 @pytest.fixture

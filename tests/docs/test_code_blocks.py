@@ -4,6 +4,8 @@ Those on the page of the results run in tests/workflow/test_page.py, those for w
 """
 
 import re
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -80,10 +82,25 @@ def test_every_block_is_run_by_a_test():
 
 def test_extras_that_are_installed_exist():
     extras = tomllib.loads(read(ROOT / "pyproject.toml"))["project"]["optional-dependencies"]
-    named = {
-        name for page in PAGES for name in re.findall(r"""pip install ["'](?:\.|viscorough)\[(\w+)\]""", read(page))
-    }
-    assert {"plot"} <= named <= set(extras)
+    sources = [*PAGES, *(ROOT / "src/viscorough").rglob("*.py")]
+    named = {name for file in sources for name in re.findall(r'pip\s+install "(?:\.|viscorough)\[(\w+)\]', read(file))}
+    assert {"plot", "formats", "geo"} <= named <= set(extras)
+
+
+def test_extras_are_added_to_an_installed_package_without_an_index_that_has_it():
+    command = [sys.executable, "-m", "pip", "install", "--dry-run", "--no-index", "viscorough[formats,geo,plot]"]
+    subprocess.run(command, check=True, capture_output=True)
+
+
+def test_commands_without_make_are_those_of_make():
+    """Those of the environment and of the tests in full, those of the workflow without its line of progress."""
+    page = ROOT / "docs/getting_started.md"
+    (text,) = (block.text for block in blocks(page) if "python3 -m venv .venv" in block.text)
+    command = ["make", "--dry-run", "--always-make", "CORES=2", "environment", "reproduce", "test"]
+    made = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    made = re.sub(r" +", " ", re.sub(r"\.venv/bin/| --clear| --quiet| --disable-pip-version-check", "", made))
+    for line in text.splitlines():
+        assert line.split(" && ")[0] in made, line
 
 
 def test_settings_shown_are_valid():

@@ -53,7 +53,7 @@ def indent(
     """Loading curves of indenters pressed into an elastic half-space.
 
     HEIGHTS is a map of heights: .npy, NetCDF, text (a matrix, an ESRI grid, columns x, y, z), TIFF, or a format of an
-    instrument, for which pip install 'viscorough[formats]' is needed. Rows are along y, columns along x. Spacing and
+    instrument, for which pip install "viscorough[formats]" is needed. Rows are along y, columns along x. Spacing and
     unit are those that the file states; where it states no unit, heights, spacing and depths are in one unit of length
     of your choice.
 

@@ -59,7 +59,7 @@ def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]
     try:
         import rasterio
     except ImportError as error:
-        text = "GeoTIFF and other elevation models are read by rasterio; pip install 'viscorough[geo]' installs it"
+        text = 'GeoTIFF and other elevation models are read by rasterio; pip install "viscorough[geo]" installs it'
         raise ValueError(f"{path}: {text}") from error
     with contextlib.ExitStack() as stack:
         with _decoding(path):

@@ -45,8 +45,8 @@ def read_heights(
     ----------
     path : path
         .npy, NetCDF (.nc), text (.txt, .csv, .asc, .dat, .tsv, .xyz: a matrix, an ESRI grid, or columns x, y, z),
-        TIFF, an elevation model such as GeoTIFF (pip install 'viscorough[geo]'), or a format of an instrument (pip
-        install 'viscorough[formats]').
+        TIFF, an elevation model such as GeoTIFF (pip install "viscorough[geo]"), or a format of an instrument (pip
+        install "viscorough[formats]").
     spacing : number or text or pair of them, optional
         Distance between neighbouring points, or (dx, dy): from column to column, from row to row; numbers in the unit
         of the heights, or texts as "0.2 um". Needed where the file states none.

@@ -79,7 +79,7 @@ def _opened(path: FilePath) -> Any:
         from SurfaceTopography.IO import CannotDetectFileFormat, open_topography, readers
     except ImportError as error:
         text = "unknown kind of file; .npy, .nc, text and TIFF are read directly, formats of instruments with"
-        raise ValueError(f"{text} pip install 'viscorough[formats]'") from error
+        raise ValueError(f'{text} pip install "viscorough[formats]"') from error
     if not Path(path).stat().st_size:
         raise ValueError("it is empty")
     with open(path, "rb") as file:

@@ -79,7 +79,7 @@ def _heights(page: Any) -> NDArray[Any]:
         if isinstance(error, ValueError) and "imagecodecs" not in str(error):
             raise
         coding = page.compression.name + (", predictor 3" if page.predictor == 3 else "")
-        text = "pip install 'viscorough[formats]' installs what decompresses it"
+        text = 'pip install "viscorough[formats]" installs the decoder'
         raise ValueError(f"compressed by {coding}; {text}") from error
 
 

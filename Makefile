@@ -1,4 +1,4 @@
-# Needs make, and Python >= 3.11 with venv (Debian and Ubuntu: python3-venv). The environment in .venv is built from
+# Needs make, and Python 3.11 to 3.14 with venv (Debian and Ubuntu: python3-venv). The environment in .venv is built from
 # requirements.lock, and again when that changes or the folder is copied or moved.
 PYTHON ?= python3
 CORES ?= 2
@@ -8,6 +8,15 @@ SETTINGS ?=
 SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))
 # One line of progress; all that is printed is in results/run.log.
 WITH_PROGRESS = $(BIN)/python workflow/run_with_progress.py --
+
+# Interpreters for which requirements.lock was installed and tested; others may lack packages.
+CHECK_PYTHON = import sys; (3, 11) <= sys.version_info < (3, 15) or sys.exit("Python 3.11 to 3.14 is needed, and \
+$(PYTHON) is " + sys.version.split()[0] + "; make PYTHON=... names another one")
+# The package immutables has no wheel for Python 3.14 and is compiled there.
+CHECK_COMPILER = import shutil, sys; from pathlib import Path; from sysconfig import get_config_var, get_path; \
+sys.version_info < (3, 14) or shutil.which(get_config_var("CC").split()[0]) and Path(get_path("include"), "Python.h").exists() \
+or sys.exit("Snakemake needs immutables, which has no wheel for Python 3.14: a C compiler and Python.h are needed (Debian and \
+Ubuntu: apt install gcc python3-dev), or make PYTHON=python3.13")
 
 # Snakemake does not quote the path of the Python interpreter, so that every job would fail.
 ifneq ($(words $(CURDIR)),1)
@@ -57,7 +66,8 @@ environment: .venv/package-installed
 moved:
 
 .venv/lock-installed: requirements.lock $(MOVED)
-	@$(PYTHON) -c 'import sys; sys.exit("Python >= 3.11 is needed; set PYTHON" if sys.version_info < (3, 11) else 0)'
+	@$(PYTHON) -c '$(CHECK_PYTHON)'
+	@$(PYTHON) -c '$(CHECK_COMPILER)'
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 		{ echo "The Python modules venv and ensurepip are needed; Debian and Ubuntu: apt install python3-venv" >&2; exit 1; }
 	$(PYTHON) -m venv $(if $(MOVED),--clear) .venv

@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tomllib
 
 import pytest
@@ -47,6 +48,47 @@ def test_missing_venv_is_one_line_and_leaves_nothing(tmp_path):
     assert done.returncode == 2
     assert done.stderr.splitlines()[0].endswith("are needed; Debian and Ubuntu: apt install python3-venv")
     assert "Traceback" not in done.stderr
+    assert not (tmp_path / ".venv").exists()
+
+
+def python_of_version(folder, version, lines=""):
+    """Write a program that is this Python but states another version, and knows no venv; lines : run first"""
+    numbers = tuple(map(int, version.split(".")))
+    python = folder / "python"
+    python.write_text(
+        f"#!{sys.executable}\nimport sys\nsys.version, sys.version_info = '{version} (main)', {numbers}\n{lines}\n"
+        "exec(sys.argv[2]) if sys.argv[1] == '-c' else sys.exit(1)\n"
+    )
+    python.chmod(0o755)
+    return python
+
+
+@pytest.mark.parametrize(
+    ("version", "refused"), [("3.10.9", True), ("3.11.0", False), ("3.14.1", False), ("3.15.0", True)]
+)
+def test_interpreters_outside_the_tested_range_are_refused(tmp_path, version, refused):
+    """The interpreter is this one, which states another version."""
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    shutil.copytree(ROOT / "peers", tmp_path / "peers")
+    (tmp_path / "requirements.lock").touch()
+    python = python_of_version(tmp_path, version)
+    command = ["make", "environment", f"PYTHON={python}"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    message = f"Python 3.11 to 3.14 is needed, and {python} is {version}; make PYTHON=... names another one\n"
+    assert done.stderr.startswith(message) == refused
+    assert (message in done.stderr) == refused
+    assert not (tmp_path / ".venv").exists()
+
+
+@pytest.mark.parametrize(("version", "refused"), [("3.13.0", False), ("3.14.0", True)])
+def test_missing_compiler_is_reported_before_anything_is_installed(tmp_path, version, refused):
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    shutil.copytree(ROOT / "peers", tmp_path / "peers")
+    (tmp_path / "requirements.lock").touch()
+    python = python_of_version(tmp_path, version, "import shutil; shutil.which = lambda name: None")
+    command = ["make", "environment", f"PYTHON={python}"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ("immutables, which has no wheel for Python 3.14: a C compiler" in done.stderr.split("\n")[0]) == refused
     assert not (tmp_path / ".venv").exists()
 
 

@@ -23,6 +23,7 @@ from pathlib import Path
 
 import click
 import pandas as pd
+import yaml
 from measuring import write_json
 from PIL import Image  # a dependency of matplotlib
 
@@ -183,6 +184,28 @@ def project_links():
     return paragraph(f"{text} (placeholders until the project is published)")
 
 
+def bibtex():
+    """Entries of BibTeX for the project and the paper, from CITATION.cff."""
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    (paper,) = cited["references"]
+    authors = " and ".join(f"{author['family-names']}, {author['given-names']}" for author in paper["authors"])
+    software = {
+        "author": f"{{{cited['authors'][0]['name']}}}",
+        "title": cited["title"],
+        "version": cited["version"],
+        "year": cited["date-released"].year,
+        "url": cited["repository-code"],
+    }
+    article = {"author": authors} | {name: paper[name] for name in ("title", "journal", "volume", "year", "doi")}
+    article["pages"] = paper["start"]
+    entries = {"software{viscorough": software, "article{kuerschner2013": article}
+    text = ""
+    for entry, fields in entries.items():
+        lines = [f"  {name} = {{{value}}}," for name, value in fields.items()]
+        text += "\n".join([f"@{entry},", *(textwrap.fill(line, 80, subsequent_indent="    ") for line in lines), "}\n"])
+    return f"```bibtex\n{text}```\n"
+
+
 def citation(text):
     """CITATION.cff with the addresses of pyproject.toml; text : as it is"""
     for key, name in CITED_ADDRESSES.items():
@@ -204,8 +227,9 @@ def published_claims(name="docs/claims.csv"):
 
 
 def paragraph(text):
-    """A paragraph in lines of at most 120 characters."""
-    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+    """A paragraph in lines of at most 120 characters, none of which starts with a sign that would begin a list."""
+    joined = re.sub(r" (?=[+*-] )", "\0", text)
+    return textwrap.fill(joined, 120, break_long_words=False, break_on_hyphens=False).replace("\0", " ") + "\n"
 
 
 def markdown_table(head, rows):
@@ -381,6 +405,8 @@ def tables():
         ("README.md", "installation"): installation(),
         ("docs/getting_started.md", "installation"): installation(),
         ("docs/index.md", "addresses"): project_links(),
+        ("docs/index.md", "installation"): installation(),
+        ("docs/index.md", "citation"): bibtex(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
         ("docs/performance.md", "large maps"): large_maps(),

@@ -2,6 +2,7 @@
 
 import importlib
 import importlib.metadata
+import re
 import sys
 from pathlib import Path
 
@@ -41,15 +42,26 @@ html_show_sphinx = False
 _PAGE_OF = {"../config/README.md": "settings.md", "../results/README.md": "output.md", "../README.md": "index.md"}
 
 
+# Columns of a block of code that the theme shows without scrolling.
+_CODE_WIDTH = 84
+# A symbol with an index, as κ_c or τ_i.
+_WITH_INDEX = re.compile(r"(?<![\w.])([^\W\d_])_(\w)(?!\w)")
+
+
+def help_text(name):
+    """Text that `viscorough COMMAND --help` prints, in lines that fit into a block of code."""
+    settings = cli.context_settings | {"terminal_width": _CODE_WIDTH}
+    context = click.Context(cli.commands[name], info_name=f"viscorough {name}", **settings)
+    return cli.commands[name].get_help(context)
+
+
 class CommandHelp(Directive):
     """The text that `viscorough COMMAND --help` prints; the argument is the command."""
 
     required_arguments = 1
 
     def run(self):
-        command = cli.commands[self.arguments[0]]
-        context = click.Context(command, info_name=f"viscorough {command.name}", terminal_width=100)
-        text = command.get_help(context)
+        text = help_text(self.arguments[0])
         return [nodes.literal_block(text, text, language="none")]
 
 
@@ -84,9 +96,22 @@ def _skip_tuple_fields(_app, _what, _name, member, _skip, _options):
     return True if type(member).__name__ == "_tuplegetter" else None
 
 
+def _lower_indices(_app, doctree):
+    """Write indices of symbols in texts below the line; code and formulas stay as they are."""
+    for text in list(doctree.findall(nodes.Text)):
+        pieces = _WITH_INDEX.split(text)
+        if len(pieces) == 1 or isinstance(text.parent, nodes.literal | nodes.literal_block | nodes.FixedTextElement):
+            continue
+        new = [nodes.Text(pieces[0])]
+        for symbol, index, rest in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
+            new += [nodes.Text(symbol), nodes.subscript("", index), nodes.Text(rest)]
+        text.parent.replace(text, new)
+
+
 def setup(app):
     app.add_html_math_renderer("mathml", (_visit_math, None), (_visit_math, None))
     app.add_directive("command-help", CommandHelp)
     app.add_directive("table-columns", TableColumns)
     app.connect("source-read", _link_to_pages)
+    app.connect("doctree-read", _lower_indices)
     app.connect("autodoc-skip-member", _skip_tuple_fields)

@@ -31,7 +31,7 @@ COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E
 
 @dataclass(frozen=True)
 class PowerLawBody:
-    """Body of revolution with the profile z = c rⁿ (Sneddon): u = κ_n c aⁿ, F = 2E*·n/(n+1)·u a, k = 2E*a.
+    """Body of revolution with the profile z = c rⁿ (Sneddon): u = κₙ c aⁿ, F = 2E*·n/(n+1)·u a, k = 2E*a.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class PowerLawBody:
             object.__setattr__(self, name, positive(f"{name} of a power-law body", getattr(self, name)))
 
     def mdr_profile(self, x: Numbers) -> Numbers:
-        """One-dimensional profile `g(x) = κ_n c |x|ⁿ` with κ_n = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
+        """One-dimensional profile `g(x) = κₙ c |x|ⁿ` with κₙ = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
         n = self.exponent
         kappa = np.sqrt(np.pi) * gamma_function(n / 2 + 1) / gamma_function((n + 1) / 2)
         return kappa * self.coefficient * np.abs(x) ** n

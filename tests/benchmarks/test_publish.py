@@ -28,6 +28,13 @@ def test_pages_have_the_published_tables(page, name):
     assert between == TABLES[page, name]
 
 
+def test_paragraph_has_no_line_that_would_begin_a_list():
+    """Markdown takes a line that starts with a plus and a space for an item of a list."""
+    for shift in range(130):
+        lines = publish.paragraph("x" * shift + " H/(1 + H) and a - b " + "of many words " * 20).splitlines()
+        assert not any(line.startswith(("+ ", "- ")) for line in lines)
+
+
 def test_citation_has_the_addresses_of_the_project():
     text = read(ROOT / "CITATION.cff")
     assert publish.citation(text) == text

@@ -23,8 +23,8 @@ from viscorough_study.run.settings import check_settings
 
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}
 FILES = {"t [": ("force.csv", read_force_history), "kind: ": ("medium.yaml", read_medium)}  # {beginning: name, reader}
-# Blocks that other tests read: directives of the website, and settings (below).
-ELSEWHERE = {"{toctree}", "{include}", "{eval-rst}", "yaml"}
+# Blocks that other tests read: directives of the website, the citation, and settings (below).
+ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{eval-rst}", "yaml"}
 PARTS_OF_WORKFLOWS = ("  tabulate_departures:", "  departures:", "module viscorough:")
 
 

@@ -2,10 +2,12 @@
 
 import re
 
+import conf
 import pytest
 
 from support.documentation import MAKEFILES, PAGES, ROOT, anchors, links, prose, read
 from support.workflow import FIGURES, RESULTS, TABLES, TARGETS
+from viscorough.cli import cli
 from viscorough_study.run.cases import POOLS
 
 WORKFLOW = "\n".join(read(path) for path in [ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
@@ -43,6 +45,27 @@ def test_results_page_names_only_files_that_are_made():
                 continue
             folder = name.rpartition("/")[0] or folder
             assert is_made(name) or is_made(f"{folder}/{name}"), f"{name} in {cell}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_indices_of_symbols_are_formulas(page):
+    """A symbol in italics followed by an underscore, as *κ*_c, would be shown with the underscore."""
+    assert not re.findall(r"\w\*_\w", prose(page))
+
+
+def test_page_of_commands_has_a_heading_for_each():
+    text = read(ROOT / "docs/reference/command_line.md")
+    headings = re.findall(r"^## (\w+)$", text, re.MULTILINE)
+    assert headings == re.findall(r"^\.\. command-help:: (\w+)$", text, re.MULTILINE) == list(cli.commands)
+    assert set(headings) == set(re.findall(r"^\| \[(\w+)\]\(#\1\)", text, re.MULTILINE))
+
+
+@pytest.mark.parametrize("name", cli.commands)
+def test_help_of_a_command_fits_into_its_block(name):
+    """The theme hides the ends of longer lines."""
+    text = conf.help_text(name)
+    assert len(text.splitlines()) > 10
+    assert max(map(len, text.splitlines())) <= 88
 
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)

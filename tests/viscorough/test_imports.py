@@ -12,8 +12,8 @@ from support.command_line import python
 from support.documentation import ROOT
 
 LIBRARY = ROOT / "src/viscorough"
-PAGE = (ROOT / "docs/reference/python.md").read_text()
-PUBLIC = {"reference", *re.findall(r"^\.\. auto(?:function|class|exception):: (\w+)$", PAGE, re.MULTILINE)}
+REFERENCE = "".join(page.read_text() for page in (ROOT / "docs/reference").glob("*.md"))
+PUBLIC = {"reference", *re.findall(r"^\.\. auto(?:function|class|exception):: (\w+)$", REFERENCE, re.MULTILINE)}
 STUDY_ONLY = ("matplotlib", "pandas", "snakemake", "viscorough_study", "xarray")
 
 

@@ -20,6 +20,7 @@ from tqdm import tqdm
 
 from viscorough import (
     KelvinVoigt,
+    Load,
     LoadingCurve,
     Maxwell,
     Newtonian,
@@ -27,7 +28,6 @@ from viscorough import (
     Springpot,
     StandardLinearSolid,
     identify_medium,
-    impulses,
     kinetics,
 )
 from viscorough.reference import sphere
@@ -71,7 +71,7 @@ def noiseless(curve, medium, rows, load):
     times = np.geomspace(*SPAN, rows)
     force = CREEP / float(medium.creep_compliance(times[-1]))
     if load == "ramp":
-        force = impulses([0.0, force, force], [0.0, RAMP, times[-1]])
+        force = Load([0.0, RAMP, times[-1]], force=[0.0, force, force])
     return force, times, kinetics(curve, force, medium, times).depth
 
 

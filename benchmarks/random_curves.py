@@ -17,8 +17,8 @@ from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.sum_rules import audit, complete_contact
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.kinetics import kinetics
 from viscorough_study.robustness.stress_solutions import GRID_ONLY
 
 _LARGEST = 32  # elements across

@@ -1,7 +1,6 @@
 """The public names and their modules, for tools that read types and for `__init__.py`, which imports on first use."""
 
 from viscorough import reference as reference
-from viscorough.arrays import ForceHistory as ForceHistory
 from viscorough.calibrated_law import penetration_law as penetration_law
 from viscorough.contact.loading_path import indent as indent
 from viscorough.contact.one_contact import contact_at as contact_at
@@ -14,7 +13,6 @@ from viscorough.indenter import Indenter as Indenter
 from viscorough.io.heights import read_heights as read_heights
 from viscorough.io.heights import read_line as read_line
 from viscorough.io.media import read_medium as read_medium
-from viscorough.io.motion import read_force_history as read_force_history
 from viscorough.io.saving import load_curve as load_curve
 from viscorough.io.saving import save as save
 from viscorough.loading_curve import LoadingCurve as LoadingCurve
@@ -28,14 +26,11 @@ from viscorough.sum_rules import complete_contact as complete_contact
 from viscorough.surfaces import cut_disc as cut_disc
 from viscorough.surfaces import self_affine_disc as self_affine_disc
 from viscorough.surfaces import self_affine_line as self_affine_line
-from viscorough.viscous.correspondence import impulses as impulses
-from viscorough.viscous.correspondence import kinetics as kinetics
 from viscorough.viscous.identification import IdentifiedMedium as IdentifiedMedium
 from viscorough.viscous.identification import identify_medium as identify_medium
-from viscorough.viscous.integration.events import march_events as march_events
-from viscorough.viscous.integration.internal_variable_events import march_medium_events as march_medium_events
-from viscorough.viscous.integration.internal_variables import march_medium as march_medium
-from viscorough.viscous.integration.stepping import march_steps as march_steps
+from viscorough.viscous.integration.march import march as march
+from viscorough.viscous.kinetics import kinetics as kinetics
+from viscorough.viscous.load import Load as Load
 from viscorough.viscous.media import CreepTable as CreepTable
 from viscorough.viscous.media import KelvinVoigt as KelvinVoigt
 from viscorough.viscous.media import Maxwell as Maxwell
@@ -44,7 +39,7 @@ from viscorough.viscous.media import Prony as Prony
 from viscorough.viscous.media import Springpot as Springpot
 from viscorough.viscous.media import StandardLinearSolid as StandardLinearSolid
 from viscorough.viscous.medium import Medium as Medium
+from viscorough.viscous.motion import Motion as Motion
 from viscorough.viscous.pressures import pressure_at as pressure_at
-from viscorough.viscous.relaxation import force_under_depth as force_under_depth
 
 __version__: str

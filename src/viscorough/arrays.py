@@ -11,7 +11,7 @@ import functools
 import math
 from collections.abc import Iterator
 from numbers import Integral, Real
-from typing import Any, NamedTuple, cast, get_args
+from typing import Any, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +22,6 @@ _PLAIN = {float, int, bool, str, complex, type(None), np.float64, np.ndarray}  #
 _KINDS = {"b": "truth values", "c": "complex numbers", "U": "texts", "S": "texts", "m": "times", "M": "dates"}
 _NO_NUMBERS = (bool, np.timedelta64)  # although Python counts them as whole numbers
 _BEYOND = "a number beyond double precision; a number that double precision holds is needed"
-_IMPULSE_ROUNDING = 1e-9  # relative to the last impulse; more than the rounding of a sum over a million samples
 
 
 def read_only(values: Any) -> NDArray[Any]:
@@ -219,53 +218,6 @@ class ReadOnlyTuple(tuple[Any, ...]):
 
     def __ne__(self, other: object) -> bool:  # a tuple has its own
         return not self == other
-
-
-class _ForceHistory(NamedTuple):
-    times: np.ndarray
-    force: np.ndarray
-    impulse: np.ndarray
-
-
-class ForceHistory(ReadOnlyTuple, _ForceHistory):
-    """A force over time, linear between samples, and its integral; read-only arrays of shape (samples,).
-
-    Attributes
-    ----------
-    times : array
-        t, increasing, or the same in two samples: a step from one force to the other.
-    force : array
-        F(t) ≥ 0.
-    impulse : array
-        ∫F dt up to t.
-
-    Raises
-    ------
-    ValueError
-        For times that decrease, for a negative force, and for an impulse that is not the integral of the force.
-
-    Examples
-    --------
-    >>> import viscorough
-    >>> history = viscorough.impulses([0.0, 1.0], [0.0, 2.0])  # a ramp
-    >>> history.impulse.tolist()
-    [0.0, 1.0]
-    """
-
-    __slots__ = ()
-
-    def __new__(cls, times: Any, force: Any, impulse: Any) -> Any:
-        times = increasing("ForceHistory: times", times, steps="the force")
-        force = samples("ForceHistory: force", force, times)
-        impulse = samples("ForceHistory: impulse", impulse, times)
-        exact = integral(times, force, times)
-        # A constant force acts from time 0 on, also before the first sample.
-        before = 0.0 if impulse[0] == 0 else force[0] * times[0]
-        if (wrong := ~(abs(impulse - before - exact) <= _IMPULSE_ROUNDING * impulse[-1])).any():
-            where = int(np.argmax(wrong))
-            text = f"sample {where} is {impulse[where]:g} and the integral of the force {exact[where] + before:g}"
-            raise ValueError(f"ForceHistory: impulse: {text}; viscorough.impulses computes it from force and times")
-        return super().__new__(cls, times, force, impulse)
 
 
 def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:

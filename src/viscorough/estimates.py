@@ -1,6 +1,6 @@
 """Depth and velocity of a rough indenter without a simulation, from the calibrated penetration law alone.
 
-A constant force F on a medium of creep compliance J(t) acts as the elastic force F/G = F·J(t) (viscous.correspondence).
+A constant force F on a medium of creep compliance J(t) acts as the elastic force F/G = F·J(t) (viscous.kinetics).
 With X = F·J(t)/(4hL) the law gives
 
     u = h·(u/h)(X),    v = h·(J'(t)/J(t))·(vt/h)(X),    for a Newtonian medium J = t/η: v = (h/t)·(vt/h)(X).
@@ -16,7 +16,7 @@ from viscorough.arrays import ReadOnlyArrays, increasing, real_numbers
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
 from viscorough.summaries import span
-from viscorough.viscous.correspondence import creep_and_rate
+from viscorough.viscous.creep_response import constant_creep
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium
 
@@ -105,7 +105,7 @@ def estimate(
     law, medium = penetration_law(hurst), medium_of(medium)
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
     times = increasing("times", np.atleast_1d(real_numbers("times", times)), above_zero=True)
-    times, creep, rate = creep_and_rate(force, medium, times)
+    creep, rate = constant_creep(force, medium, times)
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         x = creep / (4 * rms * diameter)
     inside = (x >= law.x_low) & (x <= law.x_high)

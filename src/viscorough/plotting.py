@@ -24,7 +24,7 @@ from viscorough.io.saving import to_content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.summaries import with_unit
 from viscorough.types import Array, FilePath
-from viscorough.viscous.correspondence import Kinetics
+from viscorough.viscous.motion import Motion
 
 Variables = dict[str, Variable]
 FORMATS: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}  # metadata: no dates
@@ -49,12 +49,12 @@ _PRESSURES = ("normal_pressure", "mean_normal_pressure", "largest_normal_pressur
 _AREAS = ("contact_area", "corrected_contact_area")
 
 
-def plot(result: Content | LoadingCurve | Kinetics | Contact | Indenter, path: FilePath | None = None) -> Figure:
-    """Draw a result: the heights of an Indenter, the fields of a Contact, a LoadingCurve, or Kinetics.
+def plot(result: Content | LoadingCurve | Motion | Contact | Indenter, path: FilePath | None = None) -> Figure:
+    """Draw a result: the heights of an Indenter, the fields of a Contact, a LoadingCurve, or a Motion.
 
     Parameters
     ----------
-    result : Content or LoadingCurve or Kinetics or Contact or Indenter
+    result : Content or LoadingCurve or Motion or Contact or Indenter
         One of these, or the io.netcdf.Content of a file.
     path : path, optional
         .png, .pdf or .svg to write, atomically; the same result gives the same bytes. By default nothing is written.

@@ -16,13 +16,13 @@ from matplotlib.testing.compare import compare_images
 from support.code_blocks import run_console, run_python, run_shell
 from support.documentation import PAGES, README, ROOT, blocks, read
 from support.workflow import merged, read_settings
+from viscorough import Load
 from viscorough.io.media import read_medium
-from viscorough.io.motion import read_force_history
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.run.settings import check_settings
 
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}
-FILES = {"t [": ("force.csv", read_force_history), "kind: ": ("medium.yaml", read_medium)}  # {beginning: name, reader}
+FILES = {"t [": ("force.csv", Load.read), "kind: ": ("medium.yaml", read_medium)}  # {beginning: name, reader}
 # Blocks that other tests read: directives of the website, the citation, and settings (below).
 ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{eval-rst}", "yaml"}
 PARTS_OF_WORKFLOWS = ("  tabulate_departures:", "  departures:", "module viscorough:")

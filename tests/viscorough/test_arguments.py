@@ -13,6 +13,7 @@ import pytest
 import viscorough
 from support.contract import refused
 from viscorough import reference
+from viscorough.viscous.integration.events import march_events
 
 UREG = pint.UnitRegistry()
 # Numbers of the calls are sums of few powers of two, so that single and half precision hold them exactly.
@@ -117,7 +118,17 @@ CALLS = {
             method="none",
         )
     ],
-    "ForceHistory": [call(viscorough.ForceHistory, {"times": [0.0, 2.0], "force": [1.0, 1.0], "impulse": [0.0, 2.0]})],
+    "Load": [
+        call(viscorough.Load, {"time": [0.0, 2.0], "force": [1.0, 1.0]}),
+        call(viscorough.Load, {"time": [0.0, 2.0], "depth": [1.0, 1.0]}),
+    ],
+    "Motion": [
+        call(
+            viscorough.Motion,
+            {key: [0.5, 1.0] for key in ("time", "depth", "force", "velocity", "contact_fraction")}
+            | {"receding_from": 0.5},
+        )
+    ],
     "Indenter": [
         call(
             viscorough.Indenter,
@@ -160,10 +171,6 @@ CALLS = {
             length_unit="um",
         )
     ],
-    "impulses": [
-        call(viscorough.impulses, {"force": 2.0, "times": [0.0, 1.0]}),
-        call(viscorough.impulses, {"force": [1.0, 2.0], "times": [0.0, 1.0]}),
-    ],
     "kinetics": [
         call(
             viscorough.kinetics,
@@ -171,6 +178,12 @@ CALLS = {
             curve=CURVE,
         ),
         call(viscorough.kinetics, {"force": (FORCES, "N"), "times": ([0.5, 1.0], "s")}, curve=CURVE, medium=SOLID),
+        call(
+            viscorough.kinetics,
+            {"depth": ([0.25, 0.5], LENGTH), "times": ([0.5, 1.0], "s")},
+            curve=CURVE,
+            medium=SOLID,
+        ),
     ],
     "identify_medium": [
         call(
@@ -180,36 +193,14 @@ CALLS = {
             curve=CURVE,
         )
     ],
-    "march_events": [call(viscorough.march_events, {"until_fraction": 0.5}, indenter=DISC)],
-    "march_medium_events": [
+    "march": [
         call(
-            viscorough.march_medium_events,
-            {"times": ([0.0, 1.0], "s"), "force": (FORCES, "N"), "until_fraction": 1.0},
+            viscorough.march,
+            {"medium": (2.0**14, "Pa s"), "until_fraction": 1.0},
             indenter=DISC,
-            medium=SOLID,
+            load=viscorough.Load([0.0, 1.0], force=FORCES),
+            method="events",
         )
-    ],
-    "march_medium": [
-        call(
-            viscorough.march_medium,
-            {"times": ([0.0, 1.0], "s"), "force": (FORCES, "N"), "medium": (2.0**14, "Pa s")},
-            indenter=DISC,
-        ),
-        call(
-            viscorough.march_medium,
-            {"times": ([0.0, 1.0], "s"), "depth": ([0.5, 1.0], LENGTH)},
-            indenter=DISC,
-            medium=SOLID,
-        ),
-    ],
-    "march_steps": [
-        call(
-            viscorough.march_steps,
-            {"impulses": ([0.5, 1.0], AREA), "tolerance": 2.0**-10},
-            indenter=DISC,
-            scheme=scheme,
-        )
-        for scheme in ("heun", "implicit")
     ],
     "CreepTable": [call(viscorough.CreepTable, {"times": (POINTS, "s"), "compliances": (POINTS, "1/Pa")})],
     "KelvinVoigt": [call(viscorough.KelvinVoigt, {"shear_modulus": (2.0, "Pa"), "viscosity": (4.0, "Pa s")})],
@@ -241,29 +232,21 @@ CALLS = {
             indenter=DISC,
         )
     ],
-    "force_under_depth": [
-        call(
-            viscorough.force_under_depth,
-            {"depth": ([0.5, 1.0], LENGTH), "times": ([0.0, 1.0], "s")},
-            curve=CURVE,
-            medium=SOLID,
-        )
-    ],
 }
 # Arguments that hold no numbers and are not needed for the calls.
 OPTIONAL = {
     *("progress", "options", "precision", "padding", "length_unit", "corners", "amplitudes", "rms_over", "dtype"),
-    *("detrend", "fill", "flip", "kind", "scheme", "medium", "method"),
+    *("detrend", "fill", "flip", "kind", "scheme", "medium", "method", "load"),
 }
 # Public names without numbers among their arguments, and functions of files, whose numbers test_heights.py covers.
-WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "Medium", "reference", "read_medium", "read_force_history"}
+WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "Medium", "reference", "read_medium"}
 WITHOUT_NUMBERS |= {"load_curve", "save", "plot", "read_heights", "read_line"}
 METHODS = {
     "at_force": call(CURVE.at_force, {"force": ([0.5, 1.0], AREA)}),
     "at_depth": call(CURVE.at_depth, {"depth": ([0.5, 1.0], LENGTH)}),
     "normalised": call(CURVE.normalised, {"rms": (0.5, LENGTH), "diameter": (8.0, LENGTH)}),
-    "depth_at": call(viscorough.march_events(DISC).depth_at, {"impulse": [0.5, 1.0]}),
-    "event_at": call(viscorough.march_events(DISC).event_at, {"impulse": [0.5, 1.0]}),
+    "depth_at": call(march_events(DISC).depth_at, {"impulse": [0.5, 1.0]}),
+    "event_at": call(march_events(DISC).event_at, {"impulse": [0.5, 1.0]}),
     "law.velocity": call(viscorough.penetration_law(0.5).velocity, {"x": [0.5, 1.0]}),
     "law.depth": call(viscorough.penetration_law(0.5).depth, {"x": [0.5, 1.0]}),
     "law.velocity_interval": call(viscorough.penetration_law(0.5).velocity_interval, {"x": [0.5, 1.0]}),

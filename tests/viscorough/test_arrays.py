@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from support.curves import random_curve
-from viscorough import Indenter, contact_at, impulses, kinetics, march_events, march_steps
+from viscorough import Indenter, Load, contact_at, kinetics
 from viscorough.arrays import read_only
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.stepping import march_steps
 
 HILL = Indenter([[0.0, 1.0], [0.5, 0.2]], 1.0)
 
@@ -48,7 +50,7 @@ def arrays_of(result):
         random_curve(),
         HILL,
         kinetics(random_curve(), 1.0, 1.0),
-        impulses(1.0, [1.0, 2.0]),
+        Load([1.0, 2.0], force=[1.0, 1.0]),
         march_events(HILL),
         march_steps(HILL, np.array([0.1, 1.0])),
         contact_at(HILL, depth=0.1),
@@ -66,8 +68,8 @@ def test_arrays_of_inputs_and_results_are_read_only(result):
 def test_masked_samples_of_a_force_are_refused():
     masked = np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0])
     with pytest.raises(ValueError, match="sample 1 is nan"):
-        impulses(masked, [0, 1, 2])
-    with pytest.raises(ValueError, match="times: allowed is one row of finite numbers"):
-        impulses([1, 2, 3], masked)
+        Load([0, 1, 2], force=masked)
+    with pytest.raises(ValueError, match="time: allowed is one row of finite numbers"):
+        Load(masked, force=[1, 2, 3])
     with pytest.raises(ValueError, match="finite numbers"):
         march_steps(HILL, masked)

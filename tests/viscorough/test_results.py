@@ -10,7 +10,8 @@ import pytest
 import viscorough
 from support.contract import refused
 from viscorough.arrays import ReadOnlyArrays
-from viscorough.viscous.integration.internal_variables import MediumMotion
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.stepping import march_steps
 
 DISC = viscorough.self_affine_disc(0.7, 9, rms=1e-8, diameter=1e-6, length_unit="m", seed=1)
 CURVE = viscorough.indent(DISC, until_fraction=1.0)
@@ -28,14 +29,16 @@ def results():
     yield viscorough.contact_at(DISC, depth=1e-9).patches()
     yield viscorough.kinetics(CURVE, FORCE, SOLID, TIMES)
     yield viscorough.kinetics(CURVE, FORCE, SOLID)
-    yield viscorough.impulses([1.0, 2.0], [0.0, 1.0])
-    yield viscorough.force_under_depth(CURVE, [1e-9, 1e-9], SOLID, [0.0, 1.0])
+    yield viscorough.Load([0.0, 1.0], force=[1.0, 2.0])
+    yield viscorough.Load([0.0, 1.0], depth=[1e-9, 1e-9])
+    yield viscorough.kinetics(CURVE, depth=[1e-9, 1e-9], medium=SOLID, times=[0.0, 1.0])
     yield viscorough.identify_medium(CURVE, FORCE, MOTION.time, MOTION.depth)
-    yield viscorough.march_events(DISC)
-    yield viscorough.march_steps(DISC, [1e-16])
+    yield march_events(DISC)
+    yield march_steps(DISC, [1e-16])
     for force in ([FORCE, FORCE], [FORCE, 0.1 * FORCE]):
-        yield viscorough.march_medium(DISC, SOLID, [0.0, 1.0], force=force)
-    yield viscorough.march_medium_events(DISC, SOLID, [0.0, 1.0], force=[FORCE, FORCE])
+        yield viscorough.march(DISC, SOLID, viscorough.Load([0.0, 1.0], force=force))
+    held = viscorough.Load([0.0, 1.0], force=[FORCE, FORCE])
+    yield viscorough.march(DISC, SOLID, held, method="events")
     yield viscorough.complete_contact(DISC)
     yield viscorough.audit(DISC)
     yield viscorough.estimate(0.7, 0.1, 1.0, 1.0, 1.0, [0.01, 0.1])
@@ -67,13 +70,12 @@ def test_a_result_equals_itself_and_one_of_equal_numbers(one, same):
 
 
 def test_results_of_other_numbers_differ():
-    assert viscorough.impulses(1.0, [0.0, 1.0]) != viscorough.impulses(2.0, [0.0, 1.0])
-    assert viscorough.impulses(1.0, [0.0, 1.0]) != tuple(viscorough.impulses(1.0, [0.0, 1.0]))
-    numbers = (np.array([0.0]), np.array([1.0]), np.array([1.0]), np.array([1]))
-    without = MediumMotion(*numbers)
-    assert without == MediumMotion(*numbers)
-    for pressure, receding in ((np.array([[1.0]]), np.nan), (None, 1.0)):
-        assert MediumMotion(*numbers, pressure=pressure, receding_from=receding) != without
+    load = viscorough.Load([0.0, 1.0], force=[1.0, 1.0])
+    assert load != viscorough.Load([0.0, 1.0], force=[1.0, 2.0])
+    assert load != viscorough.Load([0.0, 1.0], depth=[1.0, 1.0])
+    numbers = [np.array([1.0])] * 5
+    assert viscorough.Motion(*numbers) == viscorough.Motion(*numbers)
+    assert viscorough.Motion(*numbers, receding_from=1.0) != viscorough.Motion(*numbers)
 
 
 @pytest.mark.parametrize("copied", [copy.deepcopy, copy.copy, lambda result: pickle.loads(pickle.dumps(result))])
@@ -119,28 +121,37 @@ def test_a_curve_has_elements_and_a_tolerance(changed):
         viscorough.LoadingCurve(**CURVE_OF_TWO | changed)
 
 
-def test_the_impulse_of_a_force_history_is_its_integral():
-    times, force = [0.0, 1.0, 1.0, 3.0], [0.0, 2.0, 1.0, 1.0]
-    history = viscorough.ForceHistory(times, force, [0.0, 1.0, 1.0, 3.0])
-    assert history == viscorough.impulses(force, times)
-    constant = viscorough.impulses(2.0, [1.0, 3.0])  # from time 0 on
-    assert viscorough.ForceHistory(*constant) == constant
-    for impulse in ([0.0, 1.0, 1.0, 3.1], [1.0, 2.0, 2.0, 4.0], [0.0, 1.0, 1.0], [0.0, 1.0, 1.0, -3.0]):
-        with refused("ForceHistory: impulse"):
-            viscorough.ForceHistory(times, force, impulse)
+def test_a_load_has_an_integral_and_further_samples():
+    load = viscorough.Load([0.0, 1.0, 1.0, 3.0], force=[0.0, 2.0, 1.0, 1.0])
+    assert load.integral.tolist() == [0.0, 1.0, 1.0, 3.0]
+    more, place = load.with_times([0.5, 1.0, 2.0])
+    assert more.time.tolist() == [0.0, 0.5, 1.0, 1.0, 2.0, 3.0]
+    assert more.values[place].tolist() == [1.0, 1.0, 1.0]
+    assert load.in_units_of("um").values[1] == 2.0 / 1e-12
+    depth = viscorough.Load([0.0, 1.0], depth=[0.0, -1.0])
+    assert (depth.by_depth, load.by_depth) == (True, False)
+    assert depth.in_units_of("um") == depth
 
 
-@pytest.mark.parametrize("force", [-2.0, 0.0, np.nan, np.inf, [-1.0, 1.0], [np.inf, 1.0], [1j, 1.0]], ids=repr)
-def test_a_force_that_pulls_or_is_not_finite_has_no_history(force):
-    with refused("force"):
-        viscorough.impulses(force, [0.0, 1.0])
+@pytest.mark.parametrize("force", [[-1.0, 1.0], [np.inf, 1.0], [1j, 1.0], [1.0], 1.0], ids=repr)
+def test_a_force_that_pulls_or_is_not_finite_is_no_load(force):
+    with refused("Load: force"):
+        viscorough.Load([0.0, 1.0], force=force)
+
+
+def test_a_load_is_a_force_or_a_depth():
+    for values in ({}, {"force": [1.0, 1.0], "depth": [1.0, 1.0]}):
+        with refused("Load: one of force and depth is needed"):
+            viscorough.Load([0.0, 1.0], **values)
+    with refused("Load: depth: sample 1 is nan; allowed: finite"):
+        viscorough.Load([0.0, 1.0], depth=[0.0, np.nan])
 
 
 @pytest.mark.parametrize("tolerance", [1.0, np.inf, np.nan, 0.0, 1e-13, 1j])
 @pytest.mark.parametrize("scheme", ["explicit", "heun", "implicit"])
 def test_tolerances_of_steps_are_those_of_contacts(scheme, tolerance):
-    with refused("march_steps: tolerance"):
-        viscorough.march_steps(DISC, [1e-16], scheme=scheme, tolerance=tolerance)
+    with refused("time steps: tolerance"):
+        march_steps(DISC, [1e-16], scheme=scheme, tolerance=tolerance)
 
 
 @pytest.mark.parametrize("heights", [[[0.0, 1.0], [0.5, 0.25]], [0.0, 1.0, 0.5]])

@@ -98,9 +98,10 @@ def read_curve(path: Path) -> viscorough.LoadingCurve:
 
 
 def read_load(force: Quantity | None, force_history: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
-    """(force or ForceHistory, what an output says about it) of --force and --force-history, one of which is given."""
+    """(force or Load, what an output says about it) of --force and --force-history, one of which is given."""
     if force_history is not None:
-        return viscorough.read_force_history(force_history, length_unit), {"force": printable_name(force_history)}
+        load = viscorough.Load.read(force_history, length_unit=length_unit)
+        return load, {"force": printable_name(force_history)}
     number = units.number(force, "N", length_unit, "--force")
     return number, {"force": number}
 

@@ -4,13 +4,15 @@ from pathlib import Path
 
 import click
 
+import viscorough
 from viscorough.cli import files, messages, options
 from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
 
 _CORRESPONDENCE = (
-    "depth at a time is the elastic one at F/G = integral of J(t - s) dF(s), velocity is its derivative over k/G "
-    "there; exact for every topography, without 1/Gamma(2 - alpha)"
+    "row of unilateral springs of the loading curve; while the contact grows, depth at a time is the elastic one at "
+    "F/G = integral of J(t - s) dF(s), velocity its derivative over k/G; exact for every topography, without "
+    "1/Gamma(2 - alpha)"
 )
 
 
@@ -36,12 +38,13 @@ def kinetics(
 ) -> None:
     """Penetration over time of the indenter whose loading curve is in CURVE.nc.
 
-    KIN.nc holds time, depth, velocity and force. Without --times these are the times of the history; or under a
-    constant force a hundred at equal ratios between those at which the first and last levels of the curve are reached,
-    or until creep has nearly ended; after time 0 if the medium responds elastically at t = 0. The depth is that of the
-    curve at F/G = the creep response, the integral of J(t - s) dF(s) with the creep compliance J; on a linearly viscous
-    half-space it is the impulse over the viscosity. This is exact as long as the creep response does not decrease; a
-    force under which it would is refused.
+    KIN.nc holds time, depth, velocity, force and contact fraction. Without --times these are the times of the history;
+    or under a constant force a hundred at equal ratios between those at which the first and last levels of the curve
+    are reached, or until creep has nearly ended; after time 0 if the medium responds elastically at t = 0. While the
+    contact grows the depth is that of the curve at F/G = the creep response, the integral of J(t - s) dF(s) with the
+    creep compliance J; on a linearly viscous half-space it is the impulse over the viscosity. Where the contact
+    recedes, the curve is read as a row of springs, which is exact as well. Under no force the indenter rests on the
+    recovering surface.
 
     MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
     (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony
@@ -62,24 +65,20 @@ def kinetics(
 
     import numpy as np
 
-    from viscorough.io.motion import kinetics_to_content
-    from viscorough.viscous import correspondence
+    from viscorough.io.motion import motion_to_content
 
     files.check_output(output, curve=curve, force_history=force_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
     load, of_load = files.read_load(force, force_history, loading.length_unit)
-    motion = correspondence.kinetics(loading, load, half_space, times)
-    over_time = load
-    if force_history:
-        over_time = load.force if times is None else np.interp(motion.time, load.times, load.force)
+    motion = viscorough.kinetics(loading, load, half_space, times)
     unknown = np.count_nonzero(~np.isfinite(motion.depth) | ~np.isfinite(motion.velocity))
     if unknown == motion.time.size:
         raise ValueError("times: all are before the curve's first level; later ones are needed, or an earlier level")
     if unknown:
         text = f"at {unknown} of {motion.time.size} times depth or velocity are missing: before the first level of the "
         messages.warn(f"{text}curve, or where a step moves a springpot without bound")
-    content = kinetics_to_content(motion, over_time)
+    content = motion_to_content(motion)
     files.write_output(content, output, **about, **of_load, correspondence=_CORRESPONDENCE)
     depth = with_unit(motion.depth[-1], loading.length_unit, 6)
     time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)

@@ -1,6 +1,6 @@
 """The elastic loading path of a rigid indenter by boundary elements, from level to level of increasing depth.
 
-One path determines the solution of the viscous problem for every force history (viscorough.viscous.correspondence).
+One path determines the solution of the viscous problem for every force history (viscorough.viscous.kinetics).
 While few elements are in contact, every contact event (the next element touches) is a level: between events the curve
 is straight, so that interpolation is exact. Later, levels are placed where interpolation between them needs them
 (step_control). A curve that reaches complete contact ends there, at a depth that two linear problems give

@@ -9,21 +9,21 @@ from viscorough.io.contacts import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
 from viscorough.io.media import save_identified
-from viscorough.io.motion import kinetics_to_content
+from viscorough.io.motion import motion_to_content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import FilePath
-from viscorough.viscous.correspondence import Kinetics
 from viscorough.viscous.identification import IdentifiedMedium
+from viscorough.viscous.motion import Motion
 
 WRITERS = {".nc": netcdf.write, ".csv": tables.write}
 
 
-def save(result: Indenter | LoadingCurve | Contact | Kinetics | IdentifiedMedium, path: FilePath) -> None:
+def save(result: Indenter | LoadingCurve | Contact | Motion | IdentifiedMedium, path: FilePath) -> None:
     """Write a result as the file that the command line writes and reads; atomically. The same as `result.save(path)`.
 
     Parameters
     ----------
-    result : Indenter, LoadingCurve, Contact, Kinetics or IdentifiedMedium
+    result : Indenter, LoadingCurve, Contact, Motion or IdentifiedMedium
         Heights are read by `read_heights`, a curve by `load_curve`, a medium by `read_medium`.
     path : path
         File to write or replace: NetCDF (.nc), or a table (.csv) of a curve, motion or line. A medium is YAML (.yaml);
@@ -85,17 +85,17 @@ def load_curve(path: FilePath) -> LoadingCurve:
     return curve_from_content(netcdf.read(path))
 
 
-def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> netcdf.Content:
+def to_content(result: Indenter | LoadingCurve | Contact | Motion) -> netcdf.Content:
     """A result as the Content of its file."""
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
-    if isinstance(result, Kinetics):
-        return kinetics_to_content(result)
+    if isinstance(result, Motion):
+        return motion_to_content(result)
     if isinstance(result, Contact):
         return contacts_to_content([result])
     if isinstance(result, Indenter):
         return surface_to_content(result)
-    raise TypeError(f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact or Kinetics is needed")
+    raise TypeError(f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact or Motion is needed")
 
 
 def check_suffix(path: FilePath) -> None:

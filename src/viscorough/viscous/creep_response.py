@@ -6,88 +6,84 @@ branches. For others every sample is summed over all before it, at a cost of sam
 
 from collections.abc import Callable
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import ForceHistory, jumps_and_slopes
+from viscorough.arrays import jumps_and_slopes
 from viscorough.compilation import njit
 from viscorough.types import Array, Integers
-from viscorough.viscous.first_decrease import ROUNDING, Terms, first_decrease
+from viscorough.viscous.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
+from viscorough.viscous.load import Load
 from viscorough.viscous.medium import Medium, RetardationSpectrum
 
 _CHUNK = 2**20  # pairs of samples at a time
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12  # the series of (exp(−x) − 1 + x)/x, and its number of terms
 
 
-def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]:
-    """Φ and dΦ/dt at the samples of a force history: two arrays of shape (times,).
+class CreepResponse(NamedTuple):
+    """Creep response to a force history, and the first time at which it decreases.
 
-    history : ForceHistory; before its first sample the force is 0. At a step (one time in two samples) Φ and dΦ/dt are
-        the limits from either side; elsewhere dΦ/dt is that just after the sample, after the last one that before it
-
-    Raises ValueError, with the time, where Φ decreases: at a sample, at a step or in between.
+    creep, rate : Φ and dΦ/dt at the samples, shape (samples,). At a step (one time in two samples) these are the limits
+        from either side; elsewhere dΦ/dt is the limit after the sample, and before it at the last one
+    receding_from : time from which Φ decreases: at a sample, at a step or in between; nan if it does not
     """
-    times, force = history.times, history.force
-    if (duration := times[-1] - times[0]) > medium.last_time:
-        raise ValueError(
-            f"times: {duration:g} after the first; allowed: up to the last time of the table, {medium.last_time:g}"
-        )
-    creep, terms = by_sums(medium, history) if medium.retardation is None else by_states(medium.retardation, history)
+
+    creep: Array
+    rate: Array
+    receding_from: float
+
+
+def creep_response(medium: Medium, load: Load) -> CreepResponse:
+    """Return the CreepResponse of a medium to a force; before its first sample the force is 0."""
+    times, force = load.time, load.values
+    creep, terms = by_sums(medium, load) if medium.retardation is None else by_states(medium.retardation, load)
     # Of a downward step to which the medium responds instantaneously.
     with np.errstate(over="ignore"):
         responds = medium.creep_compliance(0.0) > 0 or np.isinf(medium.creep_rate(0.0))
     down = times[responds & (jumps_and_slopes(times, force)[0] < -ROUNDING * force)]
     time = first_decrease(times, terms, down.min(initial=np.inf))
-    if np.isfinite(time):
-        raise ValueError(
-            f"force: from time {time:.6g} on the contact would recede, since the creep ∫J dF decreases; allowed: "
-            "forces under which it grows; direct integration with internal variables goes on there (march_medium, on "
-            "the command line viscorough march --medium --method second_order)"
-        )
-    return creep, rate_at_samples(times, terms)
+    return CreepResponse(creep, rate_at_samples(times, terms), time if np.isfinite(time) else np.nan)
 
 
-def rate_at_samples(times: Array, terms: Terms) -> Array:
-    """dΦ/dt just after every sample; just before it at the last one and before a step."""
-    lengths, rate = np.diff(times), np.zeros(times.size)
-    after = np.flatnonzero(lengths)
-    before = after[np.append(lengths, 0)[after + 1] == 0]  # intervals that end there
-    for interval, shift in ((after, 0), (before, 1)):
-        rising, falling, _ = terms(interval, shift * lengths[interval], left=bool(shift))
-        rate[interval + shift] = rising + falling
-    return rate
+def constant_creep(force: float, medium: Medium, times: Array) -> tuple[Array, Array]:
+    """Return Φ and dΦ/dt at times under a force that is constant from time 0 on."""
+    if times[-1] > medium.last_time:
+        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
+    with np.errstate(over="ignore"):
+        return force * medium.creep_compliance(times), force * medium.creep_rate(times)
 
 
-def by_states(retardation: RetardationSpectrum, history: ForceHistory) -> tuple[Array, Terms]:
+def by_states(retardation: RetardationSpectrum, load: Load) -> tuple[Array, Terms]:
     """Φ at the samples, and the terms of dΦ/dt, of springs and dashpots.
 
     Its states are the delayed response y of every retardation time θ, θ y' + y = F, and the remainder z = F − y; both
     are exact for a force linear in time, and computed without cancellation where it is positive.
     """
     instantaneous, fluidity, compliances, times = retardation
-    _, slopes = jumps_and_slopes(history.times, history.force)
-    delayed, remainder = branch_states(np.diff(history.times), history.force, times)
+    _, slopes = jumps_and_slopes(load.time, load.values)
+    delayed, remainder = branch_states(np.diff(load.time), load.values, times)
 
     def terms(interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         slope, x = slopes[interval], offset[:, None] / times
         decaying = compliances / times * remainder[interval] * np.exp(-x)
         growing = compliances * slope[:, None] * -np.expm1(-x)
-        flow, drift, steady = fluidity * history.force[interval], fluidity * slope * offset, instantaneous * slope
+        flow, drift, steady = fluidity * load.values[interval], fluidity * slope * offset, instantaneous * slope
         size = flow + abs(steady) + abs(drift) + (abs(decaying) + abs(growing)).sum(axis=1)
         rising = np.maximum(drift, 0) + (np.minimum(decaying, 0) + np.maximum(growing, 0)).sum(axis=1)
         falling = np.minimum(drift, 0) + (np.maximum(decaying, 0) + np.minimum(growing, 0)).sum(axis=1)
         return flow + steady + rising, falling, size
 
-    return instantaneous * history.force + fluidity * history.impulse + delayed @ compliances, terms
+    return instantaneous * load.values + fluidity * load.integral + delayed @ compliances, terms
 
 
-def by_sums(medium: Medium, history: ForceHistory) -> tuple[Array, Terms]:
+def by_sums(medium: Medium, load: Load) -> tuple[Array, Terms]:
     """Φ at the samples, and the terms of dΦ/dt, of media without a discrete spectrum: sums over the past.
 
     J is concave, so that positive contributions of the past decrease with time.
     """
-    _, slopes = jumps_and_slopes(history.times, history.force)
-    sums = partial(sums_over_the_past, history.times, history.force)
+    _, slopes = jumps_and_slopes(load.time, load.values)
+    sums = partial(sums_over_the_past, load.time, load.values)
 
     def terms(interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         falling, rising = sums(interval, offset, partial(medium.creep_rate, left=left), medium.creep_increment)
@@ -95,7 +91,7 @@ def by_sums(medium: Medium, history: ForceHistory) -> tuple[Array, Terms]:
         size = falling - rising + abs(present)
         return rising + np.maximum(present, 0), falling + np.minimum(present, 0), size
 
-    sample, offset = np.arange(history.times.size), np.zeros(history.times.size)
+    sample, offset = np.arange(load.time.size), np.zeros(load.time.size)
     return np.add(*sums(sample, offset, medium.creep_compliance, medium.creep_integral)), terms
 
 

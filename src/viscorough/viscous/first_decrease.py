@@ -1,4 +1,4 @@
-"""Find the first decrease of a response, from bounds of its rate between the samples of a load."""
+"""Rate of a response at the samples of a load, and its first decrease, from bounds of the rate between them."""
 
 from collections.abc import Callable
 
@@ -38,3 +38,14 @@ def first_decrease(times: Array, terms: Terms, limit: float = np.inf) -> float:
         interval = np.concatenate([interval, interval])
         start, end = np.concatenate([start, middle]), np.concatenate([middle, end])
     return limit
+
+
+def rate_at_samples(times: Array, terms: Terms) -> Array:
+    """Return the rate just after every sample; just before it at the last one and before a step."""
+    lengths, rate = np.diff(times), np.zeros(times.size)
+    after = np.flatnonzero(lengths)
+    before = after[np.append(lengths, 0)[after + 1] == 0]  # intervals that end there
+    for interval, shift in ((after, 0), (before, 1)):
+        rising, falling, _ = terms(interval, shift * lengths[interval], left=bool(shift))
+        rate[interval + shift] = rising + falling
+    return rate

@@ -1,6 +1,6 @@
 """The medium from a measured indentation: creep compliance J(t) from the depth u(t) of a body with a known curve.
 
-By the correspondence (viscous.correspondence) the elastic force at the measured depth is the creep,
+By the correspondence (viscous.kinetics) the elastic force at the measured depth is the creep,
 
     F_el(u(t))/G = Φ(t) = ∫₀ᵗ J(t − s) dF(s),
 
@@ -26,18 +26,18 @@ from numpy.typing import ArrayLike
 from scipy.special import fdtri, gamma, stdtrit
 
 from viscorough import units
-from viscorough.arrays import ForceHistory, ReadOnlyArrays, increasing, integral
+from viscorough.arrays import ReadOnlyArrays, increasing, integral
 from viscorough.errors import AccuracyWarning
 from viscorough.loading_curve import LoadingCurve, check_curve
 from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span, with_unit
 from viscorough.types import Array, Integers
-from viscorough.viscous.correspondence import consistent_force, impulses, resampled
 from viscorough.viscous.creep_response import branch_states, by_states, by_sums
+from viscorough.viscous.load import Load, force_load
 from viscorough.viscous.media import CreepTable, Prony, Springpot
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.non_negative import extremes, non_negative
-from viscorough.viscous.relaxation import elastic_force
+from viscorough.viscous.spectra import zero_of_increasing
 
 KINDS = ("table", "prony", "springpot")
 _KNOTS = 60  # of J, at most
@@ -126,7 +126,7 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
 
 def identify_medium(
     curve: LoadingCurve,
-    force: ArrayLike | ForceHistory,
+    force: ArrayLike | Load,
     times: ArrayLike,
     depth: ArrayLike,
     *,
@@ -139,8 +139,8 @@ def identify_medium(
     ----------
     curve : LoadingCurve
         LoadingCurve of the indenter, to the largest depth of the record.
-    force : array_like or ForceHistory
-        As in `kinetics`: the constant force applied at time 0, samples at `times`, or a ForceHistory.
+    force : array_like or Load
+        As in `kinetics`: the constant force applied at time 0, samples at `times`, or a Load.
     times, depth : array_like
         The record, shape (rows,); times increase. The scatter of the depth is taken for independent from row to row and
         of one size.
@@ -190,19 +190,14 @@ def identify_medium(
         if not (np.ndim(scatter) == 0 and 0 < scatter < np.inf):
             raise ValueError(f"scatter: {scatter!r:.60}; allowed: a finite length above 0, or None to find it")
     times, depth = _checked_record(curve, times, depth, scatter or 0.0)
-    force = consistent_force(force, unit)
-    if np.ndim(force) == 0:
-        if not (0 < force < np.inf and times[0] >= 0):
-            raise ValueError(f"force: {force:g} from time 0 on, record from {times[0]:g} on; allowed: both above 0")
-        force = impulses([force, force], [0.0, times[-1]])
-    history, place = resampled(force, times)
-    lags = times - history.times[0]
+    load, place = force_load(force, times, unit).with_times(times)
+    lags = times - load.time[0]
     record = _Record(curve, depth)
-    spectrum = _Spectrum(record, history, place, lags[lags > 0])
+    spectrum = _Spectrum(record, load, place, lags[lags > 0])
     freedom = np.inf
     if scatter is None:
         scatter, freedom = _scatter(record, spectrum)
-    knots, responses = _knots(history, place, lags)
+    knots, responses = _knots(load, place, lags)
     time = np.append(0.0, knots)
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
     bend = spectrum.creep - responses @ _amounts(spectrum.compliance(time), knots)
@@ -214,17 +209,16 @@ def identify_medium(
         distance = scatter * stdtrit(freedom, 0.5 + 0.5 * _LEVEL)
         low, high = record.intervals(coefficients, responses, bend, values, distance)
         # Before the first row that shows J, all that is known is that J does not decrease.
-        before = time < (0.0 if lags[0] == 0 < history.force[0] else lags[lags > 0][0])
+        before = time < (0.0 if lags[0] == 0 < load.values[0] else lags[lags > 0][0])
         low[before], high[before] = 0.0, high[~before][0]
     if kind == "prony":
-        medium: Medium = spectrum.prony(history.force[place].max())
+        medium: Medium = spectrum.prony(load.values[place].max())
     elif kind == "springpot":
-        medium = _springpot(record, history, place)
+        medium = _springpot(record, load, place)
     else:
         medium = CreepTable(time, compliance)
-    # The creep may decrease a little in the fitted medium, which `creep_response` would refuse.
     spectra = medium.retardation
-    creep, _ = by_sums(medium, history) if spectra is None else by_states(spectra, history)
+    creep, _ = by_sums(medium, load) if spectra is None else by_states(spectra, load)
     misfit = float(np.sqrt(np.mean(record.residual(creep[place]) ** 2)))
     if kind != "table":
         _check_misfit(misfit, scatter, freedom, depth)
@@ -255,17 +249,17 @@ def _check_misfit(misfit: float, scatter: float, freedom: float, depth: Array) -
         warnings.warn(text, AccuracyWarning, stacklevel=3)
 
 
-def _knots(history: ForceHistory, place: Integers, lags: Array) -> tuple[Array, Array]:
+def _knots(load: Load, place: Integers, lags: Array) -> tuple[Array, Array]:
     """Return the knots τ_k of J and the creep responses to 1 and to all min(t, τ_k), shape (rows, 1 + knots)."""
     knots = lags[lags > 0]
     if knots.size > _KNOTS:  # a subset at equal ratios
         spread = np.geomspace(knots[0], knots[-1], _KNOTS)
         knots = knots[np.unique(np.clip(np.searchsorted(knots, spread * (1 - 1e-12)), 0, knots.size - 1))]
-    if history.force[0] == 0:  # a ramp shows J before the first row, too
+    if load.values[0] == 0:  # a ramp shows J before the first row, too
         knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
-    times = history.times[place]
-    impulse, earlier = (integral(history.times, history.force, t) for t in (times[:, None], times[:, None] - knots))
-    return knots, np.column_stack([history.force[place], impulse - earlier])
+    times = load.time[place]
+    impulse, earlier = (integral(load.time, load.values, t) for t in (times[:, None], times[:, None] - knots))
+    return knots, np.column_stack([load.values[place], impulse - earlier])
 
 
 def _amounts(compliance: Array, knots: Array) -> Array:
@@ -329,7 +323,7 @@ class _Record:
 
     def __init__(self, curve: LoadingCurve, depth: Array) -> None:
         self.curve, self.depth = curve, depth
-        self.creep, self.stiffness = elastic_force(curve, depth)  # F/G and k/G at the measured depth
+        self.creep, self.stiffness = _elastic_force(curve, depth)  # F/G and k/G at the measured depth
 
     def fit(self, responses: Array, bend: Array | float = 0.0) -> Array:
         """Return amounts ≥ 0 of compliances with these creep responses, by the Gauss-Newton method.
@@ -381,20 +375,20 @@ class _Record:
 class _Spectrum:
     """The medium of springs and dashpots that fits a record best; its amounts are J₀, φ and J_j of the times θ_j."""
 
-    def __init__(self, record: _Record, history: ForceHistory, place: Integers, lags: Array) -> None:
+    def __init__(self, record: _Record, load: Load, place: Integers, lags: Array) -> None:
         first, last = lags[0] / _BEYOND, lags[-1] * _BEYOND
         times = np.geomspace(first, last, 2 + int(_TIMES_PER_DECADE * np.log10(last / first)))
         step = np.log(times[1] / times[0])
-        self._fit(record, history, place, times)
+        self._fit(record, load, place, times)
         if (found := self.times[self.amounts[2:] > 0]).size:
             finer = np.arange(-_FINER, _FINER + 1) / _FINER * step
             # Points of neighbouring grids coincide up to rounding.
             times = np.exp(np.unique(np.round(np.add.outer(np.log(found), finer), 9)))
-            self._fit(record, history, place, times)
+            self._fit(record, load, place, times)
 
-    def _fit(self, record: _Record, history: ForceHistory, place: Integers, times: Array) -> None:
-        delayed, _ = branch_states(np.diff(history.times), history.force, times)
-        responses = np.column_stack([history.force[place], history.impulse[place], delayed[place]])
+    def _fit(self, record: _Record, load: Load, place: Integers, times: Array) -> None:
+        delayed, _ = branch_states(np.diff(load.time), load.values, times)
+        responses = np.column_stack([load.values[place], load.integral[place], delayed[place]])
         self.times, self.amounts = times, record.fit(responses)
         self.creep = responses @ self.amounts
 
@@ -430,12 +424,12 @@ class _Spectrum:
         return Prony(relaxed, tuple(moduli.tolist()), tuple((1 / values).tolist()))
 
 
-def _springpot(record: _Record, history: ForceHistory, place: Integers) -> Springpot:
+def _springpot(record: _Record, load: Load, place: Integers) -> Springpot:
     """Return the springpot that fits best."""
     from scipy.optimize import minimize_scalar  # takes long to import
 
     def response(exponent: float) -> Array:
-        return by_sums(Springpot(1 / gamma(1 + exponent), exponent), history)[0][place, None]  # of J = t^a
+        return by_sums(Springpot(1 / gamma(1 + exponent), exponent), load)[0][place, None]  # of J = t^a
 
     def squares(exponent: float) -> float:
         column = response(exponent)
@@ -444,3 +438,14 @@ def _springpot(record: _Record, history: ForceHistory, place: Integers) -> Sprin
     exponent = float(minimize_scalar(squares, bounds=(0.001, 0.999), method="bounded", options={"xatol": 1e-7}).x)
     (amount,) = record.fit(response(exponent))
     return Springpot(1 / (amount * gamma(1 + exponent)), exponent)
+
+
+def _elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
+    """Return F_el/G and k/G at depths up to the last level; before the first one the curve is taken for straight."""
+    stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
+    force = depth * stiffness
+    inside = depth >= curve.depth[0]
+    target = depth[inside]
+    force[inside] = zero_of_increasing(lambda force: curve.at_force(force)[0] - target, *curve.force[[0, -1]])
+    stiffness[inside] = curve.at_force(force[inside])[1]
+    return force, stiffness

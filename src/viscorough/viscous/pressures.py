@@ -1,43 +1,49 @@
-"""Pressures on an indenter in a viscoelastic half-space, from elastic contacts at a sequence of forces.
+"""Pressures on an indenter in a viscoelastic half-space at any time of any history, from elastic contacts.
 
-While the contact does not recede, p(x, t) = ∫ ψ(t − s) d[p_el(x; Φ(s))/G], with the pressure p_el of the elastic
-contact under the force F/G = Φ, the creep response.
+With the forces φ(g, t) of the springs of the loading curve, per unit stiffness (docs/theory.md), the pressure is
 
-Call W(s) = ∫₀ˢ ψ(t − s') dΦ(s') the force at time t if the depth were held from s on. It is known in closed form, and
-W(t) = F(t) unless the medium has a parallel dashpot. Between two elastic contacts p_el is taken as linear in Φ, so that
-each interval adds ΔW/ΔΦ times the difference of their pressures. The sum of the pressures is then F(t) exactly.
+    p(x, t) = −∫ q(x; A(g)) dφ(g, t)    [with a jump from φ(g*) to 0 at the last spring in contact, g*],
 
-The remaining force F(t) − W(t) is distributed as q = dp_el/dF, the pressure of a flat punch of the shape of the
-contact. It is carried by a parallel dashpot, or is a step of the force at t in a springpot, which the depth does not
-follow at once.
+a sum of flat punches q = dp_el/du over the contact sets A(g) of loading. All springs that are pressed let go in the
+reverse order, so that every weight is positive and the contact is A(g*).
+
+1. The loading curve is computed up to the largest contact of the history, and its row of springs is moved.
+2. Between two elastic contacts p_el is taken as linear in the force, so that each interval adds its part of the force
+   times the difference of their pressures over that of their forces. The sum of the pressures is then F(t) exactly.
+3. The force φ(g*) on the whole contact is distributed as q(A(g*)). In media with a parallel dashpot the rest of φ is
+   linear in g, so that one further contact is enough.
 """
 
 import numpy as np
-from scipy.special import betainc
 
 from viscorough import units
-from viscorough.arrays import ForceHistory, jumps_and_slopes, whole_number
+from viscorough.arrays import whole_number
+from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.indenter import Indenter
+from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
-from viscorough.viscous.correspondence import consistent_force, impulses, resampled
-from viscorough.viscous.creep_response import branch_states, creep_response
-from viscorough.viscous.media import Springpot, medium_of
-from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
+from viscorough.viscous.creep_response import creep_response
+from viscorough.viscous.kinetics import row_motion
+from viscorough.viscous.load import Load, force_load
+from viscorough.viscous.media import medium_of
+from viscorough.viscous.medium import Medium
 
-# Contacts are placed by the creep response at this many times per contact, at equal steps and at equal ratios from both
-# ends of each interval between samples, the nearest at this distance relative to the interval.
-_TIMES, _NEAREST = 8, 1e-14
-# An interval between contacts is short if Φ increases by less than this multiple of the tolerance of the contacts, of
-# which at least _FINEST counts: the difference of two computed pressures would consist of their errors.
+# An interval between contacts is short if the force increases by less than this multiple of the tolerance of the
+# contacts, of which at least _FINEST counts: the difference of two computed pressures would consist of their errors.
 _SHORT, _FINEST = 10.0, 1e-6
+# The curve ends at this multiple of the largest elastic force of the history, beyond the rounding of the search.
+_BEYOND = 1.001
+# State just after a time: at this share of the duration after it.
+_JUST_AFTER = 1e-12
 
 
 def pressure_at(
     indenter: Indenter,
     medium: Medium | float | str,
-    force: float | str | ForceHistory,
+    force: float | str | Load,
     time: float,
     *,
     contacts: int = 64,
@@ -50,30 +56,29 @@ def pressure_at(
     indenter : Indenter
         Indenter with two-dimensional heights.
     medium : Medium or float or str
-        Medium as in `kinetics`, except a CreepTable, for its ψ is not known.
-    force : float or str or ForceHistory
-        a number, the constant force F > 0 from t = 0 on; or a ForceHistory.
+        Medium as in `kinetics`.
+    force : float or str or Load
+        The constant force F > 0 from t = 0 on; or a Load, which may prescribe the depth instead.
     time : float
-        t, within the history, after its start. At a step of the force p is the pressure just after it; in a springpot
-        and in media with a parallel dashpot the step is then carried as by a flat punch of the shape of the contact.
+        t, within the history, after its start. p is the pressure just after it, also at a step; in a springpot and in
+        media with a parallel dashpot a step of the force is carried as by a flat punch of the shape of the contact.
     contacts : int, optional
-        Number of elastic contacts up to t, 1 or more; a step of the creep response adds up to two. Increase it for a
-        smaller error of the pressures, which is of second order in 1/contacts in the mean over the elements. Media with
-        a parallel dashpot (Newtonian, Kelvin-Voigt) need the contact at t alone, and have no such error.
+        Number of elastic contacts, 1 or more. Increase it for a smaller error of the pressures, which is of second
+        order in 1/contacts in the mean over the elements. Media with a parallel dashpot (Newtonian, Kelvin-Voigt) need
+        the contact at t alone, and have no such error.
     tolerance : float, optional
         Relative accuracy of the elastic contacts.
 
     Returns
     -------
     array
-        Map of the shape of the heights, nan outside the indenter. Its sum times the area of an element is F(t) for any
-        number of contacts: to rounding in the media of viscorough.viscous.media, to about 1e-3 in a user's subclass of
-        Medium.
+        Map of the shape of the heights, nan outside the indenter, 0 outside the contact. Its sum times the area of an
+        element is F(t) for any number of contacts.
 
     Raises
     ------
     ValueError
-        For arguments out of range and, with the time, where the contact would recede.
+        For arguments out of range.
 
     Examples
     --------
@@ -84,105 +89,90 @@ def pressure_at(
     (17, 17)
     """
     tolerance = check_solvable("pressure_at", indenter, tolerance)
-    medium, contacts = medium_of(medium, indenter.length_unit), whole_number("contacts", contacts, at_least=1)
-    time = units.number(time, "s", indenter.length_unit, "time")
-    if not isinstance(force, ForceHistory):
-        force = impulses(np.full(2, units.number(force, "N", indenter.length_unit, "force")), [0.0, time])
-    force = consistent_force(force, indenter.length_unit)
-    start = force.times[0]
-    if not start < time <= force.times[-1]:
-        raise ValueError(
-            f"time: {time}; allowed: within those of the force, above {start:g}, up to {force.times[-1]:g}"
-        )
-    times, load, creep, carried = _loading(medium, force, time, contacts)
+    unit = indenter.length_unit
+    medium, contacts = medium_of(medium, unit), whole_number("contacts", contacts, at_least=1)
+    time = units.number(time, "s", unit, "time")
+    load = force.in_units_of(unit) if isinstance(force, Load) else force_load(force, np.array([time]), unit)
+    start = load.time[0]
+    if not start < time <= load.time[-1]:
+        raise ValueError(f"time: {time}; allowed: within those of the load, above {start:g}, up to {load.time[-1]:g}")
+    load = _up_to(load, time)
+    curve = _curve(indenter, medium, load, tolerance)
+    row, moved = row_motion(curve, medium, load)
+    total = np.where(np.isnan(indenter.heights), np.nan, 0.0)
+    count = int(moved.in_contact[-1])
+    if count == 0:
+        return total
+    carried, sums = moved.pressures[:count], np.cumsum(row.stiffness)[:count]
+    elastic = np.append(0.0, np.cumsum(sums[:-1] * np.diff(row.gap[:count])))  # F_el at the gap of each spring
+    parts = sums[:-1] * -np.diff(carried)  # of the force, between neighbouring springs
     has_dashpot = medium.relaxation is not None and medium.relaxation.viscosity > 0
-    nodes = np.array([times.size - 1]) if has_dashpot else _nodes(times, creep, carried, contacts)
-    levels = creep[nodes]
-    rise, share = np.diff(levels, prepend=0.0), np.diff(carried[nodes], prepend=0.0)
-    # An interval adds ΔW/ΔΦ (p_j − p_{j−1}), or ΔW (q_j + q_{j−1})/2 if it is short; these are sums over the contacts.
+    nodes = np.unique([0, count - 1]) if has_dashpot else _nodes(elastic, parts, contacts)
+    share = np.add.reduceat(np.append(parts, 0.0), nodes[:-1])
+    rise, levels = np.diff(elastic[nodes]), elastic[nodes[1:]]
     is_long = rise > _SHORT * max(tolerance, _FINEST) * levels
-    modulus = np.where(is_long, share / np.where(is_long, rise, 1.0), 0.0)
+    slope = np.where(is_long, share / np.where(is_long, rise, 1.0), 0.0)
     half = np.where(is_long, 0.0, 0.5 * share)
-    of_pressure, of_tangent = modulus - np.append(modulus[1:], 0.0), half + np.append(half[1:], 0.0)
+    # An interval adds its share times (p_j − p_{j−1})/(F_j − F_{j−1}), or (q_j + q_{j−1})/2 of ΣQ = 1 if it is short.
+    of_pressure, of_tangent = slope - np.append(slope[1:], 0.0), half + np.append(half[1:], 0.0)
     solver = ContactSolver(indenter, tolerance / 2)  # the correction to the force takes the other half
     search, loads = ForceSearch(solver), solver.first_contact().member_loads()
     area = indenter.spacing * indenter.row_spacing
-    total = np.where(np.isnan(indenter.heights), np.nan, 0.0)
+    place = solver.elements.places_on_map(loads.members)
+    if half.size:
+        total[place] += half[0] / area * loads.tangent / loads.tangent.sum()
     for level, pressure, tangent in zip(levels, of_pressure, of_tangent, strict=True):
-        if level > 0:
-            loads = search.contact_at(level).member_loads()
+        loads = search.contact_at(level).member_loads()
         place = solver.elements.places_on_map(loads.members)
-        if level > 0 and pressure:
-            total[place] += pressure * level / area * loads.pressure / loads.pressure.sum()
+        total[place] += pressure * level / area * loads.pressure / loads.pressure.sum()
         total[place] += tangent / area * loads.tangent / loads.tangent.sum()
-    remaining = max(load / area - np.nansum(total), 0.0)  # it may be negative by rounding
-    total[place] += remaining * loads.tangent / loads.tangent.sum()
+    total = np.maximum(total, 0.0)  # it may be negative by rounding
+    # The last spring is in contact just beyond its gap.
+    following = min(row.gap[count] if count < row.gap.size else row.limit, 2 * row.gap[count - 1] + curve.depth[0])
+    loads = search.contact_at(elastic[-1] + 0.5 * sums[-1] * (following - row.gap[count - 1])).member_loads()
+    place = solver.elements.places_on_map(loads.members)
+    remaining = moved.force[-1] / area - np.nansum(total)
+    total[place] += max(remaining, 0.0) * loads.tangent / loads.tangent.sum()
     return total
 
 
-def _loading(medium: Medium, force: ForceHistory, time: float, contacts: int) -> tuple[Array, float, Array, Array]:
-    """Return times up to `time`, the force at `time`, and Φ and W at these times, which are dense near the samples."""
-    samples = np.unique(np.append(force.times[force.times < time], time))
-    count = max(_TIMES * contacts // (samples.size - 1), 1)
-    near = np.geomspace(0.5, _NEAREST, count)
-    places = np.concatenate([np.linspace(0, 1, count + 1), near, 1 - near])
-    between = samples[:-1, None] + np.diff(samples)[:, None] * places
-    history, _ = resampled(force, np.unique(np.append(samples, between)))
-    creep, _ = creep_response(medium, history)
-    until = np.searchsorted(history.times, time, side="right")
-    times, load, creep = history.times[:until], history.force[:until], np.maximum.accumulate(creep[:until])
-    if medium.relaxation is not None and medium.retardation is not None:
-        carried = _carried_by_branches(medium.relaxation, medium.retardation, times, load, creep)
-    elif isinstance(medium, Springpot):
-        carried = _carried_by_springpot(medium.exponent, force, times)
+def _up_to(load: Load, time: float) -> Load:
+    """Return the load up to just after a time, where the state after a kink or a step has settled.
+
+    After its end a force is held. A depth ends there, so that its last rate counts.
+    """
+    after = time + _JUST_AFTER * (time - load.time[0])
+    if after > load.time[-1]:
+        if load.by_depth:
+            return load
+        return Load(np.append(load.time, after), force=np.append(load.values, load.values[-1]))
+    longer, place = load.with_times([time, after])
+    until = slice(int(place[-1]) + 1)
+    return Load(longer.time[until], **{"depth" if load.by_depth else "force": longer.values[until]})
+
+
+def _curve(indenter: Indenter, medium: Medium, load: Load, tolerance: float) -> LoadingCurve:
+    """Return the loading curve of an indenter up to the largest contact of a history."""
+    if load.by_depth:
+        deepest = load.values.max()
+        force = np.inf
+        if deepest > 0:
+            force = contact_at(indenter, depth=float(deepest), tolerance=tolerance).force  # type: ignore[union-attr]
     else:
-        lengths, lag = np.diff(times), time - times
-        with np.errstate(divide="ignore", invalid="ignore"):
-            mean = medium.relaxation_integral(lag[1:], lag[:-1]) / lengths
-        mean = np.append(medium.relaxation_modulus(lag[0]), np.where(lengths > 0, mean, 0.0))
-        carried = np.cumsum(mean * np.diff(creep, prepend=0.0))
-    return times, load[-1], creep, carried
+        force = creep_response(medium, load).creep.max()
+    if not 0 < force < np.inf:  # nothing is touched
+        return indent(indenter, tolerance=tolerance, until_fraction=1 / indenter.elements)
+    return indent(indenter, tolerance=tolerance, until_force=_BEYOND * force)
 
 
-def _carried_by_branches(
-    relaxation: RelaxationSpectrum, retardation: RetardationSpectrum, times: Array, force: Array, creep: Array
-) -> Array:
-    """Return W at the times, the last of them t, in a medium of springs and dashpots.
+def _nodes(elastic: Array, parts: Array, contacts: int) -> Integers:
+    """Return the indices of springs between which p_el is taken as linear in the force, the first and last ones too.
 
-    The state of a Maxwell branch, ∫exp(−(s − s')/τ) dΦ(s'), is a sum of F and of the states z_j of the Kelvin-Voigt
-    elements: φ τ F + Σ J_j τ/(θ_j − τ) z_j. A branch whose τ equals a θ_j to rounding has no strength.
+    They lie at equal steps of the sum of the elastic force and of the force carried up to a spring, both relative to
+    their last values: p changes with both.
     """
-    _, left = branch_states(np.diff(times), force, retardation.times)
-    apart = retardation.times - relaxation.times[:, None]
-    factors = np.divide(retardation.compliances, apart, out=np.zeros_like(apart), where=apart != 0)
-    states = relaxation.times * (retardation.fluidity * force[:, None] + left @ factors.T)
-    decay = np.exp(-np.divide.outer(times[-1] - times, relaxation.times))
-    return relaxation.relaxed_modulus * creep + (decay * states) @ relaxation.moduli
-
-
-def _carried_by_springpot(exponent: float, force: ForceHistory, times: Array) -> Array:
-    """Return W at the times, the last of them t, in a springpot of exponent a.
-
-    At the time s, a unit step of the force at t₀ has left 1 − I(y; 1 − a, a), with the regularised incomplete beta
-    function I and y = (t − s)/(t − t₀), and a unit slope has left (t − t₀) (1 − I(y; 1 − a, 1 + a)).
-    """
-    jumps, slopes = jumps_and_slopes(force.times, force.force)
-    bends = np.diff(slopes, prepend=0.0, append=0.0)
-    lag, carried = times[-1] - times, np.zeros(times.size)
-    for start, jump, bend in zip(force.times, jumps, bends, strict=True):
-        if start < times[-1]:
-            y, rest = np.minimum(lag / (times[-1] - start), 1.0), times[-1] - start
-            carried -= jump * betainc(1 - exponent, exponent, y) + bend * rest * betainc(1 - exponent, 1 + exponent, y)
-    return carried - carried[0]
-
-
-def _nodes(times: Array, creep: Array, carried: Array, contacts: int) -> Integers:
-    """Return the indices of the times of the elastic contacts.
-
-    They lie at equal steps of the sum of Φ and W, both relative to their values at t. This grading keeps the error of
-    second order although Φ and ψ are singular in a springpot. Both ends of a step of Φ are nodes.
-    """
-    measure = sum(np.maximum.accumulate(values) / max(values[-1], np.finfo(float).tiny) for values in (creep, carried))
-    graded = np.searchsorted(measure, np.linspace(measure[0], measure[-1], contacts + 1))
-    steps = np.flatnonzero((np.diff(times) == 0) & (np.diff(creep) > 0))
-    return np.unique(np.concatenate([graded, steps, steps + 1, [times.size - 1]]))
+    carried = np.append(0.0, np.cumsum(np.maximum(parts, 0.0)))
+    tiny = np.finfo(float).tiny
+    measure = elastic / max(elastic[-1], tiny) + carried / max(carried[-1], tiny)
+    graded = np.searchsorted(measure, np.linspace(0, measure[-1], contacts + 1))
+    return np.unique(np.clip(np.append(graded, [0, elastic.size - 1]), 0, elastic.size - 1))

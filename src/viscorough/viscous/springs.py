@@ -19,14 +19,16 @@ it in between:
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.compilation import njit
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Mask
+from viscorough.viscous.spectra import zero_of_increasing
 
 # Largest deviation in depth of chords from the interpolant, over the tolerance of the curve, and the smallest tolerance
 # that counts: below it the interpolant is not known well enough.
-_DEVIATION, _FINEST = 0.04, 1e-7
+_DEVIATION, _FINEST = 0.03, 1e-7
 # Largest relative jump of the stiffness from one chord to the next; the velocity has an error of about half of it.
 _STIFFNESS_STEP = 2e-3
 # Largest number of chords between two levels, and of all, roughly.
@@ -54,12 +56,22 @@ class RowOfSprings(NamedTuple):
     first_depth: float
 
 
-def row_of_springs(curve: LoadingCurve) -> RowOfSprings:
-    """Return the row of springs of a loading curve."""
+def row_of_springs(curve: LoadingCurve, depths: ArrayLike = ()) -> RowOfSprings:
+    """Return the row of springs of a loading curve.
+
+    depths : at these, too, the row has the force of the interpolant, shape (n,) [length]
+    """
     parts = [_before_first_level(curve)]
     if curve.depth.size > 1:
         parts.append(_between_levels(curve))
     depth, force, count = np.hstack(parts)
+    new = np.setdiff1d(depths, depth)
+    new = new[(new > curve.depth[0]) & (new < curve.depth[-1])]
+    if new.size:
+        place = np.searchsorted(depth, new)
+        at_new = zero_of_increasing(lambda force: curve.at_force(force)[0] - new, *curve.force[[0, -1]])
+        count = np.insert(count, place, np.interp(new, depth, count))
+        depth, force = np.insert(depth, place, new), np.insert(force, place, at_new)
     kept = _below_all(depth, force)
     depth, force, count = depth[kept], force[kept], count[kept]
     chords = np.diff(force) / np.diff(depth)

@@ -369,7 +369,10 @@ def _touch(row, law, state, t, u, force, count, by_depth):
 
 @njit
 def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
-    """Force and velocity at a time; `remainders` is changed in place."""
+    """Force and velocity at a time; `remainders` is set in place, but that of a parallel dashpot is kept.
+
+    From u and F it would lose all digits when creep has nearly ended.
+    """
     stiffness, moment = row.stiffness[count], row.moment[count]
     if by_depth:
         if count == 0:
@@ -380,7 +383,8 @@ def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
             variable += state.total[count - 1, b] * np.exp(-law.rates[b] * (t - state.joined[count - 1]))
             force += law.moduli[b] * variable
         return max(force, 0.0), rate
-    _remainders_in_contact(row, law, state, t, u, force, count, remainders)
+    if law.viscosity == 0:
+        _remainders_in_contact(row, law, state, t, u, force, count, remainders)
     flow = law.instantaneous * rate + law.fluidity * force
     for j in range(law.decays.size):
         flow += law.flows[j] * remainders[j]
@@ -505,6 +509,7 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
         last, before = (times[k - 1], load[k - 1]) if k else (times[0], 0.0)
         length, rate = times[k] - last, 0.0
         if length == 0:
+            remainders += load[k] - f
             u, f, count, ended = _jump(row, law, state, t, u, f, count, load[k], by_depth, of_release)
         else:
             rate, f = (load[k] - before) / length, before
@@ -525,7 +530,6 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 if k and not started and t + s - last > _AT_ONCE * length:
                     started = True
                     force[k - 1], velocity[k - 1], in_contact[k - 1] = now, speed, count
-                    deflection[k - 1] = row.stiffness[count] * u - row.moment[count]
                     largest[k - 1] = count >= state.most[0]
                 u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
                 t, f = (times[k], load[k]) if arrives else (t + s, f + rate * s)
@@ -537,9 +541,13 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     ended = RESTLESS
                 elif release < touch:
                     count = _let_go(row, law, state, t, u, count)
+                    if count > 0:
+                        _remainders_in_contact(row, law, state, t, u, f, count, remainders)
                 elif count == springs:
                     ended = BEYOND
                 else:
+                    kept = np.exp(-law.decays * (t - state.left[count]))
+                    remainders += weights[count] * state.remainder[count] * kept
                     count = _touch(row, law, state, t, u, f, count, by_depth)
                 if ended != SETTLED:
                     break

@@ -8,7 +8,7 @@ import pandas as pd
 from viscorough.contact.one_contact import contact_at
 from viscorough.io.curves import unstack_curves
 from viscorough.io.load_tables import SI_COLUMNS, rows_of_contacts
-from viscorough.viscous.correspondence import kinetics
+from viscorough.viscous.kinetics import kinetics
 from viscorough_study.comparisons.media_kinetics import named_media, reached_times
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.measured import measured_indenter

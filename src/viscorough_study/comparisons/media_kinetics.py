@@ -13,7 +13,7 @@ import pandas as pd
 
 from viscorough.io.curves import unstack_curves
 from viscorough.io.media import medium_from_mapping
-from viscorough.viscous.correspondence import kinetics
+from viscorough.viscous.kinetics import kinetics
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.power_law import local_slopes
 

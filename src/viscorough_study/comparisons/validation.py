@@ -15,8 +15,8 @@ from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.mdr import reduce
 from viscorough.surfaces import cut_disc, self_affine_disc
-from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.kinetics import kinetics
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
 RADII = np.linspace(0.2, 0.45, 26)  # contact radii at which solutions are compared [L]

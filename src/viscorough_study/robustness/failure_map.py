@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.errors import AccuracyWarning, ConvergenceError
-from viscorough.viscous.correspondence import impulses
+from viscorough.viscous.load import Load
 from viscorough_study.robustness.stress_cases import stress_cases
 from viscorough_study.robustness.stress_solutions import METHODS, MODELS, reference_solution
 from viscorough_study.run.seeds import failure_map_key, realization_seed
@@ -58,7 +58,7 @@ def _cell(case, solution, ratios, limit, *, is_model):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         try:
-            impulses(np.array(case.force), np.arange(len(case.force), dtype=float))  # refuses tensile forces
+            Load(np.arange(len(case.force), dtype=float), force=np.array(case.force))  # refuses tensile forces
             error = float(np.abs(np.nan_to_num(ratios(case, solution), nan=0.0) - 1).max())
         except (ValueError, ConvergenceError, MemoryError) as reason:
             messages, verdict = [str(reason)], "refused"

@@ -20,11 +20,11 @@ from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
-from viscorough.viscous.correspondence import impulses, kinetics
 from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.internal_variable_events import march_medium_events
-from viscorough.viscous.integration.internal_variables import march_medium
+from viscorough.viscous.integration.march import march
 from viscorough.viscous.integration.stepping import march_steps
+from viscorough.viscous.kinetics import kinetics
+from viscorough.viscous.load import Load
 from viscorough.viscous.media import Newtonian
 
 DENSE_ONLY = SolverOptions(dense_contacts=10**9, dense_interactions=10**12)
@@ -119,7 +119,7 @@ def _steps(case, solution):
     else:
         samples = np.arange(len(case.force))
         times = np.linspace(0, samples[-1], case.steps)
-        impulse = impulses(np.interp(times, samples, case.force), times).impulse
+        impulse = Load(times, force=np.interp(times, samples, case.force)).integral
         ends = solution.force[-1] * np.unique(impulse[impulse > 0]) / impulse[-1]
     steps = march_steps(case.indenter, np.union1d(ends, solution.force), scheme="explicit")
     return steps.depth[np.searchsorted(steps.impulse, solution.force)] / solution.depth
@@ -160,7 +160,7 @@ def _by_correspondence(case, solution):
     if case.medium is None:
         return kinetics(curve, 1.0, Newtonian(1.0), solution.force).depth / solution.depth
     times, force = _history(case, solution)
-    depth = kinetics(curve, impulses(force, times), case.medium).depth
+    depth = kinetics(curve, Load(times, force=force), case.medium).depth
     return _ratios(depth, _motion_reference(case, solution))
 
 
@@ -168,7 +168,8 @@ def _by_steps(case, solution):
     """Depths by the second-order steps of direct integration, over those of the reference."""
     if case.medium is None:
         times = np.append(0.0, solution.force)
-        return march_medium(case.indenter, Newtonian(1.0), times, force=np.ones(times.size)).depth[1:] / solution.depth
+        motion = march(case.indenter, Newtonian(1.0), Load(times, force=np.ones(times.size)))
+        return motion.depth[1:] / solution.depth
     return _ratios(_stepped(case, solution, STEPS), _motion_reference(case, solution))
 
 
@@ -184,7 +185,8 @@ def _motion_reference(case, solution):
     if (np.diff(force) < 0).any():  # the contact recedes
         return _stepped(case, solution, REFERENCE_STEPS)
     until = _last_fraction(case, solution)
-    return march_medium_events(case.indenter, case.medium, times, force=force, until_fraction=until).depth
+    load = Load(times, force=force)
+    return march(case.indenter, case.medium, load, method="events", until_fraction=until).depth
 
 
 def _stepped(case, solution, number):
@@ -196,7 +198,7 @@ def _stepped(case, solution, number):
         parts.append(start[:, None] + (end - start)[:, None] * share)
         place.append(place[-1] + share.size)
     times, force = np.concatenate(parts, axis=1)
-    return march_medium(case.indenter, case.medium, times, force=force).depth[place]
+    return march(case.indenter, case.medium, Load(times, force=force)).depth[place]
 
 
 def _ratios(depth, reference):

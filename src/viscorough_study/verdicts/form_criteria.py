@@ -12,7 +12,9 @@ from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.integration.internal_variables import march_medium
+from viscorough.viscous.integration.internal_variables import integrate_steps
+from viscorough.viscous.integration.march import march
+from viscorough.viscous.load import Load
 from viscorough.viscous.media import Newtonian
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 from viscorough_study.verdicts.evidence import exact, hurst_name
@@ -52,8 +54,8 @@ def history(evidence, tolerance):
     """
     disc = _disc(evidence, min(evidence.pooled))
     histories = [(times, IMPULSE * np.array(forces)) for times, forces in HISTORIES.values()]
-    motions = [march_medium(disc, Newtonian(1.0), times, force=force) for times, force in histories]
-    sets, depths = [motion.pressure > 0 for motion in motions], [motion.depth[-1] for motion in motions]
+    motions = [integrate_steps(disc, Newtonian(1.0), Load(times, force=force)) for times, force in histories]
+    sets, depths = [pressure > 0 for _, pressure in motions], [motion.depth[-1] for motion, _ in motions]
     differing = [int((first != second).sum()) for first, second in pairwise(sets)]
     apart = [abs(second / first - 1) for first, second in pairwise(depths)]
     number = int(sets[0].sum())
@@ -91,7 +93,7 @@ def one_surface(evidence, tolerance):
 def _resistance(disc, force, viscosity):
     """F/(ηvL) over steps of equal impulse Ft/η in a direct integration; v : velocity over a step."""
     times = np.linspace(0.0, IMPULSE * viscosity / force, STEPS + 1)
-    depth = march_medium(disc, Newtonian(viscosity), times, force=np.full(times.size, force)).depth
+    depth = march(disc, Newtonian(viscosity), Load(times, force=np.full(times.size, force))).depth
     return force / (viscosity * np.diff(depth) / np.diff(times))
 
 

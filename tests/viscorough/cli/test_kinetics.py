@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from support.command_line import run, sphere_heights, values
-from viscorough import Indenter, impulses, indent, kinetics
+from viscorough import Indenter, Load, indent, kinetics
 from viscorough.io import netcdf
 from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
@@ -29,7 +29,7 @@ MEDIA = {
     "springpot": ("{kind: springpot, modulus: 2, exponent: 0.4}", Springpot(2.0, 0.4)),
     "creep_table": ("{kind: creep_table, file: table.csv}", CreepTable([0, 1, 10], [0.2, 0.5, 0.9])),
 }
-HISTORY = impulses([0, 0.2, 0.3, 0.3], [0, 1, 1, 9])
+HISTORY = Load([0, 1, 1, 9], force=[0, 0.2, 0.3, 0.3])
 KINETICS = "kinetics curve.nc -o kin.nc"
 
 

@@ -29,7 +29,10 @@ OF_PIPES += [f"{KINETICS} --force 1 --medium {name}.yaml" for name in ("pipe", "
 KIND = "unknown kind of file; results are written as .nc (NetCDF) or .csv (a table)"
 WRITERS = ["indent heights.npy --spacing 1", "contact heights.npy --spacing 1 --depth 1", "reduce line.npy --spacing 1"]
 WRITERS += ["kinetics curve.nc --force 1 --viscosity 1", f"{ESTIMATE} --rms 1 --force 1 --viscosity 1"]
-WRITERS += ["march heights.npy --spacing 1 --method events", GENERATE.removesuffix(" -o made.nc") + " --elements 5"]
+WRITERS += [
+    "march heights.npy --spacing 1 --method events --times 1",
+    GENERATE.removesuffix(" -o made.nc") + " --elements 5",
+]
 MISTAKES = [
     ("indent heights.npy --spacing 1", "--output"),
     (f"{INDENT} --tolerance 0", "'--tolerance': 0.0 is not in the range 0<x<=0.1"),
@@ -85,9 +88,8 @@ MISTAKES = [
     (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),
     (f"{GENERATE} --elements 5 --unit 1 --rms '2 um'", f"--rms 2 um: {NO_UNIT}"),
     (f"{MARCH} events --times 1,2", "--times is not for --method events"),
-    (f"{MARCH} explicit", "--times is needed by --method explicit"),
-    (f"{MARCH} explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
-    (f"{MARCH} second_order --times 1", "--method second_order is for use with --medium"),
+    (f"{MARCH} events", "one of --times and --force-history is needed"),
+    (f"{MARCH} implicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
     (f"{MARCH} heun --medium medium.yaml --times 1", "--medium is not for --method heun; allowed: events, "),
     (f"{MARCH} events --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
     (f"{MARCH} events --force-history none.csv --force 1", "--force-history replaces --force"),

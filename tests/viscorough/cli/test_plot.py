@@ -16,9 +16,9 @@ SURFACE = "generate --hurst 0.7 --rms 1 --diameter 9 --seed 1"
 FILES = {
     "curve.nc": f"indent {MAP}",
     "motion.nc": "kinetics FOLDER/curve.nc --force 1 --viscosity 1",
-    "march.nc": f"march {MAP} --method events",
-    "history.nc": f"march {MAP} --method explicit --force-history FOLDER/force.csv",
-    "medium.nc": f"march {MAP} --method second_order --times 1,2,3 --medium FOLDER/medium.yaml",
+    "march.nc": f"march {MAP} --method events --times 1,2,3",
+    "history.nc": f"march {MAP} --method events --force-history FOLDER/force.csv",
+    "medium.nc": f"march {MAP} --method implicit --times 1,2,3 --medium FOLDER/medium.yaml",
     "disc.nc": f"{SURFACE} --elements 9 --unit um",
     "line.nc": f"{SURFACE} --points 64",
     "contact.nc": f"contact {MAP} --depth 0.01 --young 2",

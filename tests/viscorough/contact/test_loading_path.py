@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from support.contract import refused
-from viscorough import Indenter, SolverOptions, contact_at, indent, march_events, reference, self_affine_disc
+from viscorough import Indenter, SolverOptions, contact_at, indent, reference, self_affine_disc
 from viscorough.errors import ConvergenceError
+from viscorough.viscous.integration.events import march_events
 
 
 def observed_order(elements, errors):

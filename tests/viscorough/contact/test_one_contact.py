@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough import Indenter, SolverOptions, contact_at, indent, march_events, self_affine_disc
+from viscorough import Indenter, SolverOptions, contact_at, indent, self_affine_disc
 from viscorough.contact.halfspace.influence import influence_coefficient
+from viscorough.viscous.integration.events import march_events
 
 DISC = self_affine_disc(0.7, 33, seed=4)
 GRID = SolverOptions(dense_contacts=0, dense_interactions=0)

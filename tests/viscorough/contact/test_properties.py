@@ -20,10 +20,10 @@ from viscorough import (
     contact_at,
     indent,
     kinetics,
-    march_events,
     self_affine_disc,
 )
 from viscorough.contact.solver import ContactSolver
+from viscorough.viscous.integration.events import march_events
 
 TOLERANCE = 1e-9
 # The relative error of the force is of second order in the tolerance. That of the stiffness is of second order in the

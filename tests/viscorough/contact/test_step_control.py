@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from viscorough import Indenter, indent, march_events, self_affine_disc
+from viscorough import Indenter, indent, self_affine_disc
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.step_control import Level, StepControl, division, interpolate, interpolation_bound
+from viscorough.viscous.integration.events import march_events
 
 
 def springs(gaps, depth):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from support.contract import refused
+from viscorough import Load
 from viscorough.io.media import medium_from_mapping
-from viscorough.io.motion import read_force_history
 
 
 @pytest.fixture
@@ -14,7 +14,8 @@ def history(tmp_path):
 
     def read(text, length_unit="1"):
         (tmp_path / "force.csv").write_text(text, encoding="utf-8")
-        return read_force_history(tmp_path / "force.csv", length_unit)[:2]
+        load = Load.read(tmp_path / "force.csv", length_unit=length_unit)
+        return load.time, load.values
 
     return read
 

@@ -7,7 +7,7 @@ import pytest
 from support.contract import refused
 from support.curves import curve_of_body
 from support.media import MEDIA
-from viscorough import AccuracyWarning, Prony, Springpot, identify_medium, impulses, kinetics
+from viscorough import AccuracyWarning, Load, Prony, Springpot, identify_medium, kinetics
 from viscorough.reference import sphere
 
 CURVE = curve_of_body(sphere(1.0), np.geomspace(1e-9, 10, 300))
@@ -17,7 +17,7 @@ TIMES = np.geomspace(0.02, 60, 50)
 def record(medium, *, ramp=False):
     """The force that brings the creep to 10 in the end, and the depth under it."""
     force = 10 / float(medium.creep_compliance(TIMES[-1]))
-    force = impulses([0.0, force, force], [0.0, 2.0, TIMES[-1]]) if ramp else force
+    force = Load([0.0, 2.0, TIMES[-1]], force=[0.0, force, force]) if ramp else force
     return force, kinetics(CURVE, force, medium, TIMES).depth
 
 
@@ -146,7 +146,7 @@ def test_records_that_no_growing_contact_can_have_are_refused():
 def test_force_may_step_down_in_a_record(kind):
     """The depth in a fluid goes on growing, although that in the fitted medium recedes a little at the step."""
     times, force = np.array([0.0, 5.0, 5.0, 60.0]), np.array([1.0, 1.0, 0.6, 0.6])
-    load = impulses(0.5 * force, times)
+    load = Load(times, force=0.5 * force)
     depth = kinetics(CURVE, load, MEDIA["newtonian"], TIMES).depth
     noisy = depth + 1e-3 * depth[-1] * np.random.default_rng(0).standard_normal(TIMES.size)
     found = identify_medium(CURVE, load, TIMES, noisy, kind=kind)

@@ -6,17 +6,16 @@ from scipy.integrate import quad
 from scipy.special import gamma
 
 from support.contract import refused
+from support.marching import stepped
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
 from viscorough import (
-    CreepTable,
+    Load,
     Maxwell,
     Medium,
     Springpot,
     contact_at,
-    force_under_depth,
-    impulses,
     indent,
-    march_medium,
+    kinetics,
     pressure_at,
     self_affine_disc,
 )
@@ -31,13 +30,14 @@ def test_pressures_of_a_ramp_and_a_step(name):
     times, force = np.array([0, 0.5, 0.5, 2.0]), scale * np.array([0.1, 0.5, 0.8, 1.0])
     steps = np.append(np.linspace(0, 0.5, 41), np.linspace(0.5, 2, 41))
     loads = np.append(np.interp(steps[:41], times[:2], force[:2]), np.interp(steps[41:], times[2:], force[2:]))
-    exact = march_medium(DISC, medium, steps, force=loads).pressure
+    exact = stepped(DISC, medium, steps, force=loads).pressure
     errors = []
     for contacts in (16, 64):
-        pressure = pressure_at(DISC, medium, impulses(force, times), 2.0, contacts=contacts, tolerance=1e-8)
+        pressure = pressure_at(DISC, medium, Load(times, force=force), 2.0, contacts=contacts, tolerance=1e-8)
         assert (np.isnan(pressure) == np.isnan(DISC.heights)).all()
         errors.append(np.nanmax(abs(pressure - exact)) / np.nanmax(exact))
-    assert errors[1] < min(0.02, errors[0])
+    assert errors[1] < 0.02
+    assert errors[1] <= errors[0], "equal where there are fewer contact events than contacts"
     assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(force[-1], rel=1e-2)
 
 
@@ -55,8 +55,8 @@ def test_pressures_of_dashpots_are_those_at_the_last_time(name, history):
     """Not the mean over the last step: all ways to compute them agree, however long that step is."""
     disc, medium = self_affine_disc(0.7, 33, seed=4), MEDIA[name]
     times, force = (np.array(values) for values in HISTORIES[history])
-    by_steps = march_medium(disc, medium, times, force=force).pressure
-    by_contacts = pressure_at(disc, medium, impulses(force, times), times[-1], tolerance=1e-8)
+    by_steps = stepped(disc, medium, times, force=force).pressure
+    by_contacts = pressure_at(disc, medium, Load(times, force=force), times[-1], tolerance=1e-8)
     np.testing.assert_allclose(by_contacts, by_steps, rtol=0, atol=1e-7 * np.nanmax(by_steps))
     for pressure in (by_steps, by_contacts):
         assert np.nansum(pressure) * disc.spacing**2 == pytest.approx(force[-1], rel=1e-12)
@@ -65,29 +65,40 @@ def test_pressures_of_dashpots_are_those_at_the_last_time(name, history):
 @pytest.mark.parametrize("name", DASHPOTS)
 def test_force_of_a_dashpot_under_a_ramp_of_the_depth_is_that_at_each_time(name):
     times, curve = np.linspace(0, 2, 21), indent(DISC, tolerance=1e-11, depths=0.15 * np.linspace(0, 2, 21)[1:])
-    steps = march_medium(DISC, MEDIA[name], times, depth=0.15 * times)
-    expected = force_under_depth(curve, 0.15 * times, MEDIA[name], times)
+    steps = stepped(DISC, MEDIA[name], times, depth=0.15 * times)
+    expected = kinetics(curve, depth=0.15 * times, medium=MEDIA[name], times=times)
     np.testing.assert_allclose(steps.force[1:], expected.force[1:], rtol=1e-9)
     assert np.nansum(steps.pressure) * DISC.spacing**2 == pytest.approx(steps.force[-1], rel=1e-12)
 
 
 def test_pressures_at_a_step_within_the_history_are_those_after_it():
     force, times = [0.1, 0.5, 0.8, 1.0], [0, 0.5, 0.5, 2.0]
-    after = pressure_at(DISC, MEDIA["newtonian"], impulses(force, times), 0.5)
-    up_to_it = march_medium(DISC, MEDIA["newtonian"], times[:3], force=force[:3]).pressure
+    after = pressure_at(DISC, MEDIA["newtonian"], Load(times, force=force), 0.5)
+    up_to_it = stepped(DISC, MEDIA["newtonian"], times[:3], force=force[:3]).pressure
     np.testing.assert_allclose(after, up_to_it, rtol=0, atol=1e-3 * np.nanmax(up_to_it))
     assert np.nansum(after) * DISC.spacing**2 == pytest.approx(0.8, rel=1e-12)
 
 
-@pytest.mark.parametrize("name", DASHPOTS)
-def test_pressures_of_a_receding_contact_are_not_tensile(name):
-    times, force = np.linspace(0, 2, 41), np.append(np.linspace(0, 1, 21), np.linspace(1, 0.05, 21)[1:])
-    moved = march_medium(DISC, MEDIA[name], times, force=force)
-    assert np.nanmin(moved.pressure) >= 0
-    assert np.nansum(moved.pressure) * DISC.spacing**2 == pytest.approx(force[-1], rel=1e-12)
+@pytest.mark.parametrize("control", ["force", "depth"])
+@pytest.mark.parametrize("name", MEDIA)
+def test_pressures_of_a_receding_and_returning_contact(name, control):
+    """None is tensile, their sum is the force, and they are those of direct integration."""
+    if control == "depth" and name in DASHPOTS:
+        values = 0.1 * np.array([0, 1, 0.95, 1.05])
+    else:
+        values = (0.8 if control == "force" else 0.1) * np.array([0, 1, 0.3, 0.6])
+    corners, times = np.array([0, 1.0, 1.4, 2.0]), np.linspace(0, 2, 1001)
+    moved = stepped(DISC, MEDIA[name], times, **{control: np.interp(times, corners, values)})
+    found = pressure_at(DISC, MEDIA[name], Load(corners, **{control: values}), 2.0, contacts=64, tolerance=1e-8)
+    for pressure in (moved.pressure, found):
+        assert np.nanmin(pressure) >= 0
+        assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(moved.force[-1], rel=1e-3)
+    assert np.nansum(abs(found - moved.pressure)) < 1e-2 * np.nansum(moved.pressure)
+    # The steps of direct integration may miss the last event.
+    assert np.count_nonzero((np.nan_to_num(found) > 0) != (np.nan_to_num(moved.pressure) > 0)) <= 1
 
 
-STEPS = impulses([0.1, 0.5, 0.8, 1.0], [0, 0.5, 0.5, 2.0])
+STEPS = Load([0, 0.5, 0.5, 2.0], force=[0.1, 0.5, 0.8, 1.0])
 ALL = MEDIA | {f"springpot {exponent}": Springpot(2.0, exponent) for exponent in (0.1, 0.4, 0.9)}
 
 
@@ -110,7 +121,7 @@ def test_pressures_at_a_step_in_a_springpot_are_the_limit_from_later_times(expon
 
 
 def test_first_step_in_a_springpot_is_carried_by_the_highest_element():
-    pressure = pressure_at(DISC, Springpot(2.0, 0.4), impulses([0.0, 0.0, 1.0], [0.0, 2.0, 2.0]), 2.0)
+    pressure = pressure_at(DISC, Springpot(2.0, 0.4), Load([0.0, 2.0, 2.0], force=[0.0, 0.0, 1.0]), 2.0)
     assert np.nanargmax(pressure) == np.nanargmax(DISC.heights)
     assert np.count_nonzero(np.nan_to_num(pressure)) == 1
     assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(1.0)
@@ -181,11 +192,10 @@ def test_media_of_users_are_integrated_numerically():
 
 
 def test_refusals():
-    medium, force = Maxwell(1.0, 2.0), impulses([1.0, 1.0], [0.0, 1.0])
+    medium, force = Maxwell(1.0, 2.0), Load([0.0, 1.0], force=[1.0, 1.0])
     for arguments, message in (
-        ((CreepTable([0, 1], [0, 1]), 1.0, 1.0), "CreepTable; allowed: media whose relaxation is known"),
-        ((medium, force, 2.0), "time: 2.0; allowed: within those of the force"),
-        ((medium, impulses([1.0, 0.0], [0.0, 1.0]), 1.0), "from time 0 on the contact would recede"),
+        ((medium, force, 2.0), "time: 2.0; allowed: within those of the load"),
+        ((medium, 0.0, 1.0), "constant force: 0.0; allowed: a finite number above 0"),
     ):
         with refused(message):
             pressure_at(DISC, *arguments)

@@ -6,7 +6,7 @@ import pytest
 from support.figures import CASES, COMBINATIONS, ELEMENTS, HURST, case_of
 from support.study import SHOWN
 from viscorough import reference
-from viscorough.viscous.correspondence import kinetics
+from viscorough.viscous.kinetics import kinetics
 from viscorough_study.figures.kinetics import plot_kinetics
 from viscorough_study.fits.conventions import fits
 
@@ -14,7 +14,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 def test_kinetics_are_those_of_the_curves_in_real_units(curves, drawn):
-    """Against viscorough.viscous.correspondence, which does not know of X: geometric mean of v at the times drawn."""
+    """Against viscorough.viscous.kinetics, which does not know of X: geometric mean of v at the times drawn."""
     scaled, moving = (
         {line.get_label(): line.get_data() for line in axes.lines} for axes in drawn["fig2_kinetics"].axes[:2]
     )

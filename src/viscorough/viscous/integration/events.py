@@ -104,22 +104,20 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     >>> int(events.contact_count[-1])
     20
     """
-    elements = elements_of_map(indenter, "march_events")
-    until_fraction = fraction("march_events: until_fraction", until_fraction)
+    elements = elements_of_map(indenter, "march")
+    until_fraction = fraction("march: until_fraction", until_fraction)
     order = np.argsort(elements.initial_gap, kind="stable")
     row, column, gap = (values[order] for values in (elements.row, elements.column, elements.initial_gap))
     most = max(1, int(np.ceil(until_fraction * gap.size)))
-    memory.require(8 * most**2, f"march_events: the factor for {most} elements in contact")
+    memory.require(8 * most**2, f"march: the factor for {most} elements in contact")
     with uninterrupted():
         impulse, depth, resistance, tension_index = _march(elements.influence, row, column, gap, most)
     if tension_index >= 0:
-        raise ConvergenceError(
-            f"march_events: tension on element {tension_index} of the contact set; contact would open"
-        )
+        raise ConvergenceError(f"march: tension on element {tension_index} of the contact set; contact would open")
     with np.errstate(over="ignore"):
         impulse, resistance = elements.units.force * impulse, elements.units.stiffness * resistance
     if not np.isfinite(impulse).all():
-        raise ValueError("march_events: impulses are too large to represent; a larger unit of length is needed")
+        raise ValueError("march: impulses are too large to represent; a larger unit of length is needed")
     return Events(impulse, depth, resistance, np.arange(1, most + 1), gap.size, indenter.length_unit)
 
 
@@ -177,7 +175,7 @@ def _march(influence, row, column, initial_gap, most):
             if step_to_touch < depth_step:
                 depth_step, next_to_touch = step_to_touch, candidate
         if next_to_touch < 0:
-            raise ValueError("march_events: depths overflow; smaller heights, in a larger unit, are needed")
+            raise ValueError("march: depths overflow; smaller heights, in a larger unit, are needed")
         element = next_to_touch
         depth_now += depth_step
         total += depth_step * stiffness

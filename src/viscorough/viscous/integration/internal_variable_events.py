@@ -25,7 +25,6 @@ of the medium: this module checks both.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.linalg import lapack
 from scipy.special import exprel, hyp1f1
 
@@ -33,71 +32,45 @@ from viscorough.arrays import jumps_and_slopes
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.types import Array, Integers
-from viscorough.viscous.first_decrease import ROUNDING, Terms, first_decrease
+from viscorough.viscous.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
 from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.internal_variables import MediumMotion, checked_input
+from viscorough.viscous.integration.internal_variables import checked_input
+from viscorough.viscous.load import Load
 from viscorough.viscous.medium import Medium, RelaxationSpectrum
+from viscorough.viscous.motion import Motion
 
 
-def march_medium_events(
-    indenter: Indenter,
-    medium: Medium | float,
-    times: ArrayLike,
-    *,
-    force: ArrayLike,
-    until_fraction: float = 1.0,
-) -> MediumMotion:
-    """Motion of a rigid indenter on a viscoelastic half-space while the contact grows, exact between contact events.
+def integrate_events(
+    indenter: Indenter, medium: Medium | float | str, load: Load, until_fraction: float = 1.0
+) -> Motion:
+    """Integrate a contact that grows under a force, exactly between contact events; see `march`.
 
-    Parameters
-    ----------
-    indenter, medium, times, force
-        As of march_medium.
-    until_fraction : float, optional
-        As of march_events.
+    until_fraction : contact fraction up to which events are followed; 8 (until_fraction · elements)² bytes are needed
 
-    Returns
-    -------
-    MediumMotion
-        Without pressures.
-
-    Raises
-    ------
-    ValueError
-        For arguments out of range. Also if the indenter moves back at or between the times, so that the contact
-        recedes; the message has the first such time (march_medium continues from there).
-    ConvergenceError
-        If that many elements touch before the last time.
-    MemoryError
-        If 8 (until_fraction · elements)² bytes are not available.
-
-    Examples
-    --------
-    >>> import viscorough
-    >>> disc = viscorough.self_affine_disc(0.7, 9, rms=0.01, seed=1)
-    >>> solid = viscorough.StandardLinearSolid(4.0, 1.0, 0.5)
-    >>> motion = viscorough.march_medium_events(disc, solid, [0.0, 1.0], force=[0.001, 0.001])
-    >>> bool(motion.depth[0] < motion.depth[1])
-    True
+    Raises ValueError, with the first time, if the contact recedes, and ConvergenceError if more elements touch.
     """
-    relaxation, area, times, load = checked_input("march_medium_events", indenter, medium, times, force)
+    relaxation, area, times, force = checked_input(indenter, medium, load)
+    if load.by_depth:
+        raise ValueError("march: method events, load of a depth; allowed: a load of a force, or method implicit")
     modes = _modes(relaxation)
-    motion, terms = _total_motion(modes, times, load)
-    steps_down = jumps_and_slopes(times, load)[0] < -ROUNDING * load
+    motion, terms = _total_motion(modes, times, force)
+    steps_down = jumps_and_slopes(times, force)[0] < -ROUNDING * force
     at_once = times[steps_down & (modes.instantaneous_compliance > 0)]
     if np.isfinite(receding_from := first_decrease(times, terms, at_once.min(initial=np.inf))):
         raise ValueError(
-            f"march_medium_events: from time {receding_from:.6g} on the contact recedes; allowed: contact that grows "
-            "(march_medium goes on there)"
+            f"march: from time {receding_from:.6g} on the contact recedes; method events allows contact that grows; "
+            "use method implicit"
         )
     events = march_events(indenter, until_fraction=until_fraction)
     if motion[-1] > events.impulse[-1] and events.contact_count[-1] < events.elements:
         raise ConvergenceError(
-            f"march_medium_events: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; "
-            "a larger until_fraction is needed"
+            f"march: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; a larger until_fraction is "
+            "needed"
         )
-    count = np.where(motion > 0, events.contact_count[events.event_at(motion)], 0)
-    return MediumMotion(times, events.depth_at(motion), load * area, count, indenter.length_unit)
+    last_event = events.event_at(motion)
+    fraction = np.where(motion > 0, events.contact_count[last_event], 0) / events.elements
+    velocity = rate_at_samples(times, terms) / events.resistance[last_event]
+    return Motion(times, events.depth_at(motion), force * area, velocity, fraction, indenter.length_unit)
 
 
 class _Modes(NamedTuple):
@@ -133,7 +106,7 @@ def _modes(relaxation: RelaxationSpectrum) -> _Modes:
     scaled = np.sqrt(rates)[order]
     singular, left, _, scale, _, info = lapack.dgejsv(scaled[:, None] * basis[order], joba=2, jobu=0, jobv=0)
     if info:
-        raise ConvergenceError("march_medium_events: the modes of the medium were not found")
+        raise ConvergenceError("march: the modes of the medium were not found")
     singular = singular * (scale[0] / scale[1])
     weights = (left[:, : singular.size].T @ (scaled * unit[order])) ** 2 / total
     return _Modes(1 / total, fluidity, weights, singular**2)

@@ -10,166 +10,93 @@ elastic problem, which holds only while the contact grows: where the creep of th
 the contact, and the surface behind them recovers.
 """
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 from scipy.special import exprel
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array, Integers, Mask, Progress
 from viscorough.viscous.integration.elements import MapElements, elements_of_map
+from viscorough.viscous.load import Load
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium, RelaxationSpectrum
+from viscorough.viscous.motion import Motion
 
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
 # Rounding of gaps, relative to the initial gap, the depth, and the largest displacement of the surface so far.
 _ROUNDING = 1e-12
 
 
-@dataclass(frozen=True)
-class MediumMotion(ReadOnlyArrays):
-    """Motion of an indenter in a viscoelastic half-space; read-only arrays of shape (times,).
-
-    Attributes
-    ----------
-    time : array
-        Times t.
-    depth : array
-        u [length].
-    force : array
-        Force F. In a medium with a parallel dashpot (Newtonian, Kelvin-Voigt) it jumps at kinks of a prescribed depth;
-        it is then the force just before each time.
-    contact_count : array
-        Elements in contact. An element is in contact after it was pressed, until its gap opens. Under no force the
-        indenter rests on the surface. The contact then stays if all its elements still touch, as in a Newtonian medium;
-        otherwise the number is 0.
-    length_unit : str
-        Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
-    pressure : array or None
-        p at the last time, after a step of the force there, on the grid of the heights, nan outside the indenter.
-    receding_from : float
-        The first of these times at which an element has left the contact, so that the correspondence with the elastic
-        problem no longer holds; nan if no element has.
-    """
-
-    time: np.ndarray
-    depth: np.ndarray
-    force: np.ndarray
-    contact_count: np.ndarray
-    length_unit: str = "1"
-    pressure: np.ndarray | None = None
-    receding_from: float = np.nan
-
-
-def march_medium(
-    indenter: Indenter,
-    medium: Medium | float,
-    times: ArrayLike,
-    *,
-    force: ArrayLike | None = None,
-    depth: ArrayLike | None = None,
-    progress: Progress | None = None,
-) -> MediumMotion:
-    """Motion of a rigid indenter on a viscoelastic half-space, one contact problem per step in time.
+def integrate_steps(
+    indenter: Indenter, medium: Medium | float | str, load: Load, progress: Progress | None = None
+) -> tuple[Motion, Array]:
+    """Integrate the contact in time, one contact problem per step from sample to sample of the load.
 
     Branches are integrated exactly for surfaces that move linearly within a step; a parallel dashpot (Newtonian,
     Kelvin-Voigt) exactly for pressures that are constant within it: the method is of second order in the steps. It
-    keeps pressures positive where the exact ones are, and needs no short steps to be stable.
+    keeps pressures positive where the exact ones are, and needs no short steps to be stable. See `march`.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        Indenter with a small two-dimensional map: the cost is of third order in the elements in contact.
-    medium : Medium or float
-        Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one.
-    times : array_like
-        Ends of the steps, increasing; a time given twice is a step of the load.
-    force, depth : array_like, optional
-        One of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0] there is
-        none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes. With a
-        parallel dashpot a step of the depth must not press on the surface. Forces are in N and moduli in Pa if the unit
-        of length is known.
-    progress : Progress, optional
-        Function that is called at each of the times with the share of them that is done.
-
-    Returns
-    -------
-    MediumMotion
-
-    Raises
-    ------
-    ValueError
-        For arguments out of range.
-    ConvergenceError
-        If a contact problem is not solved.
-    MemoryError
-        If the elements in contact are too many for the memory.
-
-    Examples
-    --------
-    >>> import viscorough
-    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
-    >>> motion = viscorough.march_medium(disc, 30.0, [0.0, 1.0, 2.0], force=[1.0, 1.0, 1.0])
-    >>> bool(motion.depth[1] < motion.depth[2])
-    True
+    Returns the Motion, and the pressure p at the last time, after a step of the force there, on the grid of the
+    heights, nan outside the indenter.
     """
-    relaxation, area, times, load = checked_input("march_medium", indenter, medium, times, force, depth)
-    elements = elements_of_map(indenter, "march_medium")
-    by_depth, rows, receding, rate = force is None, [], np.nan, 0.0
-    state = _State(elements, relaxation, by_depth=by_depth)
+    relaxation, area, times, values = checked_input(indenter, medium, load)
+    elements = elements_of_map(indenter, "march")
+    rows, receding, rate = [], np.nan, 0.0
+    state = _State(elements, relaxation, by_depth=load.by_depth)
     for k in range(times.size):
         length = times[k] - times[k - 1] if k else 0.0
-        rate = (load[k] - load[k - 1]) / length if length else rate
+        rate = (values[k] - values[k - 1]) / length if length else rate
         before = state.touching
         if length > 0 or relaxation.viscosity == 0:
-            at_end = by_depth or relaxation.viscosity == 0
-            state.advance(length, load[k] if at_end else 0.5 * (load[k - 1] + load[k]))
-        elif by_depth and not state.lift_to(load[k]):
+            at_end = load.by_depth or relaxation.viscosity == 0
+            state.advance(length, values[k] if at_end else 0.5 * (values[k - 1] + values[k]))
+        elif load.by_depth and not state.lift_to(values[k]):
             raise ValueError(
-                f"march_medium: depth steps into the surface at time {times[k]:g}, which takes an infinite force; "
-                "allowed: ramps"
+                f"march: depth steps into the surface at time {times[k]:g}, which takes an infinite force; allowed: "
+                "ramps"
             )
         if np.isnan(receding) and (before & ~state.touching).any():
             receding = times[k]
-        if by_depth or k == times.size - 1:
-            pressure = state.pressure_now(rate if by_depth else load[k])
-        force_now = elements.units.force * pressure.sum() if by_depth else load[k]
+        if load.by_depth or k == times.size - 1:
+            pressure = state.pressure_now(rate if load.by_depth else values[k])
+        force_now = elements.units.force * pressure.sum() if load.by_depth else values[k]
         rows.append((state.depth, force_now, np.count_nonzero(state.touching)))
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
     last_pressure = np.full(elements.shape, np.nan)
     last_pressure[elements.row, elements.column] = elements.units.pressure * pressure
-    moved = times, depths, forces * area, counts.astype(int), indenter.length_unit
-    return MediumMotion(*moved, read_only(last_pressure), float(receding))
+    moved = times, depths, forces * area, _mean_velocity(times, depths), counts / elements.count
+    return Motion(*moved, indenter.length_unit, float(receding)), last_pressure
 
 
-def checked_input(
-    caller: str, indenter: Indenter, medium: Any, times: Any, force: Any, depth: Any = None
-) -> tuple[RelaxationSpectrum, float, Array, Array]:
+def checked_input(indenter: Indenter, medium: Any, load: Load) -> tuple[RelaxationSpectrum, float, Array, Array]:
     """The medium's RelaxationSpectrum, the area in m² that forces are divided by, times and load, of shape (times,).
 
-    The load is a depth, or a force over that area. Raises ValueError that starts with the caller.
+    The load is a depth, or a force over that area.
     """
-    check_indenter(caller, indenter, 2)
+    check_indenter("march", indenter, 2)
+    if not isinstance(load, Load):
+        raise TypeError(f"march: load: {type(load).__name__}; a viscorough.Load is needed")
     unit = indenter.length_unit
-    medium, area = medium_of(medium, unit), units.square_metres(unit)
+    medium = medium_of(medium, unit)
     if medium.relaxation is None:
-        raise ValueError(f"{caller}: {type(medium).__name__}; allowed: media of springs and dashpots")
-    if (force is None) == (depth is None):
-        raise ValueError(f"{caller}: one of force and depth is needed")
-    name, load, unit_of_load = ("depth", depth, unit) if force is None else ("force", force, "N")
-    times = units.numbers(times, "s", unit, f"{caller}: times")
-    times = increasing(f"{caller}: times", times, steps=f"the {name}")
-    load = units.numbers(load, unit_of_load, unit, f"{caller}: {name}")
-    load = samples(f"{caller}: {name}", load, times) / (area if depth is None else 1.0)
-    return medium.relaxation, area, times, load
+        raise ValueError(f"march: {type(medium).__name__}; allowed: media of springs and dashpots")
+    return medium.relaxation, units.square_metres(unit), load.time, load.in_units_of(unit).values
+
+
+def _mean_velocity(times: Array, depths: Array) -> Array:
+    """Mean velocity in the step after each time; before it at the last time and where the load steps."""
+    lengths = np.diff(times)
+    mean = np.divide(np.diff(depths), lengths, out=np.zeros(lengths.size), where=lengths > 0)
+    velocity = np.append(mean, mean[-1:] if lengths.size else 0.0)
+    before = np.flatnonzero(lengths == 0)
+    velocity[before] = np.where(before > 0, velocity[np.maximum(before, 1) - 1], 0.0)
+    return velocity
 
 
 class _State:
@@ -273,7 +200,7 @@ class _State:
             # The deepest first: under a force on too few elements, most others would overlap.
             deepest = np.argsort(np.where(overlaps, gap, np.inf))
             members = np.union1d(members, deepest[: min(np.count_nonzero(overlaps), members.size + _ADDED_AT_ONCE)])
-        raise ConvergenceError(f"march_medium: no contact set found in {_MAX_ITERATIONS} iterations")
+        raise ConvergenceError(f"march: no contact set found in {_MAX_ITERATIONS} iterations")
 
     def _solve_among(self, members: Integers, free: Array, target: float) -> tuple[Array, float, Integers]:
         """Solve for Q, c u and the contact set if only these members may touch; release members under tension."""

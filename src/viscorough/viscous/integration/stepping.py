@@ -117,13 +117,13 @@ def march_steps(
     True
     """
     if scheme not in SCHEMES:
-        raise ValueError(f"march_steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
-    scale, unit = elements_of_map(indenter, "march_steps").units.stiffness, indenter.length_unit
-    tolerance = real_number("march_steps: tolerance", tolerance)
+        raise ValueError(f"time steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
+    scale, unit = elements_of_map(indenter, "time steps").units.stiffness, indenter.length_unit
+    tolerance = real_number("time steps: tolerance", tolerance)
     if not 1e-12 <= tolerance <= 0.1:
-        raise ValueError(f"march_steps: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
-    impulses = np.atleast_1d(units.numbers(impulses, unit_power(unit, 2), unit, "march_steps: impulses"))
-    impulses = increasing("march_steps: impulses", impulses, above_zero=True)
+        raise ValueError(f"time steps: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
+    impulses = np.atleast_1d(units.numbers(impulses, unit_power(unit, 2), unit, "time steps: impulses"))
+    impulses = increasing("time steps: impulses", impulses, above_zero=True)
     integrator = _INTEGRATORS[scheme](indenter, tolerance)
     rows = []
     for step in np.diff(impulses / scale, prepend=0.0):
@@ -134,7 +134,7 @@ def march_steps(
     depth, resistance, count, overlaps = np.array(rows).T
     if overlaps.max() > _WARN_OVERLAP:
         warnings.warn(
-            f"march_steps: with these steps the indenter overlaps the surface by up to {overlaps.max():.2g} of its "
+            f"time steps: with these steps the indenter overlaps the surface by up to {overlaps.max():.2g} of its "
             "depth, which is about the error of the depth; more steps or the implicit scheme help",
             AccuracyWarning,
             stacklevel=2,
@@ -146,7 +146,7 @@ class _Explicit:
     """Surface and indenter in the explicit scheme; impulses are over 4π d, fields are flat as those of GridSolver."""
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
-        elements = elements_of_map(indenter, "march_steps")
+        elements = elements_of_map(indenter, "time steps")
         # The error of Σq is the square of that of q.
         self._grid = GridSolver((0, 0, *elements.shape), elements, tolerance**2, DEFAULT)
         self._tolerance = tolerance
@@ -182,7 +182,7 @@ class _Explicit:
     def _check_depth(self, depth: float) -> None:
         if not depth <= self._largest_depth:
             raise ValueError(
-                f"march_steps: depth {depth:g} is above {self._largest_depth:g}, the largest that is allowed; smaller "
+                f"time steps: depth {depth:g} is above {self._largest_depth:g}, the largest that is allowed; smaller "
                 "impulses are needed"
             )
 
@@ -190,7 +190,7 @@ class _Explicit:
         """q, K q − 1 and Σq of the contact set. Without adhesion no element may pull, and none of a flat punch does."""
         self.resistance = self._grid.solve_flat_punch(self._inside, self._tangent, self._tangent_gap)
         if self._tangent.min() < -self._tolerance * self._tangent.max():
-            raise ConvergenceError(f"march_steps: tension at depth {self.depth:g}; contact would open")
+            raise ConvergenceError(f"time steps: tension at depth {self.depth:g}; contact would open")
 
 
 class _Heun(_Explicit):
@@ -237,7 +237,7 @@ class _Implicit:
             depth_step += missing / contact.tangent_sum
         else:
             raise ConvergenceError(
-                f"march_steps: no depth found for an impulse of {impulse:g} in {_MAX_NEWTON_ITERATIONS} iterations"
+                f"time steps: no depth found for an impulse of {impulse:g} in {_MAX_NEWTON_ITERATIONS} iterations"
             )
         self.depth += depth_step
         self._gap = np.maximum(solver.gap_map(contact), 0.0)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from viscorough import Indenter, indent, march_events, self_affine_disc
+from viscorough import Indenter, indent, self_affine_disc
+from viscorough.viscous.integration.events import march_events
 
 
 @pytest.mark.parametrize(("hurst", "spacings"), [(0.2, 1 / 33), (0.8, 1 / 33), (0.6, (1.0, 2.0)), (0.6, (5.0, 1.0))])

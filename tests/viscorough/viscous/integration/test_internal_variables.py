@@ -1,7 +1,6 @@
 """Direct integration with internal variables, against the correspondence, which it never uses, and closed forms."""
 
 import re
-from functools import partial
 
 import numpy as np
 import pytest
@@ -9,11 +8,10 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from support.contract import refused
+from support.marching import evented, stepped
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
-from viscorough import Indenter, force_under_depth, impulses, indent, kinetics, reference, self_affine_disc
+from viscorough import Indenter, Load, indent, kinetics, reference, self_affine_disc
 from viscorough.errors import ConvergenceError
-from viscorough.viscous.integration.internal_variable_events import march_medium_events
-from viscorough.viscous.integration.internal_variables import march_medium
 from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
@@ -39,8 +37,8 @@ def test_events_under_a_ramp_a_step_and_a_hold(curve, name):
     medium = MEDIA[name]
     times, shape = np.array([0, 0.3, 0.3, 1.0, END]), np.array([0.3, 0.5, 0.6, 0.6, 0.9])
     force = largest_force(curve, medium) * shape
-    result = march_medium_events(DISC, medium, times, force=force, until_fraction=0.1)
-    expected = kinetics(curve, impulses(force, times), medium)
+    result = evented(DISC, medium, times, force=force, until_fraction=0.1)
+    expected = kinetics(curve, Load(times, force=force), medium)
     np.testing.assert_allclose(result.depth, expected.depth, rtol=1e-10, atol=0)
     np.testing.assert_array_equal(result.contact_count[1:], np.searchsorted(curve.depth, result.depth[1:]))
     assert result.contact_count[-1] > 80
@@ -50,12 +48,12 @@ def test_events_end_where_contact_recedes(curve):
     """Maxwell: Z' = F'/G + F/η, which is zero at F = η |F'|/G."""
     medium = MEDIA["maxwell"]
     force = largest_force(curve, medium) * np.array([0.5, 0.1])
-    with refused("from time 0 on the contact recedes; allowed: contact that grows .march_medium goes on there."):
-        march_medium_events(DISC, medium, [0.0, 1.0], force=force, until_fraction=0.1)
+    with refused("from time 0 on the contact recedes; method events allows contact that grows; use method implicit"):
+        evented(DISC, medium, [0.0, 1.0], force=force, until_fraction=0.1)
     with refused("from time 1.5 on the contact recedes"):
-        march_medium_events(DISC, medium, [0.0, 4.0], force=4 * force[[0, 1]] * [1, 0] / force[0], until_fraction=0.1)
+        evented(DISC, medium, [0.0, 4.0], force=4 * force[[0, 1]] * [1, 0] / force[0], until_fraction=0.1)
     with pytest.raises(ConvergenceError, match="4 elements touch before time 1"):
-        march_medium_events(DISC, medium, [0.0, 1.0], force=force[[0, 0]], until_fraction=1e-3)
+        evented(DISC, medium, [0.0, 1.0], force=force[[0, 0]], until_fraction=1e-3)
 
 
 def test_events_find_contact_that_recedes_between_the_times():
@@ -67,9 +65,9 @@ def test_events_find_contact_that_recedes_between_the_times():
     medium, times, force = StandardLinearSolid(100, 1, 0.05), [0, 10], np.array([0.1, 0.003])
     first = 5 * np.log(0.198 * force[0] / 0.0097 + 0.99)
     with refused(f"from time {first:.6g} on the contact recedes"):
-        march_medium_events(disc, medium, times, force=force)
+        evented(disc, medium, times, force=force)
     before = np.array([0.0, first * (1 - 1e-9)])
-    motion = march_medium_events(disc, medium, before, force=np.interp(before, times, force))
+    motion = evented(disc, medium, before, force=np.interp(before, times, force))
     assert motion.contact_count[-1] > motion.contact_count[0]
 
 
@@ -81,19 +79,14 @@ def test_events_recede_at_the_time_that_kinetics_reports():
         medium = Prony(random.choice([0.0, 1.0]), 10 ** random.uniform(-1, 1, 3), 10 ** random.uniform(-2, 2, 3))
         times = np.append(0, np.cumsum(10 ** random.uniform(-1, 1, 4)))
         force = 1e-3 * (1 + 0.05 * random.standard_normal(5) + np.array([0, 0.1, 0, 0, 0.1]))
-        found = []
-        calls = (
-            partial(kinetics, curve, force, medium, times),
-            partial(march_medium_events, disc, medium, times, force=force),
-        )
-        for call in calls:
-            try:
-                call()
-                found.append(np.inf)
-            except ValueError as error:
-                found.append(float(re.search(r"from time (\S+) on", str(error))[1]))
-        assert found[1] == found[0]
-        within += np.isfinite(found[1]) and abs(times - found[1]).min() > 1e-3
+        reported = kinetics(curve, force, medium, times).receding_from
+        try:
+            evented(disc, medium, times, force=force)
+            found = np.nan
+        except ValueError as error:
+            found = float(re.search(r"from time (\S+) on", str(error))[1])
+        np.testing.assert_allclose(found, reported, rtol=1e-5)
+        within += np.isfinite(found) and abs(times - found).min() > 1e-3
     assert within > 3
 
 
@@ -103,7 +96,7 @@ def test_events_with_relaxation_times_many_decades_apart(curve, decades):
     for relaxed in (0.0, 1e-3, 1.0):
         medium = Prony(relaxed, [1.0, 3.0, 0.3, 1.0], 10.0 ** np.array([-decades, -1.0, 2.0, decades]))
         force = np.linspace(0.5, 1, 10) * 0.8 * curve.force[-1] / medium.creep_compliance(times[-1])
-        result = march_medium_events(DISC, medium, times, force=force, until_fraction=0.1)
+        result = evented(DISC, medium, times, force=force, until_fraction=0.1)
         np.testing.assert_allclose(result.depth, kinetics(curve, force, medium, times).depth, rtol=1e-10, atol=0)
 
 
@@ -123,7 +116,7 @@ def test_orders(curve, name):
     exact = kinetics(curve, force, medium, times)
     for number in (10, 20, 40):
         times, force = smooth_force(number)
-        result = march_medium(DISC, medium, times, force=force)
+        result = stepped(DISC, medium, times, force=force)
         assert np.isnan(result.receding_from)
         every = number // 10
         errors.append(abs(result.depth[every::every] / exact.depth[400::400] - 1).max())
@@ -138,12 +131,15 @@ def test_a_step_is_elastic_and_relaxes_with_the_modulus(curve, name):
     A step of depth and its hold: F = f(u) ψ(t), exactly.
     """
     medium, force, depth = MEDIA[name], largest_force(curve, MEDIA[name]), np.full(5, 0.7 * curve.depth[-1])
-    result = march_medium(DISC, medium, [0.0, 1.0], force=[force, force])
+    result = stepped(DISC, medium, [0.0, 1.0], force=[force, force])
     at_once = curve.at_force(force / medium.relaxation.instantaneous_modulus)[0]
     assert result.depth[0] == pytest.approx(at_once, rel=1e-10)
     assert np.nanmin(result.pressure) >= 0
     times = np.linspace(0, END, 5)
-    result, expected = march_medium(DISC, medium, times, depth=depth), force_under_depth(curve, depth, medium, times)
+    result, expected = (
+        stepped(DISC, medium, times, depth=depth),
+        kinetics(curve, depth=depth, medium=medium, times=times),
+    )
     np.testing.assert_allclose(result.force, expected.force, rtol=1e-10)
 
 
@@ -153,15 +149,18 @@ def test_unloading_recedes_and_recovers():
     medium, curve = MEDIA["solid"], indent(disc, until_fraction=0.4)
     force = 0.5 * curve.force[-1] * 1.5
     times, load = np.array([0, 1.0, 1.05, 1.1, 5, 5, 6, 9]), force * np.array([1, 1, 0.5, 0.1, 0.1, 0, 0, 0])
-    result = march_medium(disc, medium, times, force=load)
-    with pytest.raises(ValueError, match="from time 1 on the contact would recede"):
-        kinetics(curve, load, medium, times)
+    result = stepped(disc, medium, times, force=load)
+    motion = kinetics(curve, load, medium, times)
+    assert motion.receding_from == 1.0
+    assert (motion.contact_fraction[-3:] == 0).all()
+    fine, _ = Load(times, force=load).with_times(np.union1d(times, np.linspace(0, 9, 271)))
+    assert motion.depth[-1] == pytest.approx(stepped(disc, medium, fine.time, force=fine.values).depth[-1], rel=0.05)
     assert result.receding_from == 1.05
     assert result.contact_count[3] < result.contact_count[1]
     assert (result.contact_count[-3:] == 0).all()
     assert 0 < result.depth[-1] < 0.02 * result.depth[1]
     times = np.append(0, np.linspace(1, 20, 30))
-    long_after = march_medium(disc, medium, times, force=force * np.where(times > 1, 0.1, 1))
+    long_after = stepped(disc, medium, times, force=force * np.where(times > 1, 0.1, 1))
     assert long_after.depth[-1] == pytest.approx(curve.at_force(0.1 * force / 1.5)[0], rel=1e-3)
     assert np.nanmin(long_after.pressure) >= 0
 
@@ -175,7 +174,7 @@ PUNCH = indent(FLAT).stiffness[-1]
 @pytest.mark.parametrize(("medium", "last"), [(Newtonian(1.0), 0.05), (KelvinVoigt(1.0, 1.0), 0.01)])
 def test_an_indenter_above_the_surface_has_no_force(medium, last):
     """Pressed in, moved out, and back to a depth above the surface: e⁻¹ and e⁻² of 0.1 in a Kelvin-Voigt medium."""
-    motion = march_medium(FLAT, medium, [0, 1, 2, 3], depth=[0, 0.1, 0, last])
+    motion = stepped(FLAT, medium, [0, 1, 2, 3], depth=[0, 0.1, 0, last])
     np.testing.assert_array_equal(motion.force[2:], 0)
     np.testing.assert_array_equal(motion.contact_count, [0, 9, 0, 0])
     np.testing.assert_array_equal(motion.pressure, 0)
@@ -190,7 +189,7 @@ def test_an_indenter_touches_again_where_it_meets_the_recovering_surface():
     """
     times = np.append([0, 1, 1], np.linspace(1.5, 4, 26))
     depth = np.append([0, 0.1, 0], 0.01 * times[3:])
-    motion = march_medium(FLAT, KelvinVoigt(1.0, 1.0), times, depth=depth)
+    motion = stepped(FLAT, KelvinVoigt(1.0, 1.0), times, depth=depth)
     meets = brentq(lambda t: 0.01 * t - 0.1 * np.exp(1 - t), 1, 4)
     after = (times > 1) & (times > meets)
     np.testing.assert_array_equal(motion.contact_count, np.where(after | (np.arange(29) == 1), 9, 0))
@@ -200,28 +199,28 @@ def test_an_indenter_touches_again_where_it_meets_the_recovering_surface():
 
 def test_a_step_of_the_depth_lifts_the_indenter_off_a_dashpot_and_no_more():
     times, depth = [0, 1, 1, 2, 2], np.array([0, 0.1, 0.05, 0.05, 0.08])
-    motion = march_medium(FLAT, Newtonian(1.0), times, depth=depth)
+    motion = stepped(FLAT, Newtonian(1.0), times, depth=depth)
     np.testing.assert_array_equal(motion.contact_count, [0, 9, 0, 0, 0])
     np.testing.assert_array_equal(motion.force[2:], 0)
     assert motion.receding_from == 1
     with refused("depth steps into the surface at time 2, which takes an infinite force; allowed: ramps"):
-        march_medium(FLAT, Newtonian(1.0), times, depth=np.append(depth[:-1], 0.11))
+        stepped(FLAT, Newtonian(1.0), times, depth=np.append(depth[:-1], 0.11))
 
 
 def test_a_newtonian_indenter_rests_in_its_imprint():
-    """Without a force, or at a constant depth, its contact stays as it is: march_medium_events says the same."""
+    """Without a force, or at a constant depth, its contact stays as it is: evented says the same."""
     disc = self_affine_disc(0.7, 9, rms=0.05, seed=2)
     times, force = [0, 1, 2, 3, 4], np.array([1.0, 1, 0, 0, 0])
-    motion, exact = march_medium(disc, 1.0, times, force=force), march_medium_events(disc, 1.0, times, force=force)
+    motion, exact = stepped(disc, 1.0, times, force=force), evented(disc, 1.0, times, force=force)
     np.testing.assert_allclose(motion.depth, exact.depth, rtol=1e-12)
     np.testing.assert_array_equal(motion.contact_count, exact.contact_count)
     assert np.isnan(motion.receding_from)
-    held = march_medium(disc, 1.0, times, depth=[0, 0.1, 0.1, 0.1, 0.1])
+    held = stepped(disc, 1.0, times, depth=[0, 0.1, 0.1, 0.1, 0.1])
     np.testing.assert_array_equal(held.contact_count[1:], held.contact_count[1])
     np.testing.assert_allclose(held.force[2:], 0, atol=1e-12 * held.force[1])
     assert np.isnan(held.receding_from)
     # A step of the force after the rest presses all of them again.
-    again = march_medium(disc, 1.0, [*times, 4], force=[*force, 2.0])
+    again = stepped(disc, 1.0, [*times, 4], force=[*force, 2.0])
     assert np.count_nonzero(np.nan_to_num(again.pressure)) == motion.contact_count[-1]
 
 
@@ -237,7 +236,7 @@ def test_sphere_in_and_out_follows_lee_and_radok_and_ting():
     sphere, tau = reference.sphere(1.0), medium.relaxation.times[0]
     indenter = sphere.indenter(25, 1.0)
     times = np.linspace(0, 2, 81)
-    result = march_medium(indenter, medium, times, depth=speed * np.minimum(times, 2 * turn - times))
+    result = stepped(indenter, medium, times, depth=speed * np.minimum(times, 2 * turn - times))
     assert result.receding_from == pytest.approx(times[41])
     for k in (20, 40, 44, 52):
         time = times[k]
@@ -275,4 +274,4 @@ def test_refusals(arguments, message):
     call = {"indenter": Indenter(np.eye(3), 1.0), "medium": Maxwell(1.0, 1.0), "times": [0.0, 1.0, 2.0]}
     call |= {"force": [1.0, 1.0, 1.0]} | arguments
     with refused(message):
-        march_medium(call.pop("indenter"), call.pop("medium"), call.pop("times"), **call)
+        stepped(call.pop("indenter"), call.pop("medium"), call.pop("times"), **call)

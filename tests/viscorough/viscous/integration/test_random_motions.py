@@ -4,7 +4,7 @@
 
 tries that many and prints the largest deviation. Contact recedes and returns, and there are rests and steps of force
 and depth. One solver integrates all elements of the half-space, the other a row of independent springs with the same
-loading curve. In exact arithmetic both have the same motion as march_medium.
+loading curve. In exact arithmetic both have the same motion as march.
 """
 
 import os
@@ -13,8 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from support.marching import stepped
 from support.small_motion import SpringsAndDashpots, half_space, row_of_springs, small_motion
-from viscorough import Indenter, march_events, march_medium
+from viscorough import Indenter
+from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
 from viscorough.viscous.medium import Medium
 
@@ -131,7 +133,7 @@ def deviation(case, *, by_springs):
     by_springs : whether the row of springs is asked
     """
     indenter = case.indenter
-    result = march_medium(indenter, case.medium, case.times, **case.load)
+    result = stepped(indenter, case.medium, case.times, **case.load)
     exists = np.isfinite(indenter.heights)
     loads = result.pressure[exists] * indenter.spacing * indenter.row_spacing
     assert (loads >= 0).all()
@@ -173,11 +175,11 @@ def test_cases_have_what_they_are_for():
     cases = [random_case(number) for number in range(60)]
     receded = returned = 0
     for case in cases:
-        motion = march_medium(case.indenter, case.medium, case.times, **case.load)
+        motion = stepped(case.indenter, case.medium, case.times, **case.load)
         later = motion.contact_count[motion.time >= motion.receding_from]
         receded += np.isfinite(motion.receding_from)
         returned += (np.diff(later) > 0).any()
     assert receded > 30
     assert returned > 20
-    stepped = {(type(case.medium), *case.load) for case in cases if (np.diff(case.times) == 0).any()}
-    assert len(stepped) == 10
+    kinds = {(type(case.medium), *case.load) for case in cases if (np.diff(case.times) == 0).any()}
+    assert len(kinds) == 10

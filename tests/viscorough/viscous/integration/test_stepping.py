@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from viscorough import AccuracyWarning, Indenter, march_events, march_steps, reference, self_affine_disc
+from viscorough import AccuracyWarning, Indenter, reference, self_affine_disc
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.stepping import march_steps
 
 DISC = Indenter(self_affine_disc(0.6, 33, seed=3).heights, (1.0, 2.0))
 

@@ -1,0 +1,76 @@
+"""Direct integration of the viscoelastic contact problem in time."""
+
+from viscorough.indenter import Indenter
+from viscorough.types import Progress
+from viscorough.viscous.integration.internal_variable_events import integrate_events
+from viscorough.viscous.integration.internal_variables import integrate_steps
+from viscorough.viscous.load import Load
+from viscorough.viscous.medium import Medium
+from viscorough.viscous.motion import Motion
+
+METHODS = ("implicit", "events")
+
+
+def march(
+    indenter: Indenter,
+    medium: Medium | float | str,
+    load: Load,
+    *,
+    method: str = "implicit",
+    until_fraction: float = 1.0,
+    progress: Progress | None = None,
+) -> Motion:
+    """Integrate the viscoelastic contact problem in time.
+
+    The method never uses the loading curve, so that it is an independent check of `kinetics`. Its cost grows with the
+    third power of the number of elements in contact; use it for maps of up to about 65 x 65 elements.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Indenter with two-dimensional heights.
+    medium : Medium or float or str
+        Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one.
+    load : Load
+        Depth [length] or force [N] over time [s], linear between samples. It may decrease. With a parallel dashpot
+        (Newtonian, Kelvin-Voigt) a step of the depth must not press on the surface.
+    method : {"implicit", "events"}, optional
+        "implicit" solves one contact problem for the pressures at the end of each step, from sample to sample; it is of
+        second order in the steps. "events" proceeds from contact event to contact event, exactly, under a force and
+        while the contact grows.
+    until_fraction : float, optional
+        Contact fraction up to which "events" follows the contact, in (0, 1]; its memory is 8 (until_fraction ·
+        elements)² bytes.
+    progress : Progress, optional
+        Function that "implicit" calls after each step with the share of them that is done.
+
+    Returns
+    -------
+    Motion
+        At the samples of the load. An element is in contact after it was pressed, until its gap opens. Under no force
+        the indenter rests on the surface; the contact then stays if all its elements still touch, as in a Newtonian
+        medium, and else is empty. "implicit" gives the mean velocity in the step after each time, `receding_from` at
+        the end of a step and, in media with a parallel dashpot, the force just before each time.
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range, and where "events" would recede, with the time.
+    ConvergenceError
+        If a contact problem is not solved, or if more elements touch than `until_fraction` allows.
+    MemoryError
+        If the elements in contact are too many for the memory.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> load = viscorough.Load([0.0, 1.0, 2.0], force=[1.0, 1.0, 1.0])
+    >>> viscorough.march(disc, 30.0, load, method="events").depth.round(4)
+    array([0.    , 0.0247, 0.0369])
+    """
+    if method not in METHODS:
+        raise ValueError(f"march: method {method!r}; allowed: {', '.join(METHODS)}")
+    if method == "events":
+        return integrate_events(indenter, medium, load, until_fraction)
+    return integrate_steps(indenter, medium, load, progress)[0]

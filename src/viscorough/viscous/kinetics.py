@@ -1,0 +1,404 @@
+"""Motion of an indenter in any linear viscoelastic half-space under any history, from its loading curve.
+
+While the contact has only grown, the correspondence holds (Lee and Radok 1960). With the creep compliance J of the
+medium and the creep response Φ(t) = ∫J(t − s) dF(s),
+
+    u(t) = u_el(F/G = Φ(t)),    v(t) = Φ'(t)/(k/G);    Φ = ∫F dt/η in a viscous medium (paper, Eqs. 1 to 3).
+
+Eqs. 7-9 of the paper instead Laplace-transform the relation u(F/G), which is not linear, and so carry an extra factor
+1/Γ(2−α). For every other history the loading curve is read as a row of unilateral springs (docs/theory.md):
+
+1. `springs` makes the row from the curve.
+2. `unilateral` moves it exactly from event to event if the medium consists of springs and dashpots. A springpot is
+   replaced by springs and dashpots that creep as it does to 1e-10 between a millionth of the shortest interval and the
+   whole duration. `unilateral_sums` moves it by steps in time in every other medium.
+3. Where the contact is as large as ever before, Φ and the interpolant of the curve give depth and velocity, without the
+   discretisation of the row.
+"""
+
+import warnings
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscorough import units
+from viscorough.arrays import increasing
+from viscorough.errors import AccuracyWarning, ConvergenceError
+from viscorough.loading_curve import LoadingCurve, check_curve
+from viscorough.types import Array, Integers
+from viscorough.viscous.creep_response import creep_response
+from viscorough.viscous.load import Load
+from viscorough.viscous.media import Springpot, medium_of
+from viscorough.viscous.medium import Medium
+from viscorough.viscous.motion import Motion
+from viscorough.viscous.spectra import power_law_spectrum, relaxation_spectrum, zero_of_increasing
+from viscorough.viscous.springs import ROUNDING, RowOfSprings, row_of_springs
+from viscorough.viscous.unilateral import BEYOND, INFINITE, RowMotion, law_of, move_row
+from viscorough.viscous.unilateral_sums import move_row_by_sums
+
+_LATEST = 1e300  # time by which creep that ends has ended
+_SPREAD, _EARLY = 100, 1e-3  # number of times that are chosen; share of the creep at their ends, where it has no level
+# Shortest time of the springs and dashpots that replace a springpot, over the shortest interval between samples.
+_SHORTEST = 1e-6
+# Share of the largest elastic force that the first level may carry if the curve before it matters and is not known.
+_UNKNOWN_SHARE = 1e-2
+# Largest number of depths of a history at which the row has exactly the force of the curve.
+_MOST_TURNS = 200
+
+
+def kinetics(
+    curve: LoadingCurve,
+    force: ArrayLike | Load | None = None,
+    medium: Medium | float | str | None = None,
+    times: ArrayLike | None = None,
+    *,
+    depth: ArrayLike | Load | None = None,
+) -> Motion:
+    """Compute the motion of an indenter with the given loading curve in a linear viscoelastic half-space.
+
+    The history may load, hold, unload and reload. Motions are exact for the row of springs of the curve: results do not
+    depend on how densely a history is sampled.
+
+    Parameters
+    ----------
+    curve : LoadingCurve
+        Loading curve of the indenter.
+    force, depth : array_like or Load, optional
+        One of them: a constant applied at time 0; samples of shape (times,), linear in between, with a time given twice
+        where they step; or a Load, whose samples need not be those of `times`. Before the first sample there is no
+        load. Forces are F ≥ 0, in N, depths in the unit of length of the curve, or they have a unit (texts as "5 mN",
+        quantities of pint), if this unit is known. A depth below zero lifts the indenter above the plane.
+    medium : Medium or float or str
+        Medium, as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian one; in Pa, s and Pa s, or a text as "2 kPa
+        s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a length².
+    times : array_like, optional
+        Increasing, and not negative for a constant load; in s, or with a unit. The default is the times of a Load, or,
+        for a constant force, a hundred times at equal ratios from the curve's first level to its last, or until creep
+        has nearly ended; in a medium that responds elastically at t = 0, after time 0.
+
+    Returns
+    -------
+    Motion
+        At `times`. Force and velocity are those just after each time; at the last time of a history and before a step,
+        those before it. At a step of the force the velocity is that of the creep alone; in a Springpot it is infinite,
+        and so is the force at a step of the depth into the surface. Under no force the depth is not unique: the
+        indenter then rests on the recovering surface. Before the curve's first level, unless the curve is straight
+        there, what is not prescribed is nan.
+
+    Raises
+    ------
+    ValueError
+        For values outside these ranges, for a contact beyond the curve's last level, and for a step of the depth into
+        the surface of a Newtonian or Kelvin-Voigt medium, which takes an infinite force.
+
+    Warns
+    -----
+    AccuracyWarning
+        If the motion depends on the curve before its first level, which is then taken for a power law; and in a medium
+        that is neither made of springs and dashpots nor a Springpot, where steps in time do not reach the tolerance.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> curve = viscorough.indent(disc)
+    >>> motion = viscorough.kinetics(curve, force=1.0, medium=30.0, times=[0.5, 1.0])
+    >>> bool(motion.depth[0] < motion.depth[1]), bool(motion.velocity[0] > motion.velocity[1])
+    (True, True)
+    >>> solid = viscorough.StandardLinearSolid(4.0, 1.0, 0.5)
+    >>> ramp = viscorough.Load([0.0, 1.0, 2.0], depth=[0.0, 0.01, 0.0])
+    >>> viscorough.kinetics(curve, depth=ramp, medium=solid, times=[1.0, 1.1, 2.0]).force.round(4)
+    array([0.0145, 0.0088, 0.    ])
+    """
+    check_curve("kinetics", curve)
+    medium = medium_of(medium, curve.length_unit)  # type: ignore[arg-type]  # None is refused
+    load, place = _load_and_places(curve, medium, force, depth, times)
+    if (duration := load.time[-1] - load.time[0]) > medium.last_time:
+        raise ValueError(
+            f"times: {duration:g} after the first; allowed: up to the last time of the table, {medium.last_time:g}"
+        )
+    if load.by_depth:
+        _check_depths(curve, load.values[: place[-1] + 1])
+    creep = None
+    if not load.by_depth and medium.retardation is None:
+        creep = creep_response(medium, load)
+    if creep is not None and not creep.receding_from < load.time[-1]:
+        row = row_of_springs(curve)
+        _check_creep(curve, row, load.time[: place[-1] + 1], creep.creep[: place[-1] + 1])
+        moved = _growing(curve, row, load, creep.creep)
+    else:
+        row, moved = row_motion(curve, medium, load, int(place[-1]))
+    _warn_of_the_beginning(curve, row, load, moved)
+    values = _without_discretisation(curve, row, load, moved, creep)
+    if medium.retardation is None and not medium.creep_compliance(0.0) > 0:
+        _at_steps_of_soft_media(medium, load, *values)
+    depths, forces, velocity, fraction = (each[place] for each in values)
+    forces = forces * units.square_metres(curve.length_unit)
+    receding_from = _receding_from(medium, load) if creep is None else creep.receding_from
+    if receding_from >= load.time[place[-1]]:
+        receding_from = np.nan
+    return Motion(load.time[place], depths, forces, velocity, fraction, curve.length_unit, float(receding_from))
+
+
+def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) -> tuple[RowOfSprings, RowMotion]:
+    """Return the row of springs of a curve and its motion under a load in consistent units.
+
+    last : index of the last sample that is needed. Raises ValueError if the motion ends before it.
+    """
+    row, spectra = row_of_springs(curve, _turning_depths(load)), _spectra(medium, load)
+    if spectra is None:
+        moved = move_row_by_sums(row, medium, load)
+        ended, until = BEYOND, float(load.time[np.argmax(np.isnan(moved.depth))])
+    else:
+        law = law_of(*spectra)
+        row_and_law = row.gap, row.stiffness, row.limit, law
+        moved, ended, until = move_row(*row_and_law, load.time, load.values, by_depth=load.by_depth)
+    if np.isnan(moved.depth[last]):
+        _refuse(curve, row, medium, load, ended, until)
+    return row, moved
+
+
+def _turning_depths(load: Load) -> Array:
+    """Return the depths at which a load of a depth turns, steps or is held, at most _MOST_TURNS of them."""
+    if not load.by_depth:
+        return np.array([])
+    moves = np.diff(load.values, prepend=0.0)
+    turns = np.append(moves[:-1] * moves[1:] <= 0, True) | (np.diff(load.time, append=np.inf) == 0)
+    return np.unique(load.values[turns])[-_MOST_TURNS:]
+
+
+def _receding_from(medium: Medium, load: Load) -> float:
+    """Return the first time from which the contact recedes: the creep response, or a depth above zero, decreases."""
+    if not load.by_depth:
+        return creep_response(medium, load).receding_from
+    falls = (np.diff(load.values) < 0) & (load.values[:-1] > 0)
+    return float(load.time[np.argmax(falls)]) if falls.any() else np.nan
+
+
+def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any, times: Any) -> tuple[Load, Integers]:
+    """The load in consistent units, with samples at the times of the output, and the indices of these.
+
+    It ends at the first sample after the last of these times.
+    """
+    unit = curve.length_unit
+    if isinstance(force, Load) and depth is None and force.by_depth:
+        force, depth = None, force
+    if (force is None) == (depth is None):
+        raise ValueError("kinetics: one of force and depth is needed")
+    name, value = ("depth", depth) if force is None else ("force", force)
+    if times is not None:
+        times = units.numbers(times, "s", unit, "times")
+    if isinstance(value, Load):
+        if value.by_depth != (name == "depth"):
+            raise ValueError(
+                f"kinetics: {name}: a Load that prescribes the other quantity; {name}=Load(..., {name}=...)"
+            )
+        load = value.in_units_of(unit)
+    else:
+        values = units.numbers(value, "N" if name == "force" else unit, unit, name)
+        if values.ndim:
+            if times is None:
+                raise ValueError(f"times: missing; a {name} given as samples needs the time of each sample")
+            load, times = Load(times, **{name: values}).in_units_of(unit), None
+        else:
+            load, times = _constant(curve, medium, name, float(values), times)
+    if times is None:
+        return load, np.arange(load.time.size)
+    load, place = load.with_times(times)
+    kept = slice(None, int(place[-1]) + 2)
+    return Load(load.time[kept], **{name: load.values[kept]}), place
+
+
+def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, times: Any) -> tuple[Load, Array]:
+    """The load of a constant applied at time 0, in consistent units, and the times of the output."""
+    if not np.isfinite(value) or (name == "force" and value <= 0):
+        raise ValueError(f"constant {name}: {value}; allowed: a finite number{' above 0' if name == 'force' else ''}")
+    if name == "force":
+        value /= units.square_metres(curve.length_unit)
+    elif times is None:
+        raise ValueError("times: missing; a constant depth needs the times of the output")
+    times = _spread_times(curve, value, medium) if times is None else increasing("times", times)
+    if times[0] < 0:
+        raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant {name} begins")
+    if times[-1] > medium.last_time:
+        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
+    samples = np.unique([0.0, times[-1]])
+    return Load(samples, **{name: np.full(samples.size, value)}), times
+
+
+def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
+    """Times at equal ratios under a constant force, from about the curve's first level to its last, or to the end.
+
+    After time 0 where the medium responds elastically at t = 0.
+    """
+    limit = min(medium.last_time, _LATEST)
+    with np.errstate(over="ignore"):
+        at_once, at_last = force * medium.creep_compliance(np.array([0.0, limit]))
+    first, last = curve.force[0] if curve.force.size > 1 else _EARLY * curve.force[-1], curve.force[-1]
+    if not (at_once < last and at_last > first):
+        raise ValueError(
+            f"times: missing, and the creep is from F/G {at_once:.6g}, at once, to {at_last:.6g}, in the end, beside "
+            f"the curve, from {first:.6g} to {last:.6g}; times or another force are needed"
+        )
+    start = first if at_once < first else at_once + _EARLY * (min(last, at_last) - at_once)
+    end = last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
+    target = np.array([start, end]) / force
+    with np.errstate(all="ignore"):
+        ends = zero_of_increasing(lambda t: medium.creep_compliance(t) - target, np.finfo(float).tiny, limit)
+    if not (0 < ends[0] < ends[1] < _LATEST / 2):
+        raise ValueError(f"times: from {ends[0]:g} to {ends[1]:g} they overflow; closer force and medium are allowed")
+    times = np.geomspace(ends[0], ends[1], _SPREAD)
+    springs = at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
+    return np.append(0.0, times) if springs else times
+
+
+def _spectra(medium: Medium, load: Load) -> Any:
+    """Both spectra of a medium of springs and dashpots, or of those that replace a springpot; None for other media."""
+    if medium.relaxation is not None:
+        return medium.relaxation, medium.retardation
+    if not isinstance(medium, Springpot):
+        return None
+    lengths = np.diff(load.time)
+    lengths = lengths[lengths > 0]
+    if not lengths.size:
+        return None
+    duration = load.time[-1] - load.time[0]
+    retardation = power_law_spectrum(medium.modulus, medium.exponent, _SHORTEST * lengths.min(), duration)
+    return relaxation_spectrum(retardation), retardation
+
+
+def _check_depths(curve: LoadingCurve, depths: Array) -> None:
+    """Raise ValueError for a depth beyond the last level, unless the contact is complete there."""
+    last = curve.depth[-1]
+    if depths.max() > last * (1 + ROUNDING) and curve.contact_count[-1] < curve.elements:
+        raise ValueError(
+            f"depth: {depths.max():g} is beyond the curve's last level; allowed: up to {last:g}; indent further, with "
+            "until_fraction=1 or a level at that depth (depths)"
+        )
+
+
+def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Array) -> None:
+    """Raise ValueError if the contact grows beyond the last level."""
+    beyond = ~(creep <= curve.force[-1] * (1 + ROUNDING))
+    if beyond.any() and np.isfinite(row.limit):
+        where, enough = int(np.argmax(beyond)), 1.01 * creep[np.isfinite(creep)].max()
+        raise ValueError(
+            f"force: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the curve's last level; "
+            f"allowed: up to {curve.force[-1]:.6g}; indent further, with until_fraction=1 or a level at F/G = "
+            f"{enough:.3g} (forces)"
+        )
+
+
+def _refuse(curve: LoadingCurve, row: RowOfSprings, medium: Medium, load: Load, ended: int, until: float) -> None:
+    """Raise the error of a motion that ended early."""
+    if ended == INFINITE:
+        raise ValueError(
+            f"depth: steps into the surface at time {until:g}, which takes an infinite force here; allowed: ramps"
+        )
+    if ended != BEYOND:
+        raise ConvergenceError(f"kinetics: the contact does not settle at time {until:g}")
+    if not load.by_depth:
+        _check_creep(curve, row, load.time, creep_response(medium, load).creep)
+    raise ValueError(
+        f"{'depth' if load.by_depth else 'force'}: at time {until:g} the contact grows beyond the curve's last level; "
+        f"allowed: depths up to {curve.depth[-1]:g}; indent further, with until_fraction=1"
+    )
+
+
+def _growing(curve: LoadingCurve, row: RowOfSprings, load: Load, creep: Array) -> RowMotion:
+    """The motion of a row whose contact only grows, from the creep response."""
+    depth = _at_elastic_force(curve, row, creep)[0]
+    in_contact = np.searchsorted(row.gap, np.nan_to_num(depth), side="left")
+    nothing = np.zeros(load.time.size)
+    always = np.ones(load.time.size, bool)
+    return RowMotion(depth, load.values, nothing, in_contact, creep, always, np.nan, nothing)
+
+
+def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> tuple[Array, Array]:
+    """Depth and k/G at F/G = Φ; beyond complete contact along the last tangent."""
+    first, last = curve.force[0], curve.force[-1]
+    # A force that equals that of the first or last level up to rounding must not fall outside the curve.
+    inside = np.where(np.abs(creep - first) <= ROUNDING * first, first, np.clip(creep, 0.0, last))
+    depth, stiffness = curve.at_force(inside)
+    beyond = creep > last * (1 + ROUNDING)
+    return np.where(beyond, depth + (creep - last) / row.stiffness.sum(), depth), stiffness
+
+
+def _without_discretisation(
+    curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion, creep: Any
+) -> tuple[Array, Array, Array, Array]:
+    """Depth, force, velocity and contact fraction; those of the curve where the contact is as large as ever before."""
+    depth, force, velocity = moved.depth.copy(), moved.force.copy(), moved.velocity.copy()
+    count = moved.in_contact
+    front = np.where(count > 0, row.gap[np.maximum(count, 1) - 1], 0.0)
+    if load.by_depth:
+        front = np.where(moved.largest, depth, front)
+    else:
+        elastic = np.maximum(moved.deflection, 0.0)
+        if creep is not None:
+            exact = load.time <= np.nan_to_num(creep.receding_from, nan=np.inf)
+            elastic[exact] = creep.creep[exact]
+        corrected = moved.largest & np.isfinite(moved.depth)
+        if creep is not None:
+            corrected |= exact
+        at_curve, stiffness = _at_elastic_force(curve, row, elastic)
+        sums = np.append(0.0, np.cumsum(row.stiffness))[count]
+        rate = velocity * sums
+        if creep is not None:
+            rate[exact] = creep.rate[exact]
+        with np.errstate(invalid="ignore"):
+            # Where nothing moves the velocity is 0 even before the first level, where the stiffness is nan.
+            at_rate = np.where(rate == 0, 0.0, rate / stiffness)
+        depth, velocity = np.where(corrected, at_curve, depth), np.where(corrected, at_rate, velocity)
+    unknown = (count > 0) & (front > 0) & (front < row.first_depth) & (force > 0)
+    if load.by_depth:
+        force[unknown] = np.nan
+    else:
+        unknown &= ~corrected
+        depth[unknown] = velocity[unknown] = np.nan
+    fraction = np.where(count > 0, row.contact_fraction[np.maximum(count, 1) - 1], 0.0)
+    if not load.by_depth:
+        # Under no force the indenter rests on the first spring.
+        fraction[(load.values == 0) & (count <= 1)] = 0.0
+    return depth, force, velocity, fraction
+
+
+def _at_steps_of_soft_media(
+    medium: Medium, load: Load, depth: Array, force: Array, velocity: Array, fraction: Array
+) -> None:
+    """Set the limits at steps in a medium without compliance at once that is not made of springs and dashpots.
+
+    Such a medium does not move at once under a step of force. A step of the depth takes an infinite force, or none.
+    """
+    with np.errstate(over="ignore"):
+        unbounded = np.isinf(medium.creep_rate(0.0))
+    jumps = np.diff(load.values, prepend=0.0)
+    steps = np.flatnonzero((np.diff(load.time, prepend=load.time[0]) == 0) & (jumps != 0))
+    for k in steps:
+        if load.by_depth:
+            force[k] = np.inf if jumps[k] > 0 and fraction[k] > 0 else 0.0
+            fraction[k] = fraction[k] if jumps[k] > 0 else 0.0
+        else:
+            depth[k], fraction[k] = (depth[k - 1], fraction[k - 1]) if k else (0.0, 0.0)
+            if unbounded:
+                velocity[k] = np.copysign(np.inf, jumps[k])
+
+
+def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion) -> None:
+    """Warn if the motion depends on the curve before its first level, where it is taken for a power law."""
+    if row.first_depth == 0:
+        return
+    if load.by_depth:
+        low, high = np.minimum(load.values[1:], load.values[:-1]), np.maximum(load.values[1:], load.values[:-1])
+        depends = ((np.diff(load.time) > 0) & (low < row.first_depth) & (high > 0)).any()
+    else:
+        depends = np.isfinite(moved.receding_from)
+    share = curve.force[0] / max(np.nanmax(moved.deflection), np.finfo(float).tiny)
+    if depends and share > _UNKNOWN_SHARE:
+        warnings.warn(
+            "kinetics: the motion depends on the curve before its first level, which is taken for a power law; this "
+            f"level carries {100 * min(share, 1):.2g} % of the largest elastic force; an earlier first level is needed",
+            AccuracyWarning,
+            stacklevel=3,
+        )

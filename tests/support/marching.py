@@ -1,0 +1,24 @@
+"""Direct integration with all that it finds: numbers of elements in contact, and the pressures at the last time."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from viscorough import Load, march
+from viscorough.viscous.integration.internal_variables import integrate_steps
+
+
+def stepped(indenter, medium, times, **load):
+    """Motion by implicit steps at these times under a `force` or at a `depth`; with `contact_count` and `pressure`."""
+    motion, pressure = integrate_steps(indenter, medium, Load(times, **load))
+    return _with_count(motion, indenter, pressure=pressure)
+
+
+def evented(indenter, medium, times, force, **options):
+    """Motion from contact event to contact event at these times, with `contact_count`."""
+    return _with_count(march(indenter, medium, Load(times, force=force), method="events", **options), indenter)
+
+
+def _with_count(motion, indenter, **more):
+    count = np.rint(motion.contact_fraction * indenter.elements).astype(int)
+    return SimpleNamespace(**vars(motion), contact_count=count, **more)

@@ -1,0 +1,224 @@
+"""Kinetics of contacts that recede and return: closed forms of Ting, direct integration, and other representations."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from support.curves import curve_of_body
+from support.media import MEDIA, SPRINGS_AND_DASHPOTS
+from viscorough import AccuracyWarning, Indenter, Load, Medium, indent, kinetics, march, reference, self_affine_disc
+
+BODIES = {"sphere": reference.sphere(1.7), "cone": reference.cone(0.3)}
+SPEED, TURN = 0.1, 1.0
+
+
+def ting(body, medium, time):
+    """Force at a time after an approach and a retract with the same speed.
+
+    F = ∫ψ(t − s) dF_el(u(s)) up to the time t₁ of the present contact size, where ∫ψ(t − s) du(s) = 0 from t₁ to t.
+    """
+    if time > TURN:
+        rest = float(medium.relaxation_integral(0.0, time - TURN))
+
+        def balance(first):
+            return float(medium.relaxation_integral(time - TURN, time - first)) - rest
+
+        if balance(0.0) <= 0:
+            return 0.0
+        end = brentq(balance, 0.0, TURN, xtol=1e-15)
+    else:
+        end = time
+
+    def integrand(s):
+        return float(medium.relaxation_modulus(time - s)) * SPEED * body.stiffness(SPEED * s)
+
+    singular = np.isinf(float(medium.relaxation_modulus(0.0))) and end == time
+    if singular:
+        exponent = medium.exponent
+        return quad(
+            lambda s: integrand(s) * (time - s) ** exponent if s < time else integrand(time * (1 - 1e-14)) * 0,
+            0, time, weight="alg", wvar=(0, -exponent), epsrel=1e-9,
+        )[0]  # fmt: skip
+    return quad(integrand, 0, end, epsrel=1e-11, epsabs=0, limit=200)[0]
+
+
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "springpot"])
+def test_approach_and_retract_follow_ting(name, body):
+    medium, body = MEDIA[name], BODIES[body]
+    curve = curve_of_body(body, np.geomspace(1e-5, 0.2, 301))
+    load = Load([0.0, TURN, 2 * TURN], depth=[0.0, SPEED * TURN, 0.0])
+    times = np.array([0.3, 0.7, 0.999, 1.05, 1.1, 1.2, 1.3, 1.5, 1.9])
+    motion = kinetics(curve, load, medium, times)
+    expected = np.array([ting(body, medium, time) for time in times])
+    np.testing.assert_allclose(motion.force, expected, rtol=0, atol=3e-5 * expected.max())
+    assert motion.receding_from == pytest.approx(TURN, abs=3e-3)
+
+
+def test_release_of_a_sphere():
+    """Under no force the deepest point of the imprint recovers: the creep of its own pressure history."""
+    medium, force, end = MEDIA["solid"], 0.05, 0.7
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 401))
+    motion = kinetics(curve, Load([0.0, end, end, 5.0], force=[force, force, 0, 0]), medium, [0.3, 0.7, 1.0, 2.0, 5.0])
+    times = np.linspace(0, end, 20001)
+    depth = curve.at_force(force * medium.creep_compliance(times))[0]
+    # φ of the first spring, by the mean of ψ over every step of its deflection; then its creep at later times.
+    relaxation, lag = medium.relaxation, np.diff(times)[0]
+    state, carried = 0.0, [medium.relaxation_modulus(0.0) * depth[0]]
+    state = depth[0]
+    for k in range(1, times.size):
+        x = lag / relaxation.times[0]
+        state = state * np.exp(-x) + (depth[k] - depth[k - 1]) * -np.expm1(-x) / x
+        carried.append(relaxation.relaxed_modulus * depth[k] + relaxation.moduli[0] * state)
+    for time, found in zip(motion.time[2:], motion.depth[2:], strict=True):
+        steps = np.diff(carried)
+        means = (medium.creep_integral(time - times[1:], time - times[:-1])) / lag
+        expected = carried[0] * medium.creep_compliance(time) + means @ steps
+        expected -= carried[-1] * medium.creep_compliance(time - end)
+        assert found == pytest.approx(float(expected), rel=2e-5)
+    assert (motion.force[1:] == 0).all()
+    assert motion.contact_fraction[2:].tolist() == [0, 0, 0]
+
+
+def maps():
+    """Small maps of many kinds."""
+    random = np.random.default_rng(54)
+    rough = self_affine_disc(0.7, 9, rms=0.1, seed=2).heights
+    rows, columns = np.indices((7, 8))
+    crater = -0.1 * np.abs(np.hypot(rows - 3, columns - 3.5) - 2.2)
+    holes = 0.1 * random.standard_normal((7, 7))
+    holes[random.random((7, 7)) < 0.2] = np.nan
+    towers = np.full((7, 7), -0.4)
+    towers[1, 1], towers[5, 4:6] = 0.0, -0.05
+    return {
+        "self-affine": Indenter(rough, 1.0),
+        "quantised": Indenter(np.round(8 * rough) / 8, 1.0),
+        "crater": Indenter(crater, 1.0),
+        "holes": Indenter(holes, 1.0),
+        "checkerboard": Indenter(0.2 * ((rows + columns) % 2) + 0.01 * random.random((7, 8)), 1.0),
+        "towers": Indenter(towers, 1.0),
+        "rectangles": Indenter(rough, 1.0, 3.0),
+    }
+
+
+def history(control, *, steps, scale):
+    """Load, hold, unload, reload and release; with a step up and a step down if the medium allows them."""
+    shape = np.array([0, 1, 1, 0.3, 0.7, 0.7, 0.1, 0.5, 0]) * scale
+    times = np.array([0, 1, 1.5, 2, 2.5, 2.5 if steps else 2.6, 3, 3, 4.0])
+    if not steps:
+        times[7] = 3.3
+    else:
+        shape[5], shape[7] = 0.8 * scale, 0.2 * scale
+    return Load(times, **{control: shape})
+
+
+@pytest.mark.parametrize("control", ["force", "depth"])
+@pytest.mark.parametrize("kind", maps())
+def test_kinetics_of_maps_are_those_of_direct_integration(kind, control):
+    """The error of the implicit steps falls with their length; extrapolated to none it is far below theirs."""
+    indenter = maps()[kind]
+    curve = indent(indenter, tolerance=1e-11, until_fraction=1.0)
+    for name in ("solid", "newtonian", "prony"):
+        medium = SPRINGS_AND_DASHPOTS[name]
+        steps = name != "newtonian"
+        scale = 0.5 * curve.depth[-1] if control == "depth" else 0.3 * curve.force[-1]
+        load = history(control, steps=steps, scale=scale)
+        motion = kinetics(curve, load, medium)
+        errors = []
+        for parts in (30, 240):
+            share = np.arange(1, parts + 1) / parts
+            lengths = np.diff(load.time)
+            inner = np.concatenate(
+                [start + length * share[:-1] for start, length in zip(load.time, lengths, strict=False)]
+            )
+            fine, _ = load.with_times(np.unique(inner))
+            marched = march(indenter, medium, fine)
+            last = np.searchsorted(fine.time, load.time, side="right") - 1
+            found, expected = (getattr(each, "force" if load.by_depth else "depth") for each in (marched, motion))
+            # At steps compare the state after them; the steps of a dashpot have the force before each time.
+            compared = np.diff(load.time, append=np.inf) > 0
+            if name == "newtonian" and load.by_depth:
+                continue
+            errors.append(np.abs(found[last] - expected)[compared].max() / np.abs(expected).max())
+        if errors:
+            assert errors[1] < 1e-11 or (errors[1] < 2e-3 and errors[1] < 0.3 * errors[0]), (name, errors)
+
+
+@pytest.mark.parametrize("control", ["force", "depth"])
+@pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
+def test_samples_of_a_linear_history_do_not_matter(name, control):
+    curve = indent(self_affine_disc(0.7, 33, rms=0.01, seed=3))
+    medium = SPRINGS_AND_DASHPOTS[name]
+    scale = 0.5 * curve.depth[-1] if control == "depth" else 0.1 * curve.force[-1]
+    load = history(control, steps=name not in ("newtonian", "kelvin-voigt"), scale=scale)
+    more, _ = load.with_times(np.union1d(load.time, np.linspace(0, 4, 301)))
+    times = np.array([0.5, 1.2, 1.8, 2.2, 2.8, 3.5])
+    few, many = kinetics(curve, load, medium, times), kinetics(curve, more, medium, times)
+    for name in ("depth", "force", "velocity", "contact_fraction"):
+        values = getattr(few, name)
+        np.testing.assert_allclose(getattr(many, name), values, rtol=0, atol=1e-9 * np.abs(values).max())
+
+
+def test_default_curves_are_fine_enough():
+    """Load, unload and reload with peaks at shares of the last depth, against a curve of many levels."""
+    disc, medium = self_affine_disc(0.7, 65, rms=0.01, seed=5), SPRINGS_AND_DASHPOTS["solid"]
+    curve = indent(disc)
+    fine = indent(disc, tolerance=1e-7, depths=np.geomspace(curve.depth[0], curve.depth[-1], 2000))
+    for share in (0.9, 0.3, 0.1, 0.03):
+        load = Load([0, 1, 1.6, 2.5], depth=share * curve.depth[-1] * np.array([0, 1, 0.2, 0.9]))
+        times = np.linspace(0, 2.5, 101)
+        found, expected = (kinetics(each, load, medium, times).force for each in (curve, fine))
+        assert np.abs(found - expected).max() < 5e-4 * expected.max()
+
+
+class Wrapped(Medium):
+    """A medium that is known by its creep compliance alone."""
+
+    def __init__(self, inner):
+        self.inner = inner
+
+    def creep_compliance(self, time):
+        return self.inner.creep_compliance(time)
+
+    def creep_rate(self, time, *, left=False):
+        return self.inner.creep_rate(time)
+
+    def creep_integral(self, start, end):
+        return self.inner.creep_integral(start, end)
+
+
+@pytest.mark.parametrize("control", ["force", "depth"])
+@pytest.mark.parametrize("name", ["solid", "prony"])
+def test_media_known_by_their_compliance_are_integrated_to_the_tolerance(name, control):
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 201))
+    medium = SPRINGS_AND_DASHPOTS[name]
+    load = Load([0, 1, 2, 3, 4.0], **{control: (0.3 if control == "depth" else 0.2) * np.array([0, 1, 0.2, 0.6, 0.0])})
+    times = np.array([0.5, 1, 1.3, 1.8, 2.4, 3, 3.6])
+    exact, found = (kinetics(curve, load, each, times) for each in (medium, Wrapped(medium)))
+    for name in ("depth", "force"):
+        values = getattr(exact, name)
+        np.testing.assert_allclose(getattr(found, name), values, rtol=0, atol=5e-4 * values.max())
+
+
+def test_a_curve_that_begins_late_is_warned_of():
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(0.1, 1, 50))
+    load = Load([0, 1, 2.0], depth=[0.0, 0.2, 0.0])
+    with pytest.warns(AccuracyWarning, match="depends on the curve before its first level"):
+        motion = kinetics(curve, load, MEDIA["solid"], [0.2, 0.9, 1.1])
+    np.testing.assert_array_equal(np.isnan(motion.force), [True, False, False])
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_forces_at_steps_of_the_depth(name):
+    """A step out of the surface leaves no force where nothing moves at once, and less where it does."""
+    medium = MEDIA[name]
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 201))
+    load = Load([0, 1, 1, 2.0], depth=[0, 0.1, 0.08, 0.08])
+    run = partial(kinetics, curve, load, medium)
+    before, after = run().force[1:3]
+    assert 0 <= after < before
+    if not medium.creep_compliance(0.0) > 0:
+        assert after == 0

@@ -1,0 +1,64 @@
+"""Rows of springs have the forces of their loading curves, at levels exactly and in between within the tolerance."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from support.curves import curve_of_body, random_curve
+from viscorough import indent, reference, self_affine_disc
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.springs import row_of_springs
+
+DISC = self_affine_disc(0.7, 65, rms=0.01, seed=1)
+
+
+def force_of_row(row, depth):
+    """Σ dk (u − g)₊ at depths."""
+    return (np.maximum(np.subtract.outer(depth, row.gap), 0.0) * row.stiffness).sum(axis=-1)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-5])
+def test_row_has_the_force_of_the_curve(tolerance):
+    curve = indent(DISC, tolerance=tolerance)
+    row = row_of_springs(curve)
+    np.testing.assert_allclose(force_of_row(row, curve.depth), curve.force, rtol=1e-12)
+    force = np.geomspace(curve.force[0], curve.force[-1], 1001)[1:-1]
+    depth, stiffness = curve.at_force(force)
+    # A deviation of the depth by this share is one of the force by F/(k u) of it.
+    deviation = np.abs(force_of_row(row, depth) - force) / (stiffness * depth)
+    assert deviation.max() < 0.1 * tolerance
+    assert (row.stiffness > 0).all()
+    assert (np.diff(row.gap) > 0).all()
+    assert (np.diff(row.contact_fraction) >= 0).all()
+
+
+def test_row_of_a_curve_of_all_contact_events_is_exact():
+    """At and between the events of direct integration; some events are two springs within rounding."""
+    disc = self_affine_disc(0.7, 9, rms=0.01, seed=1)
+    events = march_events(disc)
+    row = row_of_springs(indent(disc, tolerance=1e-11, until_fraction=1.0))
+    np.testing.assert_allclose(force_of_row(row, events.depth), events.impulse, rtol=1e-9, atol=1e-15)
+    between = 0.5 * (events.depth[1:] + events.depth[:-1])
+    last = np.searchsorted(row.gap, between) - 1
+    np.testing.assert_allclose(np.cumsum(row.stiffness)[last], events.resistance[:-1], rtol=1e-7)
+    np.testing.assert_allclose(row.contact_fraction[last] * disc.elements, events.contact_count[:-1], rtol=1e-12)
+    assert row.limit == np.inf, "complete contact goes on as a flat punch"
+
+
+def test_stiffness_is_made_monotone():
+    """Levels that are not convex, as rounding and the tolerance allow, lie above the row."""
+    curve = random_curve(levels=30)
+    force = curve.force * (1 + 1e-3 * np.random.default_rng(1).standard_normal(30))
+    row = row_of_springs(dataclasses.replace(curve, force=np.sort(force)))
+    assert (row.stiffness > 0).all()
+    assert (force_of_row(row, curve.depth) <= np.sort(force) * (1 + 1e-12)).all()
+
+
+def test_before_the_first_level_the_curve_is_a_power_law():
+    """That of a sphere is one, so that a late first level changes little."""
+    sphere = reference.sphere(1.7)
+    row = row_of_springs(curve_of_body(sphere, np.geomspace(0.1, 1, 50)))
+    assert row.first_depth == 0.1
+    depth = np.linspace(0.02, 0.1, 9)
+    np.testing.assert_allclose(force_of_row(row, depth), sphere.force(depth), rtol=5e-3)

@@ -34,8 +34,8 @@ from viscorough.viscous.medium import Medium
 # An interval between contacts is short if the force increases by less than this multiple of the tolerance of the
 # contacts, of which at least _FINEST counts: the difference of two computed pressures would consist of their errors.
 _SHORT, _FINEST = 10.0, 1e-6
-# The curve ends at this multiple of the largest elastic force of the history, beyond the rounding of the search.
-_BEYOND = 1.001
+# The curve ends at this multiple of the largest elastic force of the history: steps in time may go beyond it at first.
+_BEYOND = 1.1
 # State just after a time: at this share of the duration after it.
 _JUST_AFTER = 1e-12
 

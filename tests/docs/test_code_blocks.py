@@ -22,7 +22,11 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.run.settings import check_settings
 
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}
-FILES = {"t [": ("force.csv", Load.read), "kind: ": ("medium.yaml", read_medium)}  # {beginning: name, reader}
+# {beginning: name, reader}
+FILES = {
+    "t [": ("force.csv", lambda name, unit: Load.read(name, length_unit=unit)),
+    "kind: ": ("medium.yaml", read_medium),
+}
 # Blocks that other tests read: directives of the website, the citation, and settings (below).
 ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{eval-rst}", "yaml"}
 PARTS_OF_WORKFLOWS = ("  tabulate_departures:", "  departures:", "module viscorough:")

@@ -365,8 +365,9 @@ def is_allowed(each, name, wrong):
         return name == "seed"
     # Points outside a map and values that are not known; marks of missing points; forces beyond a curve.
     may_be_nan = {"nodata", "heights", "pressure", "gap", "compliance", "low", "high", "time", "scatter", "misfit"}
-    if each.function in FORMULAS:
-        return wrong in ("nan", "infinite")  # a formula of nan is nan
+    if each.function in (*FORMULAS, viscorough.Motion):
+        # A formula of nan is nan. A motion has nan where the curve is not known, and infinite velocities of springpots.
+        return wrong in ("nan", "infinite")
     return wrong in ("nan", "infinite") and (name in may_be_nan or each in (METHODS["at_force"], METHODS["at_depth"]))
 
 

@@ -133,6 +133,14 @@ def test_a_load_has_an_integral_and_further_samples():
     assert depth.in_units_of("um") == depth
 
 
+def test_times_that_are_equal_to_rounding_share_a_sample():
+    load = viscorough.Load([0.0, 0.3, 0.3, 1.0], depth=[0.0, 3.0, 1.0, 1.0])
+    for time in (np.nextafter(0.3, 0), 0.3, np.nextafter(0.3, 1)):
+        more, place = load.with_times([0.1, np.nextafter(0.1, 1), time, np.nextafter(1, 2)])
+        assert more.time.tolist() == [0.0, 0.1, 0.3, 0.3, 1.0]
+        assert place.tolist() == [1, 1, 3, 4]
+
+
 @pytest.mark.parametrize("force", [[-1.0, 1.0], [np.inf, 1.0], [1j, 1.0], [1.0], 1.0], ids=repr)
 def test_a_force_that_pulls_or_is_not_finite_is_no_load(force):
     with refused("Load: force"):

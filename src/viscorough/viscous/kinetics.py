@@ -124,8 +124,9 @@ def kinetics(
     if not load.by_depth and medium.retardation is None:
         creep = creep_response(medium, load)
     if creep is not None and not creep.receding_from < load.time[-1]:
-        row = row_of_springs(curve)
-        _check_creep(curve, row, load.time[: place[-1] + 1], creep.creep[: place[-1] + 1])
+        row, needed = row_of_springs(curve), slice(int(place[-1]) + 1)
+        _check_creep(curve, row, load.time[needed], creep.creep[needed])
+        _check_overflow(load, creep.creep[needed])
         moved = _growing(curve, row, load, creep.creep)
     else:
         row, moved = row_motion(curve, medium, load, int(place[-1]))
@@ -154,16 +155,28 @@ def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) 
         law = law_of(*spectra)
         row_and_law = row.gap, row.stiffness, row.limit, law
         moved, ended, until = move_row(*row_and_law, load.time, load.values, by_depth=load.by_depth)
+    if ended not in (BEYOND, INFINITE):
+        _check_overflow(load, moved.depth[last] + moved.force[last])
     if np.isnan(moved.depth[last]):
         _refuse(curve, row, medium, load, ended, until)
     return row, moved
+
+
+def _check_overflow(load: Load, values: ArrayLike) -> None:
+    """Raise ValueError unless all these results are finite."""
+    if not np.isfinite(values).all():
+        kind = "depth" if load.by_depth else "force"
+        raise ValueError(
+            f"{kind}: depths or forces overflow in this medium; allowed: forces, depths and moduli whose ratios are "
+            "ordinary numbers; check their units"
+        )
 
 
 def _turning_depths(load: Load) -> Array:
     """Return the depths at which a load of a depth turns, steps or is held, at most _MOST_TURNS of them."""
     if not load.by_depth:
         return np.array([])
-    moves = np.diff(load.values, prepend=0.0)
+    moves = np.sign(np.diff(load.values, prepend=0.0))
     turns = np.append(moves[:-1] * moves[1:] <= 0, True) | (np.diff(load.time, append=np.inf) == 0)
     return np.unique(load.values[turns])[-_MOST_TURNS:]
 

@@ -11,6 +11,10 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, real_numbers
 from viscorough.types import Array, FilePath, Integers
 
+# Times that differ by less than this share of them are the same to rounding: within a shorter interval the slope of a
+# load would be lost in rounding.
+_SAME_TIME = 1e-13
+
 
 @dataclass(frozen=True)
 class Load(ReadOnlyArrays):
@@ -107,20 +111,23 @@ class Load(ReadOnlyArrays):
     def with_times(self, times: ArrayLike) -> tuple["Load", Integers]:
         """Return the load with further samples at these times, and their indices; after a step at its time.
 
-        Raises ValueError for times that do not increase or lie outside the load.
+        Times that are equal to rounding share a sample. Raises ValueError for times that do not increase or lie outside
+        the load.
         """
         times = increasing("times", times)
-        if times[0] < self.time[0] or times[-1] > self.time[-1]:
+        rounding = _SAME_TIME * np.abs(times)
+        if times[0] < self.time[0] - rounding[0] or times[-1] > self.time[-1] + rounding[-1]:
             kind = "depth" if self.by_depth else "force"
             raise ValueError(
                 f"times: from {times[0]:g} to {times[-1]:g}; allowed: within the history of the {kind}, "
                 f"{self.time[0]:g} to {self.time[-1]:g}"
             )
-        new = np.setdiff1d(times, self.time)
+        apart = (_distance(times, self.time) > rounding) & (np.diff(times, prepend=-np.inf) > rounding)
+        new = times[apart]
         place = np.searchsorted(self.time, new)
         values = np.insert(self.values, place, np.interp(new, self.time, self.values))
         load = Load(np.insert(self.time, place, new), **{"depth" if self.by_depth else "force": values})
-        return load, np.searchsorted(load.time, times, side="right") - 1
+        return load, np.searchsorted(load.time, times + rounding, side="right") - 1
 
     def in_units_of(self, length_unit: str) -> "Load":
         """Return the load with forces in N divided by the area of a square of the unit of length, in m².
@@ -130,6 +137,13 @@ class Load(ReadOnlyArrays):
         """
         area = units.square_metres(length_unit)
         return self if self.by_depth or area == 1 else Load(self.time, force=self.values / area)
+
+
+def _distance(times: Array, samples: Array) -> Array:
+    """Distance of each time from the nearest of the increasing samples."""
+    after = np.searchsorted(samples, times)
+    before = np.abs(times - samples[np.maximum(after - 1, 0)])
+    return np.minimum(before, np.abs(samples[np.minimum(after, samples.size - 1)] - times))
 
 
 def force_load(force: Any, times: Array, length_unit: str) -> Load:

@@ -210,6 +210,8 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
     fa, da, up, down = _evaluate(a, value, slope, bend, first, second, rates)
     stack[0, 0] = end
     stack[0, 1], stack[0, 2], stack[0, 3], stack[0, 4] = _evaluate(end, value, slope, bend, first, second, rates)
+    if not np.isfinite(end * end * (up + down) + abs(fa) + end * abs(da) + abs(stack[0, 1])):
+        return np.inf  # the motion overflows
     top = 0
     while top >= 0:
         b, fb, db = stack[top, 0], stack[top, 1], stack[top, 2]

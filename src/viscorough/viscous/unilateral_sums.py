@@ -14,7 +14,7 @@ import warnings
 import numpy as np
 
 from viscorough.errors import AccuracyWarning
-from viscorough.types import Array
+from viscorough.types import Array, Integers
 from viscorough.viscous.load import Load
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.springs import RowOfSprings
@@ -70,15 +70,17 @@ def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
         force=np.maximum(2 * fine.force - coarse.force, 0.0),
         velocity=2 * fine.velocity - coarse.velocity,
         deflection=2 * fine.deflection - coarse.deflection,
+        pressures=np.maximum(2 * fine.pressures - coarse.pressures, 0.0),
     )
 
 
-def _with_fewer_springs(row: RowOfSprings) -> tuple[Array, Array, Array]:
-    """Gaps and stiffnesses of neighbouring springs taken together, and the index of the last one of each group."""
-    groups = min(row.gap.size, _MOST_SPRINGS)
+def _with_fewer_springs(row: RowOfSprings) -> tuple[Array, Array, Integers]:
+    """Gaps and stiffnesses of at most _MOST_SPRINGS groups of neighbouring springs, and the last index of each."""
+    if row.gap.size <= _MOST_SPRINGS:
+        return row.gap, row.stiffness, np.arange(row.gap.size)
     # Equal steps of the logarithm of the summed stiffness.
     sums = np.log(np.cumsum(row.stiffness))
-    edges = np.searchsorted(sums, np.linspace(sums[0], sums[-1], groups + 1)[1:-1], side="right")
+    edges = np.searchsorted(sums, np.linspace(sums[0], sums[-1], _MOST_SPRINGS + 1)[1:-1], side="right")
     starts = np.unique(np.append(0, edges))
     starts = starts[starts < row.gap.size]
     stiffness = np.add.reduceat(row.stiffness, starts)

@@ -87,16 +87,17 @@ MISTAKES = [
     (GENERATE, "either --elements (a disc) or --points (a line) is needed"),
     (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),
     (f"{GENERATE} --elements 5 --unit 1 --rms '2 um'", f"--rms 2 um: {NO_UNIT}"),
-    (f"{MARCH} events --times 1,2", "--times is not for --method events"),
     (f"{MARCH} events", "one of --times and --force-history is needed"),
     (f"{MARCH} implicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
-    (f"{MARCH} heun --medium medium.yaml --times 1", "--medium is not for --method heun; allowed: events, "),
+    (f"{MARCH} heun --times 1", "'heun' is not one of 'events', 'implicit'"),
     (f"{MARCH} events --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
     (f"{MARCH} events --force-history none.csv --force 1", "--force-history replaces --force"),
-    (f"{MARCH} events --force-history nothing.csv", "nothing.csv: no time passes while there is a force"),
     (f"{MARCH} implicit --force-history force.csv -o link.csv", "would replace the force history"),
     ("reduce line.npy -o out.nc", "line.npy: the distance between neighbouring points is not stated"),
-    (f"{MARCH} events --force 1e-10 --viscosity 1.7e308", "times or velocities overflow"),
+    *[
+        (f"{MARCH} {method} --force 1e300 --viscosity 1e-300 --times 1", "depths or forces overflow")
+        for method in ("events", "implicit")
+    ],
     ("reduce text.npy --spacing 1 -o out.nc", "text.npy: indenter heights: must be real numbers"),
     ("reduce line.npy --spacing 1 --realizations 2 -o out.nc", "--realizations and --seed are for maps"),
     ("reduce line.npy --spacing 1 --flip -o out.nc", "--channel and preparation are for maps"),
@@ -137,7 +138,6 @@ def test_mistakes_are_one_line(here, complaint, line, what):
     (here / "table.csv").write_text("0,0\n1e-6,1e-12\n")
     for name in ("force.csv", "record.csv"):
         (here / name).write_text("0,0\n1,0.2\n2,0.4\n")
-    (here / "nothing.csv").write_text("0,0\n1,0\n")
     (here / "link.csv").symlink_to("force.csv")
     (here / "link.nc").symlink_to("medium.yaml")
     (here / "of_pipe.csv.yaml").write_text("{kind: creep_table, file: pipe.csv}")

@@ -89,7 +89,7 @@ def test_axes_have_symbols_and_units(here):
     assert texts[-1] == "contact fraction"
     assert axes_of("motion.nc") == ["time $t$ (s)", "depth $u$", "time $t$ (s)", "velocity $v$ (s⁻¹)"]
     assert axes_of("disc.nc")[:2] == ["$x$ (µm)", "$y$ (µm)"]
-    assert axes_of("medium.nc") == ["time $t$ (s)", "depth $u$"]
+    assert axes_of("medium.nc") == ["time $t$ (s)", "depth $u$", "time $t$ (s)", "velocity $v$ (s⁻¹)"]
 
 
 def test_axes_are_in_si_units_with_a_modulus(here):

@@ -129,7 +129,7 @@ def test_records_that_no_growing_contact_can_have_are_refused():
         identify_medium(CURVE, force, TIMES, np.append(depth[:-1], 11.0))
     with refused("record: 4 times, .*; allowed: five or more rows"):
         identify_medium(CURVE, force, TIMES[:4], depth[:4])
-    with refused("force: .* record from -1 on; allowed"):
+    with refused("times: start at -1; allowed: from 0 on, where a constant force begins"):
         identify_medium(CURVE, force, TIMES - 1.02, depth)
     with refused("kind 'maxwell'; allowed: table, prony, springpot"):
         identify_medium(CURVE, force, TIMES, depth, kind="maxwell")

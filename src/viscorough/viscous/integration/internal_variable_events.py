@@ -34,7 +34,7 @@ from viscorough.indenter import Indenter
 from viscorough.types import Array, Integers
 from viscorough.viscous.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
 from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.internal_variables import checked_input
+from viscorough.viscous.integration.internal_variables import check_overflow, checked_input
 from viscorough.viscous.load import Load
 from viscorough.viscous.medium import Medium, RelaxationSpectrum
 from viscorough.viscous.motion import Motion
@@ -54,6 +54,7 @@ def integrate_events(
         raise ValueError("march: method events, load of a depth; allowed: a load of a force, or method implicit")
     modes = _modes(relaxation)
     motion, terms = _total_motion(modes, times, force)
+    check_overflow(motion)
     steps_down = jumps_and_slopes(times, force)[0] < -ROUNDING * force
     at_once = times[steps_down & (modes.instantaneous_compliance > 0)]
     if np.isfinite(receding_from := first_decrease(times, terms, at_once.min(initial=np.inf))):

@@ -99,6 +99,15 @@ def _mean_velocity(times: Array, depths: Array) -> Array:
     return velocity
 
 
+def check_overflow(values: Array) -> None:
+    """Raise ValueError unless all these results are finite."""
+    if not np.isfinite(values).all():
+        raise ValueError(
+            "march: depths or forces overflow in this medium; allowed: forces, depths and moduli whose ratios are "
+            "ordinary numbers; check their units"
+        )
+
+
 class _State:
     """Motion y, pressures Q and internal variables w of all elements under forces, or depths if `by_depth`.
 
@@ -189,6 +198,7 @@ class _State:
         Active-set method, which releases elements under tension and adds elements that overlap until there are neither.
         Without a force the indenter is placed at first contact.
         """
+        check_overflow(np.append(free, target))
         members = np.flatnonzero(start) if start.any() else np.array([np.argmin(free)])
         for _ in range(_MAX_ITERATIONS):
             pressure, depth, members = self._solve_among(members, free, target)

@@ -205,11 +205,15 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
 
 
 def _motion(variables: Variables) -> Figure:
+    """Depth and velocity over time; if the contact unloads, depth and force over time, and force over depth."""
     time = variables["time"].values
     if not (np.diff(time) >= 0).all():
         raise ValueError("time must not decrease; a file that viscorough wrote is needed")
     along = variables["time"].dimensions
-    names = [name for name in ("depth", "velocity") if name in variables and variables[name].dimensions == along]
+    here = {name: variable for name, variable in variables.items() if variable.dimensions == along}
+    if "force" in here and any((np.diff(here[name].values) < 0).any() for name in ("depth", "force")):
+        return _loop(here)
+    names = [name for name in ("depth", "velocity") if name in here]
     figure, axes = _panels(len(names))
     for panel, name in zip(axes, names, strict=True):
         ends = [variables[key] for end in ("low", "high") if (key := f"{name}_{end}") in variables]
@@ -217,6 +221,22 @@ def _motion(variables: Variables) -> Figure:
             panel.fill_between(time, ends[0].values, ends[1].values, color=_BLUE, alpha=0.25, linewidth=0)
         _curve(panel, time, variables[name].values)
         _label(panel, variables, "time", name, name)
+    return figure
+
+
+def _loop(variables: Variables) -> Figure:
+    """Depth and force over time, and force over depth, on linear axes."""
+    variables = variables | {"normal_force": variables["force"]}  # F, not F/G as in a loading curve
+    pairs = [
+        ("time", "depth", "depth"),
+        ("time", "normal_force", "force"),
+        ("depth", "normal_force", "force-depth loop"),
+    ]
+    figure, axes = _panels(len(pairs))
+    for panel, (x, y, title) in zip(axes, pairs, strict=True):
+        marker = "o" if variables[x].values.size < _FEW else ""
+        panel.plot(variables[x].values, variables[y].values, color=_BLUE, marker=marker)
+        _label(panel, variables, x, y, title)
     return figure
 
 

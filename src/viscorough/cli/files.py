@@ -97,11 +97,14 @@ def read_curve(path: Path) -> viscorough.LoadingCurve:
     return curve_from_content(content)
 
 
-def read_load(force: Quantity | None, force_history: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
-    """(force or Load, what an output says about it) of --force and --force-history, one of which is given."""
-    if force_history is not None:
-        load = viscorough.Load.read(force_history, length_unit=length_unit)
-        return load, {"force": printable_name(force_history)}
+def read_load(
+    force: Quantity | None, force_history: Path | None, length_unit: str, depth_history: Path | None = None
+) -> tuple[Any, dict[str, Any]]:
+    """(force or Load, what an output says about it) of --force and the two histories, one of which is given."""
+    for kind, history in (("force", force_history), ("depth", depth_history)):
+        if history is not None:
+            load = viscorough.Load.read(history, kind, length_unit=length_unit)
+            return load, {kind: printable_name(history)}
     number = units.number(force, "N", length_unit, "--force")
     return number, {"force": number}
 

@@ -20,6 +20,7 @@ _CORRESPONDENCE = (
 @click.argument("curve", type=options.FILE, metavar="CURVE.nc")
 @options.force
 @options.force_history
+@options.depth_history
 @options.viscosity
 @options.medium
 @click.option(
@@ -31,6 +32,7 @@ def kinetics(
     *,
     force: Quantity | None,
     force_history: Path | None,
+    depth_history: Path | None,
     viscosity: Quantity | None,
     medium: Path | None,
     times: list[float] | None,
@@ -38,6 +40,7 @@ def kinetics(
 ) -> None:
     """Penetration over time of the indenter whose loading curve is in CURVE.nc.
 
+    A history may load, hold, unload and reload; with --depth-history the depth is given, and the force follows.
     KIN.nc holds time, depth, velocity, force and contact fraction. Without --times these are the times of the history;
     or under a constant force a hundred at equal ratios between those at which the first and last levels of the curve
     are reached, or until creep has nearly ended; after time 0 if the medium responds elastically at t = 0. While the
@@ -59,27 +62,31 @@ def kinetics(
     Examples:
         viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
         viscorough kinetics curve.nc --force-history ramp.csv --medium rubber.yaml --times 1,10,100 -o kinetics.nc
+        viscorough kinetics curve.nc --depth-history approach_retract.csv --medium rubber.yaml -o loop.nc
     """
-    options.require((force is None) != (force_history is None), "one of --force and --force-history is needed")
+    given = sum(each is not None for each in (force, force_history, depth_history))
+    options.require(given == 1, "one of --force, --force-history and --depth-history is needed")
     options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
 
     import numpy as np
 
     from viscorough.io.motion import motion_to_content
 
-    files.check_output(output, curve=curve, force_history=force_history, medium=medium)
+    files.check_output(output, curve=curve, force_history=force_history, depth_history=depth_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
-    load, of_load = files.read_load(force, force_history, loading.length_unit)
+    load, of_load = files.read_load(force, force_history, loading.length_unit, depth_history)
     motion = viscorough.kinetics(loading, load, half_space, times)
-    unknown = np.count_nonzero(~np.isfinite(motion.depth) | ~np.isfinite(motion.velocity))
+    unknown = np.count_nonzero(~np.isfinite(motion.depth + motion.force + motion.velocity))
     if unknown == motion.time.size:
         raise ValueError("times: all are before the curve's first level; later ones are needed, or an earlier level")
     if unknown:
-        text = f"at {unknown} of {motion.time.size} times depth or velocity are missing: before the first level of the "
-        messages.warn(f"{text}curve, or where a step moves a springpot without bound")
+        text = f"at {unknown} of {motion.time.size} times depth, force or velocity are missing: before the first level "
+        messages.warn(f"{text}of the curve, or where a step in a springpot has no bound")
     content = motion_to_content(motion)
     files.write_output(content, output, **about, **of_load, correspondence=_CORRESPONDENCE)
-    depth = with_unit(motion.depth[-1], loading.length_unit, 6)
+    depth = f"depth {with_unit(motion.depth[-1], loading.length_unit, 6)}"
+    if depth_history is not None:
+        depth += f" and force {with_unit(motion.force[-1], si_unit('N', loading.length_unit), 6)}"
     time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)
-    messages.announce(output, f"{motion.time.size} times, depth {depth} at time {time}")
+    messages.announce(output, f"{motion.time.size} times, {depth} at time {time}")

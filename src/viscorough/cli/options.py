@@ -111,6 +111,13 @@ force_history = click.option(
     metavar="FORCE.csv",
     help="Two columns, times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
 )
+depth_history = click.option(
+    "--depth-history",
+    type=FILE,
+    metavar="DEPTH.csv",
+    help="Two columns, times and depths, instead of a force: linear in between; a time given twice is a step. A depth "
+    "below 0 lifts the indenter.",
+)
 viscosity = click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
 medium = click.option(
     "--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity."

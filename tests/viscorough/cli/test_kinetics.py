@@ -73,6 +73,34 @@ def test_file_holds_what_python_gives(here, curve, kind, load, force):
         np.testing.assert_allclose(written["force"], force, rtol=1e-15)
 
 
+@pytest.mark.parametrize("kind", ["maxwell", "standard_linear_solid", "prony", "springpot", "creep_table"])
+@pytest.mark.parametrize("times", [None, [0.5, 1.5, 4.0]])
+def test_depth_histories_load_hold_unload_and_lift(here, curve, capsys, kind, times):
+    """The file holds the motion of Python, and force falls to zero while the indenter is lifted."""
+    text, medium = MEDIA[kind]
+    (here / "medium.yaml").write_text(text)
+    (here / "depth.csv").write_text("t,u\n0,0\n1,0.2\n2,0.2\n3,0\n4,-0.1\n")
+    option = "" if times is None else f"--times {','.join(map(str, times))}"
+    assert run(f"{KINETICS} --depth-history depth.csv --medium medium.yaml {option}") == 0
+    load = Load([0, 1, 2, 3, 4], depth=[0, 0.2, 0.2, 0, -0.1])
+    motion, written = kinetics(curve, medium=medium, depth=load, times=times), values("kin.nc")
+    for name in ("time", "depth", "force", "velocity", "contact_fraction"):
+        np.testing.assert_array_equal(written[name], getattr(motion, name))
+    assert written["force"].max() > 0
+    assert (written["force"][-1], written["contact_fraction"][-1]) == (0, 0)
+    assert netcdf.read("kin.nc").attributes["depth"] == "depth.csv"
+    assert "and force 0 at time 4" in capsys.readouterr().out
+
+
+def test_depth_histories_have_units(here, curve):
+    """Depths in a heading in nm; the force is in N."""
+    (here / "depth.csv").write_text("t [ms],u [nm]\n0,0\n1,200\n2,50\n")
+    (here / "medium.yaml").write_text("{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e3}")
+    assert run("kinetics um.nc -o kin.nc --depth-history depth.csv --medium medium.yaml") == 0
+    medium, load = Maxwell(2e-6, 5e-9), Load([0, 1e-3, 2e-3], depth=[0, 0.2, 0.05])
+    np.testing.assert_allclose(values("kin.nc")["force"], kinetics(curve, load, medium).force, rtol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
@@ -98,8 +126,8 @@ def test_missing_values_are_warned_of(here, capsys, complaint):
     load = f"--force-history force.csv --viscosity {1.6 / late.force[-1]}"
     assert run(f"kinetics late.nc {load} -o kin.nc") == 0
     assert np.isnan(values("kin.nc")["depth"]).tolist() == [False, True, False, False]
-    assert "at 1 of 4 times depth or velocity are missing" in capsys.readouterr().err
-    assert "depth or velocity are missing" in netcdf.read("kin.nc").attributes["warnings"]
+    assert "at 1 of 4 times depth, force or velocity are missing" in capsys.readouterr().err
+    assert "depth, force or velocity are missing" in netcdf.read("kin.nc").attributes["warnings"]
     line = f"kinetics late.nc {load} --times 0.1,0.11 -o k.nc"
     assert "all are before the curve's first level" in complaint(line)
 

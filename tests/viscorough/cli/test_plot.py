@@ -92,6 +92,20 @@ def test_axes_have_symbols_and_units(here):
     assert axes_of("medium.nc") == ["time $t$ (s)", "depth $u$", "time $t$ (s)", "velocity $v$ (s⁻¹)"]
 
 
+def test_a_history_that_unloads_is_drawn_as_a_loop():
+    curve = viscorough.indent(viscorough.self_affine_disc(0.7, 9, rms=0.1, seed=1))
+    medium = viscorough.Maxwell(2.0, 5.0)
+    for end, number in ((0.0, 3), (0.2, 2)):
+        load = viscorough.Load([0.0, 1.0, 2.0], depth=[0.0, 0.1, end])
+        motion = viscorough.kinetics(curve, load, medium, np.linspace(0.01, 2, 50))
+        axes = viscorough.plot(motion).axes
+        assert len(axes) == number
+        if number == 3:
+            assert axes[2].get_ylabel() == "force $F$"
+            line = axes[2].lines[0]
+            np.testing.assert_array_equal(line.get_xydata(), np.transpose([motion.depth, motion.force]))
+
+
 def test_axes_are_in_si_units_with_a_modulus(here):
     """G = 2 MPa: G um2 is 2e-6 N and G um is 2 N/m."""
     assert run("indent disc.nc --shear-modulus '2 MPa' -o si_curve.nc") == 0

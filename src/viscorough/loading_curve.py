@@ -24,6 +24,10 @@ _CANCELLATION = 4 * np.finfo(float).eps
 _HALVINGS = 90
 
 
+# Arrays over levels about the error of the grid, which a curve has if it was requested.
+_OF_GRID = ("grid_error", "force_grid_error", "area_change")
+
+
 @dataclass(frozen=True)
 class LoadingCurve(ReadOnlyArrays, Saved):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
@@ -53,6 +57,23 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         Largest gap in contact or overlap outside it that remains, over the depth, shape (levels,) [1].
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
+    grid_error : array, optional
+        Estimated relative error of the velocity that is due to the spacing of the map, at the force of each level,
+        shape (levels,) [1]. None unless it was requested, as the four quantities that follow;
+        `viscorough.contact.grid_error` has the formulas.
+    force_grid_error : array, optional
+        The same of the force at the depth of each level, counted from the highest point of the map.
+    area_change : array, optional
+        Relative change of the contact area when the spacing of the map is halved. The contact area of a rough surface
+        has no limit and therefore no error.
+    mean_grid_error, mean_area_change : float, optional
+        `grid_error` and `area_change` over all forces from F/G = hL/25 on, with the rms height h of the map and the
+        diameter L of a disc of its area, or over the last decade if the curve ends before 0.4 hL.
+    sampling : int
+        n, if the curve is the one on every n-th point of the map in both directions. Depths are then counted from the
+        highest point of the full map.
+    choice : str
+        Reason for the sampling and the tolerance, if these were chosen to meet a requested error.
 
     Raises
     ------
@@ -80,20 +101,34 @@ class LoadingCurve(ReadOnlyArrays, Saved):
     operator_applications: int
     residual: np.ndarray
     length_unit: str = "1"
+    grid_error: np.ndarray | None = None
+    force_grid_error: np.ndarray | None = None
+    area_change: np.ndarray | None = None
+    mean_grid_error: float | None = None
+    mean_area_change: float | None = None
+    sampling: int = 1
+    choice: str = ""
 
     def __post_init__(self) -> None:
         super().__post_init__()
         for name in ("depth", "force"):
             values = increasing(f"loading curve: {name}", getattr(self, name), above_zero=True)
             object.__setattr__(self, name, read_only(values))
-        for name in ("force", "stiffness", "contact_count", "residual"):
+        of_grid = [name for name in _OF_GRID if getattr(self, name) is not None]
+        for name in ("force", "stiffness", "contact_count", "residual", *of_grid):
             if (shape := getattr(self, name).shape) != self.depth.shape:
                 text = f"loading curve: {name} has the shape {shape} and depth {self.depth.shape}"
                 raise ValueError(f"{text}; one value for each level is needed")
             if not np.isfinite(getattr(self, name)).all():
                 raise ValueError(f"loading curve: {name} must be finite")
+        for name in (*of_grid, "mean_grid_error", "mean_area_change"):
+            value, least = getattr(self, name), -1 if name.endswith("change") else 0
+            if value is not None and not ((value >= least) & np.isfinite(value)).all():
+                raise ValueError(f"loading curve: {name} must be finite and not below {least}")
         if not (self.stiffness > 0).all():
             raise ValueError("loading curve: stiffness must be finite and positive")
+        if self.sampling < 1:
+            raise ValueError("loading curve: sampling must be a whole number from 1 on")
         if self.elements < 1 or not 0 <= self.tolerance < np.inf:
             text = f"{self.elements} elements and a tolerance of {self.tolerance:g}"
             raise ValueError(f"loading curve: {text}; at least 1 and a finite number from 0 on are needed")
@@ -101,17 +136,31 @@ class LoadingCurve(ReadOnlyArrays, Saved):
     def __str__(self) -> str:
         """What it is; the range of depths, forces and stiffnesses; that of the contact fraction."""
         unit, levels = self.length_unit, self.depth.size
-        return (
-            f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements\n"
+        lines = [
+            f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements",
             f"depth u {span(self.depth, unit)}, force F/G {span(self.force, unit_power(unit, 2))}, "
-            f"stiffness k/G {span(self.stiffness, unit)}\n"
-            f"contact fraction {span(self.contact_fraction)}"
-        )
+            f"stiffness k/G {span(self.stiffness, unit)}",
+            f"contact fraction {span(self.contact_fraction)}",
+            self.choice,
+            self.grid_error_text,
+        ]
+        return "\n".join(filter(None, lines))
 
     @property
     def contact_fraction(self) -> Array:
         """Share of the indenter's elements that are in contact, shape (levels,)."""
         return self.contact_count / self.elements
+
+    @property
+    def grid_error_text(self) -> str:
+        """Meaning of the error of the grid in one line; "" if it was not requested."""
+        if self.mean_grid_error is None or self.mean_area_change is None:
+            return ""
+        grid = "a scan" if self.sampling == 1 else "a sampling"
+        return (
+            f"grid error about {100 * self.mean_grid_error:.2g} %: {grid} twice as fine would change the velocity by "
+            f"about that; the contact area changes by {100 * self.mean_area_change:.2g} % when the spacing is halved"
+        )
 
     @property
     def starts_straight(self) -> bool:

@@ -63,6 +63,7 @@ CALLS = {
             {"start_fraction": 0.25, "until_fraction": 0.5, "until_force": (4.0, AREA)},
             indenter=DISC,
         ),
+        call(viscorough.indent, {"error": 0.5}, indenter=DISC),
     ],
     "contact_at": [
         call(viscorough.contact_at, {"depth": (0.5, LENGTH), "tolerance": 0.0625, **OPTIONS}, indenter=DISC),
@@ -114,8 +115,15 @@ CALLS = {
                 "elements": 4,
                 "tolerance": 0.5,
                 "operator_applications": 2,
+                "grid_error": [0.5, 0.25],
+                "force_grid_error": [0.5, 0.0],
+                "area_change": [-0.5, 0.25],
+                "mean_grid_error": 0.5,
+                "mean_area_change": -0.5,
+                "sampling": 2,
             },
             method="none",
+            choice="none",
         )
     ],
     "Load": [
@@ -236,7 +244,7 @@ CALLS = {
 # Arguments that hold no numbers and are not needed for the calls.
 OPTIONAL = {
     *("progress", "options", "precision", "padding", "length_unit", "corners", "amplitudes", "rms_over", "dtype"),
-    *("detrend", "fill", "flip", "kind", "scheme", "medium", "method", "load"),
+    *("detrend", "fill", "flip", "kind", "scheme", "medium", "method", "load", "estimate_grid_error"),
 }
 # Public names without numbers among their arguments, and functions of files, whose numbers test_heights.py covers.
 WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "Medium", "reference", "read_medium"}

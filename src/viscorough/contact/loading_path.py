@@ -10,8 +10,10 @@ the last ones could run on without end.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable
 from itertools import accumulate, islice
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,8 +22,10 @@ from viscorough import units
 from viscorough.argument_names import argument
 from viscorough.arrays import fraction, increasing, real_number
 from viscorough.contact.dense import ROUNDING
+from viscorough.contact.grid_error import every_nth_point, highest_missed, with_grid_errors
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
+from viscorough.contact.sampling import curve_within, part_of
 from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
 from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
@@ -34,6 +38,10 @@ from viscorough.types import Array, Progress
 _APPROACH_DEPTH_RATIO, _APPROACH_SHARE, _APPROACH_MIN_RATIO = 4.0, 0.7, 1.02
 # A curve that ends at a contact fraction up to this one does not need the depth of complete contact for its end.
 _FAR_FROM_COMPLETE = 0.95
+# Tolerance unless another one or an error is requested; errors of the velocity that can be requested.
+_DEFAULT_TOLERANCE, _ERRORS = 1e-3, (1e-3, 0.5)
+# Share of the computation of a curve and the estimate of its grid error that the curve itself takes.
+_SHARE_OF_CURVE = 0.75
 # Exponent of the share of the contact, or of the force, in the estimated share of the computation.
 _PROGRESS_EXPONENT = 0.5
 
@@ -41,7 +49,9 @@ _PROGRESS_EXPONENT = 0.5
 def indent(
     indenter: Indenter,
     *,
-    tolerance: float = 1e-3,
+    tolerance: float | None = None,
+    error: float | None = None,
+    estimate_grid_error: bool = False,
     depths: ArrayLike | None = None,
     forces: ArrayLike | None = None,
     start_fraction: float = 0.0,
@@ -65,7 +75,18 @@ def indent(
         Largest gap in contact, or overlap outside it, over the depth, at every level, rounding included. The relative
         error of the force there is far below it; the stiffness is less accurate (docs/solver.md). Also the largest
         relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5, where
-        neither depths nor forces are given. Between 1e-12 and 0.1.
+        neither depths nor forces are given. Between 1e-12 and 0.1; by default 1e-3. It does not include the error of
+        the grid, which is often larger (`estimate_grid_error`).
+    error : float, optional
+        Relative error of the velocity that is allowed, from 1e-3 to 0.5, instead of a tolerance. The curve is computed
+        on as few points of the map, and to as loose a tolerance, as the estimated error allows: on every n-th point in
+        both directions, with n a power of two, from coarse to fine. It is the root mean square over all forces F/G from
+        hL/25 on, with the rms height h and the diameter L of a disc of the same area, and is relative to the curve
+        of all points. The result states `sampling` and the reason for it, `choice`.
+    estimate_grid_error : bool, optional
+        Whether to estimate the error that is due to the spacing of the map, `grid_error` of the result, from a second
+        curve on every second point. This takes 0.2 to 0.6 times as long as the curve. With `error` it is always
+        estimated.
     depths : array_like, optional
         Levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires.
     forces : array_like, optional
@@ -98,9 +119,15 @@ def indent(
     Raises
     ------
     ValueError
-        For arguments out of range.
+        For arguments out of range, for an error together with a tolerance, depths or forces, and for maps of fewer than
+        3 x 3 points where the error of the grid is needed.
     ConvergenceError
         If a level cannot be solved to the tolerance.
+
+    Warns
+    -----
+    AccuracyWarning
+        If the estimated error of the grid of the whole map exceeds the requested error.
 
     Examples
     --------
@@ -109,8 +136,17 @@ def indent(
     >>> curve = viscorough.indent(disc, depths=[0.005, 0.01])
     >>> curve.depth.tolist(), bool(curve.force[0] < curve.force[1])
     ([0.005, 0.01], True)
+
+    Ask for the velocity within 20 %, and see how many points this takes:
+
+    >>> disc = viscorough.self_affine_disc(0.8, 129, rms=0.01, seed=1)
+    >>> viscorough.indent(disc, error=0.2).sampling
+    2
     """
-    tolerance = check_solvable("indent", indenter, tolerance, threads, options)
+    error = _check_error(error, tolerance=tolerance, depths=depths, forces=forces)
+    tolerance = check_solvable(
+        "indent", indenter, _DEFAULT_TOLERANCE if tolerance is None else tolerance, threads, options
+    )
     if depths is not None and forces is not None:
         raise ValueError("indent: depths and forces exclude each other; one of them is allowed")
     until_fraction = fraction("indent: until_fraction", until_fraction)
@@ -126,16 +162,68 @@ def indent(
         until_force = real_number(argument("until_force"), until_force)
     if not until_force > 0:
         raise ValueError(f"{argument('until_force', of='indent')} must be positive, not {until_force!r}")
-    progress = progress or (lambda done: None)
     if depths is not None:
         depths = np.atleast_1d(units.numbers(depths, unit, unit, argument("depths")))
         depths = increasing(argument("depths", of="indent"), depths, above_zero=True)
+    if forces is not None:
+        forces = np.atleast_1d(units.forces_over_modulus(forces, shear_modulus, unit, argument("forces")))
+        forces = increasing(argument("forces", of="indent"), forces, above_zero=True)
+    progress = progress or (lambda done: None)
+    of_path: dict[str, Any] = {"start_fraction": start_fraction, "threads": threads, "options": options}
+    until: dict[str, Any] = {"until_fraction": until_fraction, "until_force": until_force}
+
+    if error is not None:
+        curve = curve_within(error, indenter, functools.partial(_curve, **until, **of_path), progress)
+    else:
+        first = part_of(progress, 0.0, _SHARE_OF_CURVE) if estimate_grid_error else progress
+        curve = _curve(indenter, tolerance, first, depths=depths, forces=forces, **until, **of_path)
+    if estimate_grid_error and error is None:
+        coarse = every_nth_point(indenter, 2)
+        until = {"until_fraction": 1.0, "until_force": curve.force[-1]}
+        rest = part_of(progress, _SHARE_OF_CURVE, 1.0)
+        second = _curve(coarse, tolerance, rest, **until, **of_path)
+        curve = with_grid_errors(curve, second, indenter, highest_missed(indenter, coarse))
+    warn_beyond_theory("indent", indenter, curve.depth[-1])
+    return curve
+
+
+def _check_error(error: float | None, **others: Any) -> float | None:
+    """Return the error as a float. Raises ValueError unless it is in range, and for other arguments along with it."""
+    if error is None:
+        return None
+    error = real_number(argument("error", of="indent"), error)
+    least, largest = _ERRORS
+    if not least <= error <= largest:
+        raise ValueError(
+            f"{argument('error', of='indent')} must be between {least:g} and {largest:g} (5 % is 0.05), not {error!r}"
+        )
+    for name, value in others.items():
+        if value is not None:
+            why = "it chooses the tolerance" if name == "tolerance" else "it holds for a whole curve, which has levels"
+            text = f"{argument('error', of='indent')} and {argument(name)} exclude each other"
+            raise ValueError(f"{text}: {why}")
+    return error
+
+
+def _curve(
+    indenter: Indenter,
+    tolerance: float,
+    progress: Progress,
+    *,
+    depths: Array | None = None,
+    forces: Array | None = None,
+    start_fraction: float,
+    until_fraction: float,
+    until_force: float,
+    threads: int,
+    options: SolverOptions,
+) -> LoadingCurve:
+    """The LoadingCurve of a map; arguments are those of `indent`, as numbers that were checked."""
+    if depths is not None:
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1], whole=False)
         contacts = accumulate(depths, solver.advance, initial=solver.unloaded_state())
         levels = _levels(islice(contacts, 1, None), len(depths), progress)
     elif forces is not None:
-        forces = np.atleast_1d(units.forces_over_modulus(forces, shear_modulus, unit, argument("forces")))
-        forces = increasing(argument("forces", of="indent"), forces, above_zero=True)
         # The correction to the force takes the other half of the tolerance.
         solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False)
         levels = _levels(map(ForceSearch(solver).contact_at, forces), len(forces), progress)
@@ -148,7 +236,6 @@ def indent(
         raise ValueError("indent: forces are too large to represent; a larger unit of length is needed")
     _check_distance(depths, force, "depths", "forces")
     _check_distance(forces, depth, "forces", "depths")
-    warn_beyond_theory("indent", indenter, depth[-1])
     return LoadingCurve(
         depth=depth if depths is None else np.asarray(depths),
         force=force if forces is None else np.asarray(forces),

@@ -31,6 +31,12 @@ OVER_LEVELS: dict[str, tuple[str, int]] = {
     "contact_fraction": ("share of the indenter's elements in contact", 0),
     "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
 }
+# The same of curves whose grid error was estimated.
+ABOUT_GRID: dict[str, tuple[str, int]] = {
+    "grid_error": ("estimated relative error of the velocity due to the spacing of the map", 0),
+    "force_grid_error": ("estimated relative error of the force at a depth due to the spacing of the map", 0),
+    "area_change": ("relative change of the contact area when the spacing of the map is halved", 0),
+}
 # Quantities of curves and contacts whose shear modulus is given.
 WITH_MODULUS = {"normal_force": ("normal force F", "N"), "normal_stiffness": ("normal stiffness k = dF/du", "N m-1")}
 STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]  # fields of LoadingCurve, not derived
@@ -40,6 +46,9 @@ PER_CURVE = {
     "tolerance": (float, "relative accuracy asked for"),
     "method": (str, "how the curve was obtained"),
 }
+# Attributes of single curves, stored where they differ from the defaults of LoadingCurve, and their least values.
+OPTIONAL: dict[str, type] = {"mean_grid_error": float, "mean_area_change": float, "sampling": int, "choice": str}
+OPTIONAL_LEAST = {"mean_area_change": -1.0, "sampling": 1}
 
 
 def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) -> Content:
@@ -48,12 +57,16 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known; adds WITH_MODULUS
     """
     values, unit = {name: getattr(curve, name) for name in OVER_LEVELS}, curve.length_unit
+    values |= {name: getattr(curve, name) for name in ABOUT_GRID if getattr(curve, name) is not None}
     if shear_modulus is not None:
         values["normal_force"] = curve.force * (shear_modulus * units.square_metres(unit))
         values["normal_stiffness"] = curve.stiffness * (shear_modulus * units.in_metres(unit))
     attributes = {"title": "Loading curve of a rigid indenter", "comment": COMMENT}
     attributes |= {name: getattr(curve, name) for name in PER_CURVE}
-    return Content(described(("level",), values, {**OVER_LEVELS, **WITH_MODULUS}, unit), attributes)
+    defaults = {field.name: field.default for field in dataclasses.fields(curve)}
+    attributes |= {name: getattr(curve, name) for name in OPTIONAL if getattr(curve, name) != defaults[name]}
+    quantities: dict[str, Any] = {**OVER_LEVELS, **ABOUT_GRID, **WITH_MODULUS}
+    return Content(described(("level",), values, quantities, unit), attributes)
 
 
 def curve_from_content(content: Content) -> LoadingCurve:
@@ -68,7 +81,8 @@ def curve_from_content(content: Content) -> LoadingCurve:
 
 def _checked_curve(content: Content) -> LoadingCurve:
     fields: dict[str, Any] = {}
-    for name in (name for name in OVER_LEVELS if name in STORED or name in content.variables):
+    optional = [name for name in ("contact_fraction", *ABOUT_GRID) if name in content.variables]
+    for name in [*STORED, *optional]:
         variable = content.variables.get(name)
         if variable is None or variable.dimensions != ("level",) or variable.values.dtype.kind not in "iuf":
             raise ValueError(f"no numbers {name}(level); {_NEEDED}")
@@ -77,6 +91,9 @@ def _checked_curve(content: Content) -> LoadingCurve:
         if name not in content.attributes:
             raise ValueError(f"no attribute {name}; {_NEEDED}")
         fields[name] = _converted(name, content.attributes[name], convert)
+    for name, convert in OPTIONAL.items():
+        if name in content.attributes:
+            fields[name] = _converted(name, content.attributes[name], convert, least=OPTIONAL_LEAST.get(name, 0.0))
     fraction = fields.pop("contact_fraction", None)
     curve = LoadingCurve(**fields, length_unit=_length_unit(content))
     _check_contact(curve)
@@ -91,7 +108,7 @@ def _length_unit(content: Content) -> str:
     length = stated["depth"]
     if length != units.UNKNOWN:
         units.metres(str(length))  # raises ValueError if it is not a length
-    for name, (_, power) in OVER_LEVELS.items():
+    for name, (_, power) in (OVER_LEVELS | ABOUT_GRID).items():
         needed = unit_power(length, power)
         if stated.get(name, needed) != needed:
             raise ValueError(f"{name} is in {stated[name]!r} and depth in {length!r}; {needed!r} is needed for {name}")
@@ -129,18 +146,21 @@ def _check_contact(curve: LoadingCurve) -> None:
             raise ValueError(f"{needed} (level {np.argmax(where)}); {_NEEDED}")
 
 
-def _converted(name: str, value: Any, kind: type) -> Any:
-    """A global attribute as int, float or str. Raises ValueError unless it is a whole number, a number or text."""
+def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
+    """A global attribute as int, float or str. Raises ValueError unless it is a whole number, a number or text.
+
+    least : the least number that is allowed
+    """
     with contextlib.suppress(TypeError, ValueError, OverflowError):
         converted = kind(value)
-        if isinstance(value, str) if kind is str else np.ndim(value) == 0 and converted == value and value >= 0:
+        if isinstance(value, str) if kind is str else np.ndim(value) == 0 and converted == value and value >= least:
             return converted
-    needed = {int: "a whole number from 0 on", float: "a number from 0 on", str: "text"}[kind]
+    needed = {int: f"a whole number from {least:g} on", float: f"a number from {least:g} on", str: "text"}[kind]
     raise ValueError(f"attribute {name} is {value!r}; {needed} is needed")
 
 
 def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
-    """LoadingCurves as one Content over (realization, level), nan beyond each curve's last level.
+    """LoadingCurves as one Content over (realization, level), nan beyond each curve's last level; without grid errors.
 
     Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list, and for curves
     in different units of length.

@@ -20,7 +20,7 @@ from viscorough.contact_maps import Contact
 from viscorough.indenter import Indenter
 from viscorough.io.atomic import reading
 from viscorough.io.contacts import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
-from viscorough.io.curves import OVER_LEVELS
+from viscorough.io.curves import ABOUT_GRID, OVER_LEVELS
 from viscorough.io.netcdf import Content, Variable
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, FilePath
@@ -37,11 +37,12 @@ _MEASURES = {
     "mean_pressure": "pressure",
     "largest_pressure": "pressure",
     "patches": None,
+    **dict.fromkeys(ABOUT_GRID),
 }
 # Names of columns if a modulus is given; F, k and p then take the place of F/G, k/G and p/G.
 _WITH_MODULUS = {"force": "normal_force", "stiffness": "normal_stiffness"}
 _WITH_MODULUS |= {"mean_pressure": "mean_normal_pressure", "largest_pressure": "largest_normal_pressure"}
-_OF_CONTACTS = [name for name in _MEASURES if name != "contact_count"]
+_OF_CONTACTS = [name for name in _MEASURES if name not in ("contact_count", *ABOUT_GRID)]
 _OF_CURVES = ["depth", "force", "stiffness", "contact_count", "contact_fraction", "contact_area", "mean_pressure"]
 _COUNTS = ("contact_count", "patches")
 _GIVEN = ("depth", "force", "normal_force")  # quantities that users give, with six digits in texts
@@ -51,7 +52,9 @@ _TEXTS = {
     "warnings": "doubts about the numbers; empty if there are none",
     "digest": "SHA-256, first 16 digits, of the file, of the settings and of the version of viscorough",
 }
-_MEANINGS = {name: text for name, (text, _) in (OVER_LEVELS | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()}
+_MEANINGS = {
+    name: text for name, (text, _) in (OVER_LEVELS | ABOUT_GRID | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()
+}
 # {column: (meaning, unit)} of rows_of_contacts if a modulus and the unit of length are known.
 SI_COLUMNS = {
     _WITH_MODULUS.get(name, name): (
@@ -102,9 +105,10 @@ def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float 
 
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known; None if it is not given
     """
-    area = curve.contact_count * indenter.spacing * indenter.row_spacing
+    area = curve.contact_count * curve.sampling**2 * indenter.spacing * indenter.row_spacing
     derived = {"contact_area": area, "mean_pressure": curve.force / area}
     values = {name: derived[name] if name in derived else getattr(curve, name) for name in _OF_CURVES}
+    values |= {name: getattr(curve, name) for name in ABOUT_GRID if getattr(curve, name) is not None}
     return _rows(values, curve.length_unit, shear_modulus)
 
 

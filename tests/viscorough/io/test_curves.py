@@ -50,9 +50,23 @@ def attribute(name, value):
     return lambda content: content.with_attributes(**{name: value})
 
 
-@pytest.mark.parametrize(("name", "levels"), [("a.nc", 1), ("a.nc", netcdf.COMPRESSED_FROM)])
-def test_curve_survives_a_file_exactly(tmp_path, name, levels):
-    curve = random_curve(levels)
+ABOUT_GRID = {
+    "grid_error": [0.3, 0.01],
+    "force_grid_error": [0.2, 0.0],
+    "area_change": [-0.5, 0.1],
+    "mean_grid_error": 1 / 3,
+    "mean_area_change": -1 / 7,
+    "sampling": 4,
+    "choice": "every 4th point, for a reason",
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "levels", "about"),
+    [("a.nc", 1, {}), ("a.nc", netcdf.COMPRESSED_FROM, {}), ("a.nc", 2, ABOUT_GRID)],
+)
+def test_curve_survives_a_file_exactly(tmp_path, name, levels, about):
+    curve = random_curve(levels, **about)
     curve.save(str(tmp_path / name))
     assert_same_curve(load_curve(tmp_path / name), curve)
     Indenter(np.eye(3), 1.0).save(tmp_path / "map.nc")
@@ -124,6 +138,26 @@ def test_what_no_curve_has_is_refused(change, what):
     if (change, what) in ALSO_STACKED:
         with refused(what):
             unstack_curves(change(stack_curves([curve])))
+
+
+@pytest.mark.parametrize(
+    ("change", "what"),
+    [
+        (entry("grid_error", 1, -0.1), "loading curve: grid_error must be finite and not below 0"),
+        (entry("force_grid_error", 0, np.nan), "loading curve: force_grid_error must be finite"),
+        (entry("area_change", 0, -1.5), "loading curve: area_change must be finite and not below -1"),
+        (units(grid_error="m"), "grid_error is in 'm'"),
+        *[(attribute("sampling", value), "sampling is .*; a whole number from 1 on") for value in (0, 1.5, "2")],
+        (attribute("mean_grid_error", -0.1), "mean_grid_error is -0.1; a number from 0 on is needed"),
+        (attribute("mean_area_change", -2.0), "mean_area_change is -2.0; a number from -1 on is needed"),
+        (attribute("choice", 3), "choice is 3; text is needed"),
+    ],
+)
+def test_grid_errors_that_no_curve_has_are_refused(change, what):
+    content = curve_to_content(random_curve(2, **ABOUT_GRID))
+    curve_from_content(content)
+    with refused(what):
+        curve_from_content(change(content))
 
 
 ROW, COLUMN = np.mgrid[:13, :13] - 6.0

@@ -1,0 +1,56 @@
+"""Loading curves with the error of the grid, and to a requested error, on the command line."""
+
+import numpy as np
+import pytest
+
+from support.command_line import run, values
+from support.tables import read_table
+from viscorough import indent, load_curve, read_heights, self_affine_disc
+from viscorough.io import netcdf
+
+
+@pytest.fixture
+def disc(here):
+    """A disc in the file disc.nc."""
+    self_affine_disc(0.8, 65, rms=0.02, length_unit="um", seed=1).save("disc.nc")
+    return read_heights("disc.nc")
+
+
+def test_grid_error_is_stored_and_stated(disc, capsys):
+    assert run("indent disc.nc --grid-error -o curve.nc") == 0
+    expected = indent(disc, estimate_grid_error=True)
+    assert netcdf.read("curve.nc").variables["grid_error"].dimensions == ("level",)
+    written = load_curve("curve.nc")
+    assert written == expected
+    text = f"grid error about {100 * expected.mean_grid_error:.2g} %: a scan twice as fine would change the velocity by"
+    assert text in capsys.readouterr().out.splitlines()[-1]
+    assert run("indent disc.nc -o curve.nc") == 0
+    assert "grid error" not in capsys.readouterr().out
+    assert "grid_error" not in values("curve.nc")
+
+
+@pytest.mark.parametrize("error", ["20%", "20 %", "0.2"])
+def test_error_states_what_was_chosen(disc, capsys, error):
+    assert run(f"indent disc.nc --error '{error}' -o curve.nc") == 0
+    expected, written = indent(disc, error=0.2), load_curve("curve.nc")
+    assert written == expected
+    assert expected.choice in capsys.readouterr().out.splitlines()
+
+
+def test_table_has_grid_errors_and_areas_of_the_chosen_points(disc):
+    """An element of every n-th point is n² times as large."""
+    self_affine_disc(0.9, 129, rms=0.02, length_unit="um", seed=2).save("other.nc")
+    assert run("indent disc.nc other.nc --error 20% -o table.csv") == 0
+    table, _ = read_table("table.csv")
+    for name in ("disc.nc", "other.nc"):
+        indenter, rows = read_heights(name), table[table["file"] == name]
+        curve = indent(indenter, error=0.2)
+        np.testing.assert_allclose(rows["grid_error"], curve.grid_error, rtol=1e-9)
+        area = curve.contact_fraction * curve.elements * (curve.sampling * indenter.spacing) ** 2
+        np.testing.assert_allclose(rows["contact_area"], area, rtol=1e-9)
+    assert curve.sampling > 1
+
+
+def test_grid_errors_of_several_files_need_curves(here, complaint):
+    line = "indent a.nc b.nc --grid-error --depths 1 -o table.csv"
+    assert "--grid-error with --depths or --forces is for one file of heights" in complaint(line)

@@ -6,7 +6,8 @@ Families of cases are checked against the direct integration in time: levels at 
 influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels at
 given forces, once more as on large maps. The curves of another one are checked by the two integrals that linear
 solutions give (viscorough.sum_rules), and whole curves of ordinary discs by the depth of complete contact: 257 elements
-across at a tolerance of 1e-2, and 65 or 129 across at random tolerances from 1e-1 to 1e-5.
+across at a tolerance of 1e-2, and 65 or 129 across at random tolerances from 1e-1 to 1e-5. Random histories of force
+and depth in all kinds of media are checked by inequalities that hold for each of them.
 `make stability` runs it. A failure is printed with the command that repeats it.
 """
 
@@ -28,6 +29,7 @@ from random_curves import (
     random_whole_curve,
     whole_curve_failure,
 )
+from random_motions import motion_failure, random_motion
 from tqdm import tqdm
 
 from viscorough.contact import prescribed_force, ranking
@@ -59,6 +61,7 @@ FAMILIES = {
         whole_curve_failure,
         5 / 12,
     ),
+    "histories": (random_motion, motion_failure, 5 / 6),
 }
 
 

@@ -325,7 +325,7 @@ def _growing(curve: LoadingCurve, row: RowOfSprings, load: Load, creep: Array) -
     in_contact = np.searchsorted(row.gap, np.nan_to_num(depth), side="left")
     nothing = np.zeros(load.time.size)
     always = np.ones(load.time.size, bool)
-    return RowMotion(depth, load.values, nothing, in_contact, creep, always, np.nan, nothing)
+    return RowMotion(depth, load.values, nothing, in_contact, creep, always, np.nan, nothing, nothing)
 
 
 def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> tuple[Array, Array]:

@@ -80,7 +80,7 @@ class RowMotion(NamedTuple):
     deflection : Σ w y of the springs in contact
     largest : whether the contact is larger than, or as large as, ever before
     receding_from : the time at which the first spring lets go; nan if none does
-    pressures : φ of every spring at the last time, shape (springs,)
+    pressures, surface : φ and g + y of every spring at the last time, shape (springs,)
     """
 
     depth: Array
@@ -91,6 +91,7 @@ class RowMotion(NamedTuple):
     largest: Mask
     receding_from: float
     pressures: Array
+    surface: Array
 
 
 class _Row(NamedTuple):
@@ -534,7 +535,9 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     force[k - 1], velocity[k - 1], in_contact[k - 1] = now, speed, count
                     largest[k - 1] = count >= state.most[0]
                 u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
-                t, f = (times[k], load[k]) if arrives else (t + s, f + rate * s)
+                t = times[k] if arrives else t + s
+                # From the end of the interval with the smaller load, so that a load that vanishes keeps its digits.
+                f = before + rate * (t - last) if abs(before) < abs(load[k]) else load[k] - rate * (times[k] - t)
                 if arrives:
                     break
                 events = events + 1 if t == at else 1
@@ -563,11 +566,13 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
         depth[k], in_contact[k], largest[k] = u, count, count >= state.most[0]
         deflection[k] = row.stiffness[count] * u - row.moment[count]
 
-    pressures = np.zeros(springs)
+    pressures, surface = np.zeros(springs), np.full(springs, u)
+    for i in range(count, springs):
+        surface[i] = _gap_now(state, law, gaps[i], t, i)
     for i in range(count):
         pressures[i] = law.relaxed * (u - gaps[i]) + law.viscosity * velocity[-1]
         for b in range(branches):
             own = state.common[b] + state.offset[i, b] * np.exp(-law.rates[b] * (t - state.joined[i]))
             pressures[i] += law.moduli[b] * own
     pressures = np.maximum(pressures, 0.0)
-    return depth, force, velocity, in_contact, deflection, largest, state.receding[0], pressures, ended, until
+    return depth, force, velocity, in_contact, deflection, largest, state.receding[0], pressures, surface, ended, until

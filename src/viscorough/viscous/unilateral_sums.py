@@ -24,6 +24,8 @@ from viscorough.viscous.unilateral import RowMotion
 _TOLERANCE = 1e-4
 # Largest number of steps, and of springs: the cost is steps² × springs.
 _MOST_STEPS, _MOST_SPRINGS = 3000, 400
+# Intervals of time over which a concave J rises less and less, and the rounding of these rises.
+_LAGS, _BEND = 256, 1e-9
 # Overlap that counts as none, relative to the depth.
 _ROUNDING = 1e-13
 
@@ -31,16 +33,18 @@ _ROUNDING = 1e-13
 def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion:
     """Return the motion of a row of springs; depth and force are nan from where the depth reaches the limit.
 
-    Warns with AccuracyWarning if the largest number of steps does not reach the tolerance.
+    Warns with AccuracyWarning if the largest number of steps does not reach the tolerance. Raises ValueError for a
+    medium whose creep compliance is not concave.
     """
+    _check_concave(medium, float(load.time[-1] - load.time[0]))
     samples = load.time.size
     parts = max(1, min(4, _MOST_STEPS // (2 * samples)))
-    coarse = _stepped(row, medium, load, parts)
+    coarse = step_row(row, medium, load, parts)
     error, best = np.inf, coarse
     extrapolated = None
     while error > _TOLERANCE and 2 * parts * samples <= _MOST_STEPS:
         parts *= 2
-        fine = _stepped(row, medium, load, parts)
+        fine = step_row(row, medium, load, parts)
         last, extrapolated = extrapolated, _extrapolated(coarse, fine)
         coarse, best = fine, extrapolated
         if last is not None:
@@ -57,6 +61,19 @@ def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion
     return best
 
 
+def _check_concave(medium: Medium, duration: float) -> None:
+    """Raise ValueError if J grows faster later on: contact that recedes is then no row of springs."""
+    lags = np.linspace(0.0, duration, _LAGS + 1)
+    rises = medium.creep_increment(lags[:-1], lags[1:])
+    faster = np.diff(rises) > _BEND * np.abs(rises).max()
+    if faster.any():
+        raise ValueError(
+            f"kinetics: the compliance of {type(medium).__name__} grows faster after time "
+            f"{lags[1:-1][np.argmax(faster)]:g} than before; allowed, under a depth and where contact recedes: a "
+            "concave J, as of every medium that relaxes"
+        )
+
+
 def _difference(one: RowMotion, other: RowMotion, *, by_depth: bool) -> float:
     """Largest difference of two motions, over the largest value."""
     values = (one.force, other.force) if by_depth else (one.depth, other.depth)
@@ -71,6 +88,7 @@ def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
         velocity=2 * fine.velocity - coarse.velocity,
         deflection=2 * fine.deflection - coarse.deflection,
         pressures=np.maximum(2 * fine.pressures - coarse.pressures, 0.0),
+        surface=2 * fine.surface - coarse.surface,
     )
 
 
@@ -101,7 +119,7 @@ def _refined(load: Load, parts: int) -> tuple[Array, Array, Array]:
     return np.concatenate(times), np.concatenate(values), np.array(place)
 
 
-def _stepped(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMotion:
+def step_row(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMotion:
     """The motion by so many steps between samples."""
     gap, stiffness, last_of_group = _with_fewer_springs(row)
     times, values, place = _refined(load, parts)
@@ -139,9 +157,10 @@ def _stepped(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMo
     before_step = np.flatnonzero(lengths == 0)
     velocity[before_step] = np.where(before_step > 0, velocity[np.maximum(before_step, 1) - 1], 0.0)
     last = np.repeat(pressures[-1], np.diff(np.append(-1, last_of_group)))
+    raised = np.interp(row.gap, gap, surface + compliance * pressures[-1] - gap)
     moved = (depth, force, velocity, in_row, deflection, largest)
     depth, force, velocity, in_row, deflection, largest = (each[place] for each in moved)
-    return RowMotion(depth, force, velocity, in_row, deflection, largest, float(receding_from), last)
+    return RowMotion(depth, force, velocity, in_row, deflection, largest, float(receding_from), last, row.gap + raised)
 
 
 def _depth_under(surface: Array, stiffness: Array, target: float) -> float:

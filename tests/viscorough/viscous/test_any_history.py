@@ -7,9 +7,21 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from support.contract import refused
 from support.curves import curve_of_body
 from support.media import MEDIA, SPRINGS_AND_DASHPOTS
-from viscorough import AccuracyWarning, Indenter, Load, Medium, indent, kinetics, march, reference, self_affine_disc
+from viscorough import (
+    AccuracyWarning,
+    Indenter,
+    Load,
+    Medium,
+    StandardLinearSolid,
+    indent,
+    kinetics,
+    march,
+    reference,
+    self_affine_disc,
+)
 
 BODIES = {"sphere": reference.sphere(1.7), "cone": reference.cone(0.3)}
 SPEED, TURN = 0.1, 1.0
@@ -203,6 +215,40 @@ def test_media_known_by_their_compliance_are_integrated_to_the_tolerance(name, c
         np.testing.assert_allclose(getattr(found, name), values, rtol=0, atol=5e-4 * values.max())
 
 
+class Accelerating(Wrapped):
+    """A medium whose compliance is not concave, which no medium that relaxes has."""
+
+    def __init__(self):
+        super().__init__(MEDIA["solid"])
+
+    def creep_compliance(self, time):
+        return 0.1 + np.maximum(np.asarray(time, float) - 1, 0.0)
+
+    def creep_rate(self, time, *, left=False):
+        return np.where(np.asarray(time) > 1, 1.0, 0.0)
+
+    def creep_integral(self, start, end):
+        late = [0.5 * np.maximum(np.asarray(time) - 1, 0.0) ** 2 for time in (start, end)]
+        return 0.1 * (np.asarray(end) - start) + late[1] - late[0]
+
+
+def test_media_without_a_concave_compliance_are_refused_where_contact_recedes():
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 201))
+    growing, receding = (Load([0.0, 1.0, 3.0], force=0.1 * np.array([0, 1, end])) for end in (1, 0.2))
+    assert np.isfinite(kinetics(curve, growing, Accelerating()).depth).all()
+    for load in (receding, Load([0.0, 1.0, 3.0], depth=[0, 0.1, 0.1])):
+        with refused("the compliance of Accelerating grows faster after time 0.99.* a concave J"):
+            kinetics(curve, load, Accelerating())
+
+
+def test_motions_that_overflow_are_refused():
+    curve = indent(self_affine_disc(0.7, 9, rms=0.1, seed=1), until_fraction=1.0)
+    for load in (1e300, Load([0, 1, 2.0], force=[0, 1e300, 0])):
+        for medium in (1e-300, MEDIA["springpot"].__class__(1e-300, 0.5)):
+            with refused("force: depths or forces overflow in this medium"):
+                kinetics(curve, load, medium, [1.0, 2.0])
+
+
 def test_a_curve_that_begins_late_is_warned_of():
     curve = curve_of_body(BODIES["sphere"], np.geomspace(0.1, 1, 50))
     load = Load([0, 1, 2.0], depth=[0.0, 0.2, 0.0])
@@ -222,3 +268,12 @@ def test_forces_at_steps_of_the_depth(name):
     assert 0 <= after < before
     if not medium.creep_compliance(0.0) > 0:
         assert after == 0
+
+
+def test_depth_follows_a_force_that_vanishes():
+    """Its limit is reached as the square root of the force. Thousands of springs let go on the way."""
+    curve = curve_of_body(BODIES["cone"], np.geomspace(1e-7, 1, 271))
+    medium, short = StandardLinearSolid(1.5e-4, 5e-7, 0.165), 1e-9
+    load = Load([0.0, 0.25, 0.3, 0.4, 0.5], force=1e-5 * np.array([4, 8, 3, 0, 0]))
+    before, after = kinetics(curve, load, medium, [0.4 - short, 0.4]).depth
+    assert after == pytest.approx(before, rel=1e-4)

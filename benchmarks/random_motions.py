@@ -1,0 +1,191 @@
+"""Random histories of force or depth on random loading curves in random media, to find motions that are wrong.
+
+The inequalities of docs/theory.md, "Any history: a row of springs", hold for every history: the forces of the springs
+fall along the row (c ≥ 0), and free springs keep their order (C ≤ 1).
+"""
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+from random_heights import random_heights, with_random_aspect
+
+from viscorough.contact.loading_path import indent
+from viscorough.errors import AccuracyWarning
+from viscorough.indenter import Indenter
+from viscorough.loading_curve import LoadingCurve
+from viscorough.reference import cone, sphere
+from viscorough.viscous.creep_response import creep_response
+from viscorough.viscous.kinetics import kinetics, row_motion
+from viscorough.viscous.load import Load
+from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.viscous.medium import Medium
+from viscorough.viscous.unilateral_sums import step_row
+
+_LARGEST = 24  # elements across
+_ENDS = 3  # times at which the springs of a history are examined
+# c over the largest φ of the history, C − 1, and the sum of the forces over the largest force.
+_LEAST_C, _MOST_C, _SUM = 1e-10, 1e-9, 1e-6
+# Differences between histories with few and with many samples, over the largest value.
+_SAMPLES = {CreepTable: 2e-3, Springpot: 1e-3}
+_SAMPLES_OF_SPRINGS = 1e-9
+# Largest share of the last level at which a history ends: contact that has receded and returns goes deeper than Φ.
+_SHARE = 0.6
+
+
+@dataclass(frozen=True)
+class RandomMotion:
+    """A loading curve, a medium, and a history of force or depth."""
+
+    curve: LoadingCurve
+    medium: Medium
+    load: Load
+
+
+def random_motion(generator):
+    """A RandomMotion from a numpy Generator."""
+    curve, (medium, own_time) = _random_curve(generator), _random_medium(generator)
+    by_depth, rigid = generator.random() < 0.5, isinstance(medium, Newtonian | KelvinVoigt)
+    time, shape = _random_shape(generator, own_time, may_step=not (by_depth and rigid))
+    share = _SHARE * 10.0 ** generator.uniform(-2, 0)
+    if by_depth:
+        below = generator.random() * generator.choice([0.0, 0.5])
+        lifted = np.where((shape == 0) & (np.arange(shape.size) > 0), -below, shape)
+        return RandomMotion(curve, medium, Load(time, depth=share * curve.depth[-1] * lifted))
+    fine, _ = Load(time, force=shape).with_times(np.unique(np.append(time, np.linspace(time[0], time[-1], 200))))
+    largest = creep_response(medium, fine).creep.max()
+    scale = share * curve.force[-1] / largest if largest > 0 else 1.0
+    return RandomMotion(curve, medium, Load(time, force=scale * shape))
+
+
+def _random_curve(generator):
+    """The curve of a round body, with exact levels, or of a random map at a random tolerance."""
+    if generator.random() < 0.2:
+        body = (
+            sphere(10.0 ** generator.uniform(-1, 1)) if generator.random() < 0.5 else cone(generator.uniform(0.05, 1))
+        )
+        depth = np.geomspace(10.0 ** generator.uniform(-7, -4), 1.0, generator.integers(30, 400))
+        count = 10 * np.arange(1, depth.size + 1)
+        levels = depth, body.force(depth), body.stiffness(depth), count
+        return LoadingCurve(*levels, 10 * depth.size + 1, "exact", 1e-6, 0, np.zeros(depth.size))
+    heights = random_heights(generator, int(generator.integers(2, _LARGEST + 1)))
+    height, length = 10.0 ** generator.uniform(-6, 6, 2) if generator.random() < 0.2 else (1.0, 1.0)
+    indenter = with_random_aspect(Indenter(height * heights, length), generator)
+    return indent(
+        indenter, tolerance=10.0 ** -generator.uniform(1, 6), until_fraction=generator.choice([0.3, 0.7, 1.0])
+    )
+
+
+def _random_medium(generator):
+    """A medium of any kind, and a time of it."""
+    kind = generator.choice(["newtonian", "maxwell", "kelvin_voigt", "solid", "prony", "springpot", "table"])
+    modulus, time = 10.0 ** generator.uniform(-4, 4, 2)
+    if kind == "newtonian":
+        return Newtonian(modulus * time), time
+    if kind == "kelvin_voigt":
+        return KelvinVoigt(modulus, modulus * time), time
+    if kind == "maxwell":
+        return Maxwell(modulus, modulus * time), time
+    if kind == "solid":
+        return StandardLinearSolid(modulus, modulus * 10.0 ** generator.uniform(-4, -0.01), time), time
+    if kind == "prony":
+        number = generator.integers(1, 6)
+        relaxed = generator.choice([0.0, modulus * 10.0 ** generator.uniform(-3, 1)])
+        times = time * 10.0 ** generator.uniform(-3, 3, number)
+        return Prony(relaxed, modulus * 10.0 ** generator.uniform(-2, 2, number), times), time
+    if kind == "springpot":
+        return Springpot(modulus, generator.uniform(0.02, 0.98)), time
+    times = np.append(0.0, time * np.geomspace(1e-3, 1e3, generator.integers(5, 40)))
+    rises = np.sort(10.0 ** generator.uniform(-2, 1, times.size - 1))[::-1] * np.diff(times) / time
+    start = 10.0 ** generator.uniform(-3, 1) / modulus
+    return CreepTable(times, start + np.append(0.0, np.cumsum(rises)) / modulus), time
+
+
+def _random_shape(generator, own_time, *, may_step):
+    """Times, and a load from 0 to 1 with ramps, holds and rests; steps where a time is given twice."""
+    number = generator.integers(3, 12)
+    equal = np.full(number, 10.0 ** generator.uniform(-1.5, 0.5))
+    lengths = equal if generator.random() < 0.5 else 10.0 ** generator.uniform(-2, 1, number)
+    time = own_time * np.append(0.0, np.cumsum(lengths))
+    time *= min(1.0, 900 * own_time / time[-1])  # a table of J ends
+    shape = generator.random(time.size) * generator.choice([0.0, 1.0, 1.0, 1.0], time.size)
+    held = np.flatnonzero(generator.random(time.size - 1) < 0.3)
+    shape[held + 1] = shape[held]
+    shape /= max(shape.max(), 1e-3)
+    if not may_step:
+        return time, np.append(0.0, shape[1:])
+    twice = 1 + (generator.random(time.size) < 0.2)
+    time, steps = np.repeat(time, twice), np.repeat(shape, twice)
+    second = np.flatnonzero(np.diff(time) == 0) + 1
+    steps[second] = generator.random(second.size)
+    return time, steps
+
+
+def motion_failure(case):
+    """Error message on the motion of a RandomMotion; "" if it is right.
+
+    A motion may be refused only if its contact grows beyond the curve.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AccuracyWarning)
+        motion = kinetics(case.curve, case.load, case.medium)
+        return _range_failure(case, motion) or _samples_failure(case, motion) or _springs_failure(case)
+
+
+def _range_failure(case, motion):
+    """Error message unless depths are finite, forces are not negative, and contact fractions are within 0 and 1."""
+    known = np.isfinite(motion.depth) & np.isfinite(motion.force)
+    if not known.any():
+        return "nothing is known"
+    if (motion.force[known] < 0).any():
+        return f"a force of {motion.force[known].min():.2g}"
+    if not ((motion.contact_fraction >= 0) & (motion.contact_fraction <= 1)).all():
+        return "a contact fraction beyond 0 and 1"
+    return ""
+
+
+def _samples_failure(case, motion):
+    """Error message if more samples of the same history change the motion."""
+    load = case.load
+    pairs = zip(load.time[:-1], load.time[1:], strict=True)
+    inner = np.concatenate([a + (b - a) * np.array([0.21, 0.5, 0.83]) for a, b in pairs if b > a])
+    more, _ = load.with_times(np.unique(np.append(load.time, inner)))
+    kept = ~np.isin(more.time, inner)
+    again = kinetics(case.curve, more, case.medium)
+    allowed = _SAMPLES.get(type(case.medium), _SAMPLES_OF_SPRINGS)
+    for name in ("depth", "force"):
+        one, other = getattr(motion, name), getattr(again, name)[kept]
+        finite = np.isfinite(one) & np.isfinite(other)
+        largest = max(np.abs(one[finite]).max(initial=0), np.finfo(float).tiny)
+        found = np.abs(one[finite] - other[finite]).max(initial=0) / largest
+        if found > allowed:
+            return f"more samples change the {name} by {found:.2g}"
+    return ""
+
+
+def _springs_failure(case):
+    """Error message unless c ≥ 0, C ≤ 1, and the springs carry the force, at the ends of parts of the history."""
+    load, ends = case.load, np.linspace(case.load.time[0], case.load.time[-1], _ENDS + 1)[1:]
+    moved = []
+    for end in ends:
+        longer, (place,) = load.with_times([end])
+        values = longer.values[: place + 1]
+        part = Load(longer.time[: place + 1], **{"depth" if load.by_depth else "force": values})
+        row, motion = row_motion(case.curve, case.medium, part)
+        if isinstance(case.medium, CreepTable):  # the inequalities hold for steps in time, too
+            motion = step_row(row, case.medium, part, 4)
+        moved.append((end, row, motion))
+    largest = max(motion.pressures.max() for *_, motion in moved)
+    most = max(motion.force.max() for *_, motion in moved)
+    for end, row, motion in moved:
+        rise = np.diff(motion.pressures).max(initial=0)
+        if rise > _LEAST_C * largest or motion.pressures.min() < 0:
+            return f"c of {-rise / largest:.2g} times the largest force at time {end:g}"
+        crossing = (-np.diff(motion.surface) / np.diff(row.gap)).max(initial=0)
+        rounding = 1e-13 * np.abs(motion.surface).max() / np.diff(row.gap).min(initial=np.inf)
+        if crossing > _MOST_C + rounding:
+            return f"C of 1 + {crossing:.2g} at time {end:g}"
+        error = abs(row.stiffness @ motion.pressures - motion.force[-1])
+        if error > _SUM * most:
+            return f"springs carry {error / most:.2g} times the largest force too much or too little at time {end:g}"
+    return ""

@@ -18,7 +18,7 @@ from click.testing import CliRunner
         ("audits", 20),
         ("whole_discs", 3),
         ("whole_tolerances", 10),
-        ("histories", 60),
+        ("histories", 20),
     ],
 )
 def test_random_indenters_do_not_fail_silently(family, count):

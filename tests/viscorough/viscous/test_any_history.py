@@ -1,5 +1,12 @@
-"""Kinetics of contacts that recede and return: closed forms of Ting, direct integration, and other representations."""
+"""Kinetics of contacts that recede and return: closed forms of Ting, direct integration, and other representations.
 
+    GRID=257 python -m pytest -s tests/viscorough/viscous/test_any_history.py -k grids
+
+compares bodies on maps of up to that many elements across with exact solutions, and prints errors and orders.
+"""
+
+import functools
+import os
 from functools import partial
 
 import numpy as np
@@ -25,6 +32,7 @@ from viscorough import (
 
 BODIES = {"sphere": reference.sphere(1.7), "cone": reference.cone(0.3)}
 SPEED, TURN = 0.1, 1.0
+GRID = int(os.environ.get("GRID", "65"))
 
 
 def ting(body, medium, time):
@@ -68,6 +76,56 @@ def test_approach_and_retract_follow_ting(name, body):
     expected = np.array([ting(body, medium, time) for time in times])
     np.testing.assert_allclose(motion.force, expected, rtol=0, atol=3e-5 * expected.max())
     assert motion.receding_from == pytest.approx(TURN, abs=3e-3)
+
+
+@functools.cache
+def curve_of_map(name, across):
+    """Loading curve of a body on a square map of side 1, which touches far inside its edge."""
+    position = np.linspace(-0.5, 0.5, across)
+    radius = np.hypot(position[:, None], position)
+    heights = -(radius**2) / (2 * 1.7) if name == "sphere" else -0.3 * radius
+    depths = SPEED * np.geomspace(1e-3, 1.0, 100)
+    return indent(Indenter(heights, position[1] - position[0]), depths=depths, tolerance=1e-5)
+
+
+def assert_converges(what, errors):
+    """Print errors by the number of elements across; assert that they fall, to 1e-3 at the finest grid."""
+    grids, values = np.array(list(errors)), np.array(list(errors.values()))
+    order = -np.polyfit(np.log(grids), np.log(values), 1)[0]
+    print(f"{what}: errors {values.round(6).tolist()} on {grids.tolist()}, order {order:.2g}")
+    assert values[-1] < 1e-3
+    assert order > 0.8
+
+
+GRIDS = [n for n in (33, 65, 129, 257) if n <= GRID]
+
+
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("name", ["maxwell", "solid", "springpot"])
+def test_ting_on_grids(name, body):
+    load = Load([0.0, TURN, 2 * TURN], depth=[0.0, SPEED * TURN, 0.0])
+    times = np.array([0.5, 0.8, 0.999, 1.05, 1.1, 1.2, 1.3, 1.5])
+    expected = np.array([ting(BODIES[body], MEDIA[name], time) for time in times])
+    errors = {}
+    for across in GRIDS:
+        found = kinetics(curve_of_map(body, across), load, MEDIA[name], times).force
+        errors[across] = np.abs(found - expected).max() / expected.max()
+    assert_converges(f"{name}, {body}", errors)
+
+
+def test_release_on_grids():
+    """Depth of a sphere after its force is removed, against a curve without a grid."""
+    medium, end = MEDIA["solid"], 0.7
+    exact = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 401))
+    force = 0.9 * exact.force[np.searchsorted(exact.depth, SPEED)]
+    load = Load([0.0, end, end, 5.0], force=[force, force, 0, 0])
+    times = [0.3, 0.7, 1.0, 2.0, 5.0]
+    expected = kinetics(exact, load, medium, times).depth
+    errors = {}
+    for across in GRIDS:
+        found = kinetics(curve_of_map("sphere", across), load, medium, times).depth
+        errors[across] = np.abs(found - expected).max() / expected.max()
+    assert_converges("release of a sphere", errors)
 
 
 def test_release_of_a_sphere():

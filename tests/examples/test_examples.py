@@ -15,6 +15,7 @@ NUMBERS = {
     "patches": ("numbers", pytest.approx([115, 362, 771, 510], rel=0.03)),
     "contact_area": ("ratio", pytest.approx(1.5244, rel=0.01)),
     "ramp_in_a_polymer": ("crept", pytest.approx(2.1317, rel=5e-3)),
+    "force_curve": ("works", pytest.approx([8.147e-17, 3.4348e-16, 1.8556e-16], rel=0.01)),
     "sphere_in_a_solid": ("error", pytest.approx(0, abs=2e-4)),
 }
 

@@ -31,6 +31,7 @@ from importlib import resources
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.arrays import real_number, real_numbers
 from viscorough.reference import one_element_stiffness
@@ -130,17 +131,26 @@ class PenetrationLaw:
     x_low: float
     x_high: float
 
-    def velocity(self, x: Numbers) -> Array:
+    def __repr__(self) -> str:
+        """H, range and power law, instead of all constants."""
+        (low, high), (least, most), (begin, end) = self.beta_interval, self.zeta_interval, self.region
+        return (
+            f"Penetration law vt/h = X + g(X) for H = {self.hurst:g}, X from {self.x_low:.3g} to {self.x_high:.3g}\n"
+            f"power law X^beta/zeta from X = {begin:.3g} to {end:.3g}: beta {self.beta:.4g} [{low:.4g}, {high:.4g}], "
+            f"zeta {self.zeta:.4g} [{least:.4g}, {most:.4g}]"
+        )
+
+    def velocity(self, x: "ArrayLike") -> Array:
         """vt/h at X, any shape. Raises ValueError outside the range of X in which the law was calibrated."""
         x = self._inside(x)
         return x + interface_velocity(x, *self.constants)
 
-    def depth(self, x: Numbers) -> Array:
+    def depth(self, x: "ArrayLike") -> Array:
         """u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError as `velocity`."""
         x = self._inside(x)
         return x + interface_depth(x, *self.constants)
 
-    def velocity_interval(self, x: Numbers) -> Array:
+    def velocity_interval(self, x: "ArrayLike") -> Array:
         """Return (lower, upper) vt/h at X between which 95 % of single surfaces lie, shape (2, shape of X).
 
         Raises ValueError as `velocity`.
@@ -148,7 +158,7 @@ class PenetrationLaw:
         x = self._inside(x)
         return self.velocity(x) * relative_interval(scatter_calibration(), "velocity", self.hurst, x)
 
-    def depth_interval(self, x: Numbers) -> Array:
+    def depth_interval(self, x: "ArrayLike") -> Array:
         """Return (lower, upper) u/h at X between which 95 % of single surfaces lie, shape (2, shape of X).
 
         Raises ValueError as `velocity`.
@@ -161,7 +171,7 @@ class PenetrationLaw:
         """A, b, s, m and d of g, in the order of `CONSTANTS`."""
         return self.amplitude, self.exponent, self.bend, self.fall, self.cutoff
 
-    def _inside(self, x: Numbers) -> Array:
+    def _inside(self, x: "ArrayLike") -> Array:
         """X as an array. Raises ValueError outside the range of the law."""
         x = real_numbers("X of the law", x)
         if not np.all((x >= self.x_low) & (x <= self.x_high)):

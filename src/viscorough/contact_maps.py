@@ -7,7 +7,7 @@ import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays, ReadOnlyTuple, real_number
 from viscorough.saved import Saved
-from viscorough.summaries import unit_power, with_unit
+from viscorough.summaries import span, unit_power, with_unit
 from viscorough.types import Mask
 from viscorough.units import in_metres, result_units, square_metres
 
@@ -32,6 +32,11 @@ class Patches(ReadOnlyTuple, _Patches):
     """
 
     __slots__ = ()
+
+    def __repr__(self) -> str:
+        """Number and areas of the patches, instead of the map."""
+        areas = f", areas {span(self.areas)}" if len(self.areas) else ""
+        return f"Patches: {len(self.areas)} of the contact{areas}"
 
 
 @dataclass(frozen=True)

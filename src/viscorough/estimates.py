@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscorough.arrays import ReadOnlyArrays, increasing, real_numbers
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
+from viscorough.saved import Saved
 from viscorough.summaries import span
 from viscorough.viscous.creep_response import constant_creep
 from viscorough.viscous.media import medium_of
@@ -22,7 +23,7 @@ from viscorough.viscous.medium import Medium
 
 
 @dataclass(frozen=True)
-class Estimate(ReadOnlyArrays):
+class Estimate(ReadOnlyArrays, Saved):
     """Depth and velocity over time by the penetration law; arrays of shape (times,), nan where the law does not hold.
 
     time : t; x : X = F·J(t)/(4hL)
@@ -67,7 +68,7 @@ class Estimate(ReadOnlyArrays):
 
 
 def estimate(
-    hurst: float, rms: float, diameter: float, force: float, medium: Medium | float, times: ArrayLike
+    hurst: float, rms: float, diameter: float, force: float, medium: Medium | float, times: "ArrayLike"
 ) -> Estimate:
     """Depth and velocity of a self-affine indenter under a constant force, by the calibrated law, without a simulation.
 

@@ -14,7 +14,7 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only
 from viscorough.saved import Saved
 from viscorough.summaries import span, unit_power
-from viscorough.types import Array, Integers, Pair
+from viscorough.types import Array, Integers, Pair, Scalar
 
 # Relative rounding error of forces and depths that is allowed for.
 _ROUNDING = 1e-12
@@ -167,7 +167,7 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         """Whether the tangent of the first level passes through the origin, as with all contacts at one height."""
         return bool(abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0])
 
-    def normalised(self, rms: float, diameter: float) -> tuple[Array, Array]:
+    def normalised(self, rms: Scalar, diameter: Scalar) -> tuple[Array, Array]:
         """X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) for rms height h and diameter L; both of shape (levels,)."""
         unit = self.length_unit
         rms, diameter = units.number(rms, unit, unit, "rms"), units.number(diameter, unit, unit, "diameter")
@@ -175,7 +175,7 @@ class LoadingCurve(ReadOnlyArrays, Saved):
             raise ValueError(f"normalised: rms {rms:g}, diameter {diameter:g}; numbers above 0 are needed")
         return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
 
-    def at_force(self, force: ArrayLike) -> tuple[Array, Array]:
+    def at_force(self, force: "ArrayLike") -> tuple[Array, Array]:
         """Depth u and stiffness k/G at given F/G, interpolated between the levels; nan beyond the last one.
 
         Where at most one element joined the contact from one level to the next, the curve is made of the two
@@ -212,7 +212,7 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         depth[inside], stiffness[inside] = interpolate_between(*between, force[inside])
         return depth, stiffness
 
-    def at_depth(self, depth: ArrayLike) -> tuple[Array, Array]:
+    def at_depth(self, depth: "ArrayLike") -> tuple[Array, Array]:
         """Force F/G and stiffness k/G at given depths u, interpolated between the levels; nan beyond the last one.
 
         The inverse of `at_force`: the same curve, read the other way round. Before the first level force and stiffness

@@ -15,16 +15,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from viscorough import units
-from viscorough.contact_maps import Contact
-from viscorough.indenter import Indenter
 from viscorough.io.atomic import atomic_write
 from viscorough.io.curves import STORED, curve_from_content, unstack_curves
 from viscorough.io.netcdf import Content, Variable
-from viscorough.io.saving import to_content
-from viscorough.loading_curve import LoadingCurve
+from viscorough.io.saving import Result, to_content
 from viscorough.summaries import with_unit
 from viscorough.types import Array, FilePath
-from viscorough.viscous.motion import Motion
 
 Variables = dict[str, Variable]
 FORMATS: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}  # metadata: no dates
@@ -37,7 +33,15 @@ _STYLE: dict[Any, Any] = {"font.size": 8, "axes.titlesize": 8, "lines.linewidth"
 _STYLE |= {"savefig.dpi": 200, "svg.hashsalt": "viscorough"}
 _COLOURS = {"heights": "cividis", "gap": "cividis", "pressure": "inferno"}
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_SYMBOLS = {"depth": "u", "force": "F/G", "stiffness": "k/G", "pressure": "p/G", "time": "t", "velocity": "v"}
+_SYMBOLS = {
+    "depth": "u",
+    "force": "F/G",
+    "stiffness": "k/G",
+    "pressure": "p/G",
+    "time": "t",
+    "velocity": "v",
+    "compliance": "J",
+}
 # Name of a variable: what stands on its axis.
 _LABELS = {name: f"{name} ${symbol}$" for name, symbol in _SYMBOLS.items()}
 _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x": "$x$", "y": "$y$"}
@@ -49,12 +53,12 @@ _PRESSURES = ("normal_pressure", "mean_normal_pressure", "largest_normal_pressur
 _AREAS = ("contact_area", "corrected_contact_area")
 
 
-def plot(result: Content | LoadingCurve | Motion | Contact | Indenter, path: FilePath | None = None) -> Figure:
-    """Draw a result: the heights of an Indenter, the fields of a Contact, a LoadingCurve, or a Motion.
+def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
+    """Draw a result: heights, fields of a contact, a loading curve, a motion, an estimate, or a compliance.
 
     Parameters
     ----------
-    result : Content or LoadingCurve or Motion or Contact or Indenter
+    result : Content or Indenter or LoadingCurve or Contact or Motion or Estimate or IdentifiedMedium
         One of these, or the io.netcdf.Content of a file.
     path : path, optional
         .png, .pdf or .svg to write, atomically; the same result gives the same bytes. By default nothing is written.
@@ -240,6 +244,16 @@ def _loop(variables: Variables) -> Figure:
     return figure
 
 
+def _compliance(variables: Variables) -> Figure:
+    time, low, high = (variables[name].values for name in ("time", "low", "high"))
+    figure, (panel,) = _panels(1)
+    after = time > 0  # logarithmic axes
+    panel.fill_between(time[after], low[after], high[after], color=_BLUE, alpha=0.25, linewidth=0)
+    _curve(panel, time[after], variables["compliance"].values[after])
+    _label(panel, variables, "time", "compliance", "compliance")
+    return figure
+
+
 def _loading_curve(variables: Variables) -> Figure:
     dimensions = variables["depth"].values.ndim
     force, stiffness = (_with_modulus(variables, name) for name in ("force", "stiffness"))
@@ -296,6 +310,7 @@ _KINDS: tuple[tuple[Callable[[Variables], Figure], dict[str, tuple[str, ...]]], 
     (_fields, {"pressure": ("level", "y", "x"), **_XY}),
     (_surface, {"heights": ("y", "x"), **_XY}),
     (_surface, {"heights": ("x",), **_X}),
+    (_compliance, dict.fromkeys(("time", "compliance", "low", "high"), ("level",))),
     (_motion, {"time": ("level",), "depth": ("level",)}),
     (_loading_curve, {"depth": ("level",), "force": ("level",)}),
     (_loading_curve, {"depth": ("realization", "level"), "force": ("realization", "level")}),

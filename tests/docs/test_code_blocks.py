@@ -4,6 +4,7 @@ Those on the page of the results run in tests/workflow/test_page.py, those for w
 """
 
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -64,6 +65,22 @@ def test_blocks_run(page):
 def test_readme_makes_the_picture_that_it_shows(tmp_path):
     run_page(README)
     assert compare_images(ROOT / "docs/own_surface.png", tmp_path / "own_surface.png", tol=1) is None
+
+
+CHECKERS = {
+    "mypy": [sys.executable, "-m", "mypy", "--config-file=", "--disable-error-code=import-untyped"],
+    "pyright": ["pyright", "--pythonpath", sys.executable],  # a program of npm
+}
+
+
+@pytest.mark.parametrize("checker", [name for name in CHECKERS if name == "mypy" or shutil.which(name)])
+def test_checkers_of_types_accept_the_blocks(tmp_path, checker):
+    """All blocks in Python of a page as a user's script; packages without annotations are left out."""
+    for page in (README, ROOT / "docs/own_surface.md"):
+        script = tmp_path / f"{page.stem.lower()}.py"
+        script.write_text("\n".join(block.text for block in RUN[page] if block.language == "python"))
+        done = subprocess.run([*CHECKERS[checker], script], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout
 
 
 def test_files_shown_are_read():

@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import inspect
 import pickle
 
 import numpy as np
@@ -10,6 +11,8 @@ import pytest
 import viscorough
 from support.contract import refused
 from viscorough.arrays import ReadOnlyArrays
+from viscorough.io.datasets import read_dataset
+from viscorough.saved import Saved
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.stepping import march_steps
 
@@ -172,3 +175,54 @@ def test_energies_beyond_double_precision_are_refused(heights):
         with refused(f"energy of complete contact is {what}"):
             end(scale)
     assert viscorough.complete_contact(viscorough.Indenter(np.zeros((2, 2)), 1.0)).energy == 0
+
+
+SAVED = [pytest.param(one, id=type(one).__name__) for one in results() if isinstance(one, Saved)]
+
+
+def test_texts_of_results_are_short():
+    """Those in notebooks: no arrays of numbers."""
+    heights = viscorough.self_affine_disc(0.7, 65, rms=1.0, seed=1)
+    curve = viscorough.indent(heights, until_fraction=0.2)
+    contact = viscorough.contact_at(heights, depth=0.1)
+    times = np.geomspace(1, 10, 200)
+    short = [heights, curve, contact, contact.patches(), viscorough.penetration_law(0.7), viscorough.SolverOptions()]
+    short += [viscorough.complete_contact(DISC), viscorough.CreepTable(np.append(0, times), np.append(1, 1 + times))]
+    for result in short:
+        assert len(repr(result)) < 400, repr(result)
+        assert "array(" not in repr(result)
+
+
+def test_text_of_options_has_what_differs_from_the_default():
+    assert repr(viscorough.SolverOptions()) == "SolverOptions()"
+    changed = viscorough.SolverOptions(precision="double", padding=False)
+    assert eval(repr(changed), {"SolverOptions": viscorough.SolverOptions}) == changed
+    assert repr(changed) == "SolverOptions(precision='double', padding=False)"
+
+
+@pytest.mark.parametrize("result", SAVED)
+def test_results_are_saved_drawn_and_converted(result, tmp_path):
+    """The dataset has the variables, attributes and coordinates of the NetCDF file."""
+    medium = isinstance(result, viscorough.IdentifiedMedium)
+    path = tmp_path / ("result.yaml" if medium else "result.nc")
+    result.save(path)
+    viscorough.plot(result, tmp_path / "figure.png")
+    assert (tmp_path / "figure.png").stat().st_size > 1000
+    dataset = result.to_dataset()
+    if medium:
+        assert dataset["compliance"].values.tolist() == result.compliance.tolist()
+        assert dataset["low"].attrs["units"] == "Pa-1"
+    else:
+        written = read_dataset(path)
+        assert set(dataset.coords) == set(written.coords)
+        assert all(value == written.attrs[name] for name, value in dataset.attrs.items() if name != "history")
+        assert dataset.equals(written)
+
+
+@pytest.mark.parametrize("name", [name for name in viscorough.__all__ if name != "reference"])
+def test_signatures_name_types_as_the_documentation_does(name):
+    """The unions of numpy.typing would fill a screen; those in viscorough.viscous are not covered."""
+    item = getattr(viscorough, name)
+    for function in [item, *(vars(item).values() if isinstance(item, type) else ())]:
+        if inspect.isfunction(function) and not function.__module__.startswith("viscorough.viscous"):
+            assert "numpy._typing" not in str(inspect.signature(function)), function.__name__

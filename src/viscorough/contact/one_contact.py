@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,9 +18,79 @@ from viscorough.contact_maps import Contact
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter, positive
 from viscorough.summaries import with_unit
-from viscorough.types import Progress
+from viscorough.types import Progress, Scalar, Several
 
 _SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
+
+
+@overload
+def contact_at(
+    indenter: Indenter,
+    *,
+    depth: Scalar | str,
+    force: None = None,
+    shear_modulus: Scalar | str | None = None,
+    tolerance: float = 1e-3,
+    progress: Progress | None = None,
+    threads: int = 1,
+    options: SolverOptions = DEFAULT,
+) -> Contact: ...
+
+
+@overload
+def contact_at(
+    indenter: Indenter,
+    *,
+    depth: None = None,
+    force: Scalar | str,
+    shear_modulus: Scalar | str | None = None,
+    tolerance: float = 1e-3,
+    progress: Progress | None = None,
+    threads: int = 1,
+    options: SolverOptions = DEFAULT,
+) -> Contact: ...
+
+
+@overload
+def contact_at(
+    indenter: Indenter,
+    *,
+    depth: Several,
+    force: None = None,
+    shear_modulus: Scalar | str | None = None,
+    tolerance: float = 1e-3,
+    progress: Progress | None = None,
+    threads: int = 1,
+    options: SolverOptions = DEFAULT,
+) -> list[Contact]: ...
+
+
+@overload
+def contact_at(
+    indenter: Indenter,
+    *,
+    depth: None = None,
+    force: Several,
+    shear_modulus: Scalar | str | None = None,
+    tolerance: float = 1e-3,
+    progress: Progress | None = None,
+    threads: int = 1,
+    options: SolverOptions = DEFAULT,
+) -> list[Contact]: ...
+
+
+@overload
+def contact_at(
+    indenter: Indenter,
+    *,
+    depth: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    shear_modulus: Scalar | str | None = None,
+    tolerance: float = 1e-3,
+    progress: Progress | None = None,
+    threads: int = 1,
+    options: SolverOptions = DEFAULT,
+) -> Contact | list[Contact]: ...
 
 
 def contact_at(
@@ -27,7 +98,7 @@ def contact_at(
     *,
     depth: ArrayLike | None = None,
     force: ArrayLike | None = None,
-    shear_modulus: float | str | None = None,
+    shear_modulus: Scalar | str | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,

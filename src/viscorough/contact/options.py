@@ -1,6 +1,6 @@
 """Options of the contact solver: how a contact is computed, as opposed to which contact and how accurately."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 from viscorough.arrays import real_number, shown, whole_number
 
@@ -55,6 +55,12 @@ class SolverOptions:
     dense_contacts: int = 400
     dense_interactions: int = 1_000_000
     padding: bool = True
+
+    def __repr__(self) -> str:
+        """Call that makes these options, without those that have their default."""
+        given = {field.name: getattr(self, field.name) for field in fields(self)}
+        changed = [f"{name}={given[name]!r}" for name in given if given[name] != getattr(SolverOptions, name)]
+        return f"SolverOptions({', '.join(changed)})"
 
     def __post_init__(self) -> None:
         if not isinstance(self.precision, str) or self.precision not in ("single", "double"):

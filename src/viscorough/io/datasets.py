@@ -9,6 +9,15 @@ from viscorough.io import netcdf
 from viscorough.types import FilePath
 
 
+def dataset_of(content: netcdf.Content) -> xr.Dataset:
+    """Return a Content as a dataset; variables along a dimension of their own name are its coordinates."""
+    given = {name: (v.dimensions, v.values, v.attributes) for name, v in content.variables.items()}
+    along = {name for name, (dimensions, _, _) in given.items() if dimensions == (name,)}
+    data = {name: variable for name, variable in given.items() if name not in along}
+    coordinates = {name: given[name] for name in along}
+    return xr.Dataset(data, coordinates, attrs=content.attributes | netcdf.global_attributes())
+
+
 def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     """Write a dataset as CF-1.11 NetCDF, atomically.
 

@@ -148,15 +148,19 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     (kind,) = (kind for kind, make in KINDS.items() if make is type(medium))
     mapping: dict[str, Any] = {"kind": kind}
     if isinstance(medium, media.CreepTable):
-        values = {name: getattr(identified, name) for name in _TABLE}
-        variables = described(("level",), values, _TABLE, identified.length_unit)
-        title = {"title": "Creep compliance identified from a record of depth over time"}
-        tables.write(Content(variables, title | attributes), table)
+        tables.write(identified_to_content(identified).with_attributes(**attributes), table)
         mapping["file"] = table.name
     else:
         mapping |= dataclasses.asdict(cast(Any, medium))
     with atomic_write(path) as temporary:
         temporary.write_text(yaml.safe_dump(mapping, sort_keys=False, allow_unicode=True), encoding="utf-8")
+
+
+def identified_to_content(identified: IdentifiedMedium) -> Content:
+    """Return the compliance of an IdentifiedMedium and the ends of its interval as a Content over time."""
+    values = {name: getattr(identified, name) for name in _TABLE}
+    variables = described(("level",), values, _TABLE, identified.length_unit)
+    return Content(variables, {"title": "Creep compliance identified from a record of depth over time"})
 
 
 def check_medium_file(path: FilePath) -> Path:

@@ -3,31 +3,33 @@
 from pathlib import Path
 
 from viscorough.contact_maps import Contact
+from viscorough.estimates import Estimate
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf, tables
 from viscorough.io.contacts import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
-from viscorough.io.media import save_identified
-from viscorough.io.motion import motion_to_content
+from viscorough.io.media import identified_to_content, save_identified
+from viscorough.io.motion import estimate_to_content, motion_to_content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import FilePath
 from viscorough.viscous.identification import IdentifiedMedium
 from viscorough.viscous.motion import Motion
 
+Result = Indenter | LoadingCurve | Contact | Motion | Estimate | IdentifiedMedium
 WRITERS = {".nc": netcdf.write, ".csv": tables.write}
 
 
-def save(result: Indenter | LoadingCurve | Contact | Motion | IdentifiedMedium, path: FilePath) -> None:
+def save(result: Result, path: FilePath) -> None:
     """Write a result as the file that the command line writes and reads; atomically. The same as `result.save(path)`.
 
     Parameters
     ----------
-    result : Indenter, LoadingCurve, Contact, Motion or IdentifiedMedium
+    result : Indenter, LoadingCurve, Contact, Motion, Estimate or IdentifiedMedium
         Heights are read by `read_heights`, a curve by `load_curve`, a medium by `read_medium`.
     path : path
-        File to write or replace: NetCDF (.nc), or a table (.csv) of a curve, motion or line. A medium is YAML (.yaml);
-        a creep table beside it has the suffix .csv. Other suffixes are refused.
+        File to write or replace: NetCDF (.nc), or a table (.csv) of a curve, motion, estimate or line. A medium is YAML
+        (.yaml); its creep table, in the same folder, has the suffix .csv. Other suffixes are refused.
 
     Raises
     ------
@@ -85,7 +87,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
     return curve_from_content(netcdf.read(path))
 
 
-def to_content(result: Indenter | LoadingCurve | Contact | Motion) -> netcdf.Content:
+def to_content(result: Result) -> netcdf.Content:
     """A result as the Content of its file."""
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
@@ -95,7 +97,14 @@ def to_content(result: Indenter | LoadingCurve | Contact | Motion) -> netcdf.Con
         return contacts_to_content([result])
     if isinstance(result, Indenter):
         return surface_to_content(result)
-    raise TypeError(f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact or Motion is needed")
+    if isinstance(result, Estimate):
+        return estimate_to_content(result)
+    if isinstance(result, IdentifiedMedium):
+        return identified_to_content(result)
+    raise TypeError(
+        f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact, Motion, Estimate or "
+        "IdentifiedMedium is needed"
+    )
 
 
 def check_suffix(path: FilePath) -> None:

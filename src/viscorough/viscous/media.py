@@ -30,6 +30,7 @@ from viscorough.arrays import (
     shown,
     unit_attribute,
 )
+from viscorough.summaries import span
 from viscorough.types import Array
 from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
 from viscorough.viscous.spectra import retardation_spectrum
@@ -360,6 +361,10 @@ class CreepTable(ReadOnlyArrays, Medium):
 
     times: np.ndarray
     compliances: np.ndarray
+
+    def __repr__(self) -> str:
+        """Number of points and their range, instead of all numbers."""
+        return f"CreepTable of {len(self.times)} points, t {span(self.times)}, J {span(self.compliances)}"
 
     def __post_init__(self) -> None:
         times = increasing("CreepTable: times", units.numbers(self.times, "s", "m", "CreepTable: times"))

@@ -157,7 +157,7 @@ def _curve(indenter: Indenter, medium: Medium, load: Load, tolerance: float) -> 
         deepest = load.values.max()
         force = np.inf
         if deepest > 0:
-            force = contact_at(indenter, depth=float(deepest), tolerance=tolerance).force  # type: ignore[union-attr]
+            force = contact_at(indenter, depth=float(deepest), tolerance=tolerance).force
     else:
         force = creep_response(medium, load).creep.max()
     if not 0 < force < np.inf:  # nothing is touched

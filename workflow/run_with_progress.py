@@ -60,7 +60,7 @@ def run(command, output=OUTPUT):
     """Run a command of Snakemake with its progress on the terminal, report errors at the end; returns its exit code.
 
     Ctrl-C reaches the command itself, which then ends its jobs and unlocks its folder. SIGTERM, which reaches only this
-    process, is passed on.
+    process, is passed on. Without a terminal, one line has the number of steps and the file with their progress.
     """
     costs = pd.read_csv(PUBLISHED_COSTS, index_col="rule")
     progress = Progress(costs["share_s"] / costs["jobs"])
@@ -72,17 +72,29 @@ def run(command, output=OUTPUT):
         return 1
     piped = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "encoding": "utf-8", "errors": "replace"}
     with open(output, "w", encoding="utf-8") as file, subprocess.Popen(command, **piped) as process:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.signal(signal.SIGTERM, lambda *_: process.terminate())
+        stopped = []
+
+        def stop(number, _frame):
+            stopped.append(number)
+            if number == signal.SIGTERM:
+                process.terminate()
+
+        signal.signal(signal.SIGINT, stop)
+        signal.signal(signal.SIGTERM, stop)
         for line in process.stdout:
             print(line, end="", file=file, flush=True)
+            planned = progress.bar is not None
             progress.read(line.rstrip("\n"))
+            if progress.bar is not None and progress.bar.disable and not planned:
+                _show(f"{progress.done.removeprefix('0 of ')} steps; progress in {output}\n")
             if line.startswith(PASSED_ON):
                 _show(line)
     if progress.bar is not None:
         progress.bar.close()  # erases the line
     code = 128 - process.returncode if process.returncode < 0 else process.returncode
-    if code:
+    if code and stopped:
+        _show(f"Stopped after {progress.done or 'no'} steps; the same command continues\n")
+    elif code:
         _show("".join(f"{line}\n" for line in _errors(output)))
     return code
 

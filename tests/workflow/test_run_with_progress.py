@@ -70,10 +70,10 @@ def test_what_runs_how_many_of_how_many_and_their_share_of_the_time(monkeypatch)
     assert (progress.bar.desc, progress.bar.n) == ("1 of 41: Curves of lines", 10)
 
 
-def test_without_a_terminal_only_messages_are_shown(run, tmp_path, capfd):
+def test_without_a_terminal_messages_and_one_line_are_shown(run, tmp_path, capfd):
     printed = f"{REMOVED}\n{STARTED}{FINISHED}"
     assert run(f"print({printed!r})") == 0
-    assert capfd.readouterr() == ("", f"{REMOVED}\n")
+    assert capfd.readouterr() == ("", f"{REMOVED}\n41 steps; progress in results/run.log\n")
     assert (tmp_path / "results/run.log").read_text() == printed + "\n"
 
 
@@ -126,3 +126,13 @@ def test_the_end_is_three_lines(tmp_path):
             "It took 4.0 minutes; the paper: several weeks",
             f"Open {tmp_path}/index.html in a browser",
         ]
+
+
+def test_interrupted_runs_say_that_the_same_command_continues(run, capfd, monkeypatch):
+    def interrupt(number, handler):
+        if number == signal.SIGTERM:
+            handler(number, None)
+
+    monkeypatch.setattr(signal, "signal", interrupt)
+    assert run("import time; time.sleep(100)") == 128 + signal.SIGTERM
+    assert capfd.readouterr().err == "Stopped after no steps; the same command continues\n"

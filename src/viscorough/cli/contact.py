@@ -54,9 +54,10 @@ def contact(
     The same command again skips files that are unchanged, also after an interrupt.
 
     \b
-    Example, a map in micrometres under F/G of 2 and of 3 square micrometres, and a folder of scans:
+    Example, a map in micrometres under F/G of 2 and of 3 um2, and a folder of scans:
         viscorough contact heights.npy --spacing 0.5 --force 2,3 -o fields.nc
-        viscorough contact scans/*.csv --force "1 mN,5 mN" --young "2 MPa" -o table.csv
+        viscorough contact scans/*.csv --force "1 mN,5 mN" --young "2 MPa" \\
+            -o table.csv
     """
     options.require((force is None) != (depth is None), "one of --force and --depth is needed")
     options.elasticity(length_unit="m", **constants)  # raises an error for options that exclude each other

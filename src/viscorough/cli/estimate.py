@@ -54,7 +54,8 @@ def estimate(
 
     \b
     Example:
-        viscorough estimate --hurst 0.8 --rms 1e-6 --diameter 0.01 --force 10 --viscosity 1e9 --times 0.01,0.1
+        viscorough estimate --hurst 0.8 --rms 1e-6 --diameter 0.01 --force 10 \\
+            --viscosity 1e9 --times 0.01,0.1
     """
     import numpy as np
 

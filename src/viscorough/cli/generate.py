@@ -43,8 +43,10 @@ def generate(
 
     \b
     Example:
-        viscorough generate --hurst 0.8 --elements 129 --rms 0.2 --diameter 129 --unit um --seed 1 -o disc.nc
-        viscorough generate --hurst 0.8 --points 100000 --rms "200 nm" --diameter "1 mm" --seed 1 -o line.nc
+        viscorough generate --hurst 0.8 --elements 129 --rms 0.2 --diameter 129 \\
+            --unit um --seed 1 -o disc.nc
+        viscorough generate --hurst 0.8 --points 100000 --rms "200 nm" \\
+            --diameter "1 mm" --seed 1 -o line.nc
         viscorough indent disc.nc -o curve.nc
     """
     options.require((elements is None) != (points is None), "either --elements (a disc) or --points (a line) is needed")

@@ -96,10 +96,13 @@ def indent(
 
     \b
     Example:
-        viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 -o curve.nc
+        viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 \\
+            -o curve.nc
         viscorough indent heights.npy --spacing 2e-6 --error 5% -o curve.nc
-        viscorough indent scan.txt --spacing 0.37,0.5 --unit um --detrend plane -o curve.nc
-        viscorough indent scans/*.txt --forces "1 mN,5 mN" --young "2 MPa" -o table.csv
+        viscorough indent scan.txt --spacing 0.37,0.5 --unit um --detrend plane \\
+            -o curve.nc
+        viscorough indent scans/*.txt --forces "1 mN,5 mN" --young "2 MPa" \\
+            -o table.csv
     """
     levels = {"--depths": depths, "--forces": forces}
     others = {"--until-fraction": until_fraction, "--until-force": until_force, "--audit": audit or None}

@@ -61,8 +61,10 @@ def kinetics(
     \b
     Examples:
         viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
-        viscorough kinetics curve.nc --force-history ramp.csv --medium rubber.yaml --times 1,10,100 -o kinetics.nc
-        viscorough kinetics curve.nc --depth-history approach_retract.csv --medium rubber.yaml -o loop.nc
+        viscorough kinetics curve.nc --force-history ramp.csv --medium rubber.yaml \\
+            --times 1,10,100 -o kinetics.nc
+        viscorough kinetics curve.nc --depth-history approach_retract.csv \\
+            --medium rubber.yaml -o loop.nc
     """
     given = sum(each is not None for each in (force, force_history, depth_history))
     options.require(given == 1, "one of --force, --force-history and --depth-history is needed")

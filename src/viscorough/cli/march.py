@@ -54,8 +54,10 @@ def march(
 
     \b
     Example:
-        viscorough march heights.npy --spacing 2e-6 --method events --times 1,2,4,8 -o events.nc
-        viscorough march heights.npy --spacing 2e-6 --method implicit --medium rubber.yaml \\
+        viscorough march heights.npy --spacing 2e-6 --method events --times 1,2,4,8 \\
+            -o events.nc
+        viscorough march heights.npy --spacing 2e-6 --method implicit \\
+            --medium rubber.yaml \\
             --force-history pulses.csv -o pulses.nc
     """
     wrong = f"--until-fraction is not for --method {method}; allowed: events"

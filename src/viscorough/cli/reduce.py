@@ -43,7 +43,8 @@ def reduce(
 
     \b
     Example:
-        viscorough generate --hurst 0.8 --points 100000 --rms 2e-7 --diameter 1e-4 --seed 1 -o line.nc
+        viscorough generate --hurst 0.8 --points 100000 --rms 2e-7 --diameter 1e-4 \\
+            --seed 1 -o line.nc
         viscorough reduce line.nc -o curve.nc
         viscorough reduce map.nc --realizations 100 -o curves.nc
     """

@@ -300,5 +300,5 @@ def test_without_the_extra_the_message_names_the_remedy(tmp_path, monkeypatch):
     paths[-1].write_text(ESRI.format("corner", LEFT, TOP, 2))  # beside a.prj
     monkeypatch.setitem(sys.modules, "rasterio", None)  # as if it were not installed
     for path in paths:
-        with refused(rf"{path.name}: .*pip install 'viscorough\[geo\]'"):
+        with refused(rf'{path.name}: .*pip install "viscorough\[geo\]"'):
             read_heights(path, unit="m")

@@ -241,7 +241,7 @@ def test_bad_files_are_one_line(tmp_path):
 def test_without_the_extra_the_message_names_the_remedy(tmp_path, monkeypatch):
     (tmp_path / "a.x3p").write_bytes(b"PK")
     monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)  # as if it were not installed
-    with refused(r"pip install 'viscorough\[formats\]'"):
+    with refused(r'pip install "viscorough\[formats\]"'):
         read_heights(tmp_path / "a.x3p")
 
 

@@ -10,13 +10,12 @@ from typing import Any
 
 import numpy as np
 from ducc0 import fft
-from numpy.typing import DTypeLike
 
 from viscorough import memory, spectrum
 from viscorough.arrays import real_numbers, whole_number
 from viscorough.indenter import Indenter, positive
 from viscorough.lines import SelfAffineLines
-from viscorough.types import Array, Seed
+from viscorough.types import Array, FloatType, Seed
 
 _BYTES_PER_POINT = 100  # memory that must be available for a square, three times what its arrays take
 
@@ -212,7 +211,7 @@ def self_affine_line(
     amplitudes: str = "random",
     length_unit: str = "1",
     seed: Seed,
-    dtype: DTypeLike = np.float32,
+    dtype: FloatType = np.float32,
 ) -> Indenter:
     """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of dimensionality reduction (MDR).
 
@@ -228,7 +227,7 @@ def self_affine_line(
         As in `self_affine_disc`, but the wavelength in units of the length.
     length_unit : str, optional
         Of rms and length, as in Indenter.
-    dtype : DTypeLike, optional
+    dtype : numpy dtype or name, optional
         Float32 or float64; the realization is the same up to rounding.
 
     Returns

@@ -14,6 +14,7 @@ Complex = NDArray[np.complexfloating[Any, Any]]
 Seed = int | Sequence[int] | np.random.SeedSequence
 Numbers = float | Array  # what formulas take and give
 Scalar = float | np.floating[Any]
+FloatType = type[np.floating[Any]] | np.dtype[Any] | str  # a type of numbers, such as numpy.float32 or "float64"
 Several = list[Any] | tuple[Any, ...] | NDArray[Any]  # numbers in order, which may have units
 Pair = tuple[Array, Array] | tuple[float, float]  # at both ends of an interval
 FilePath = str | os.PathLike[str]

@@ -54,7 +54,7 @@ def test_compressed_files(tmp_path, name):
     np.testing.assert_array_equal(read_heights(path, 1).heights, HEIGHTS)
     program = f"import sys, viscorough; sys.modules['imagecodecs'] = None; viscorough.read_heights({str(path)!r}, 1)"
     error = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False).stderr
-    what = r'compressed by .*; pip install "viscorough\[formats\]" installs what decompresses it'
+    what = r'compressed by .*; pip install "viscorough\[formats\]" installs the decoder'
     assert re.search(rf"ValueError: .*{name}\.tif: .*{what}", error.splitlines()[-1])
 
 

@@ -47,7 +47,8 @@ def kinetics(
     contact grows the depth is that of the curve at F/G = the creep response, the integral of J(t - s) dF(s) with the
     creep compliance J; on a linearly viscous half-space it is the impulse over the viscosity. Where the contact
     recedes, the curve is read as a row of springs, which is exact as well. Under no force the indenter rests on the
-    recovering surface.
+    recovering surface. If the curve states a grid error, KIN.nc and the closing line state it as well; it holds for the
+    velocity under a given force.
 
     MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
     (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony
@@ -77,6 +78,9 @@ def kinetics(
     files.check_output(output, curve=curve, force_history=force_history, depth_history=depth_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
+    grid_error = loading.grid_error_text if depth_history is None else ""  # it is that of the velocity at a given force
+    if grid_error:
+        about |= {"mean_grid_error": loading.mean_grid_error}
     load, of_load = files.read_load(force, force_history, loading.length_unit, depth_history)
     motion = viscorough.kinetics(loading, load, half_space, times)
     unknown = np.count_nonzero(~np.isfinite(motion.depth + motion.force + motion.velocity))
@@ -91,4 +95,5 @@ def kinetics(
     if depth_history is not None:
         depth += f" and force {with_unit(motion.force[-1], si_unit('N', loading.length_unit), 6)}"
     time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)
-    messages.announce(output, f"{motion.time.size} times, {depth} at time {time}")
+    text = f"{motion.time.size} times, {depth} at time {time}"
+    messages.announce(output, "\n".join(filter(None, [text, grid_error])))

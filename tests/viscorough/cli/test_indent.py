@@ -29,6 +29,14 @@ def test_grid_error_is_stored_and_stated(disc, capsys):
     assert "grid_error" not in values("curve.nc")
 
 
+def test_kinetics_states_the_grid_error_of_its_curve(disc, capsys):
+    assert run("indent disc.nc --grid-error -o curve.nc") == 0
+    line = capsys.readouterr().out.splitlines()[-1]
+    assert run("kinetics curve.nc --force '1 uN' --viscosity 1e4 -o motion.nc") == 0
+    assert capsys.readouterr().out.splitlines()[-1] == line
+    assert netcdf.read("motion.nc").attributes["mean_grid_error"] == load_curve("curve.nc").mean_grid_error
+
+
 @pytest.mark.parametrize("error", ["20%", "20 %", "0.2"])
 def test_error_states_what_was_chosen(disc, capsys, error):
     assert run(f"indent disc.nc --error '{error}' -o curve.nc") == 0

@@ -8,7 +8,7 @@
 - `coverage`: the true error is the deviation from the same map sampled four times finer. It is compared with the stated
   error at given X = F/(4GhL), where both are root mean squares over half a decade of force to either side, and over all
   forces from X = 0.01 on. Maps are discs of odd and of even numbers of elements across, discs with holes, and discs of
-  rectangular elements. The safety factor of viscorough.contact.grid_error was calibrated on the sample "calibration";
+  rectangular elements. The safety factors of viscorough.contact.grid_error were calibrated on the sample "calibration";
   the sample "test" has other surfaces.
 - `requests`: the error against the curve of all points over X = 0.01 to 3, and the processor time over that of this
   curve. A request is met if the error is within it.

@@ -5,7 +5,7 @@ the spacing is halved, and the sum of all further changes. At equal forces F the
 have the ratio of the stiffnesses, and with ⟨·⟩ the mean over half a decade of force to either side, uniform in ln F,
 
     velocity:  s √⟨ln²(v/v₂)⟩          v₂ on every second point, s a safety factor
-    force:     s √⟨(1 − F₂/F)²⟩        F₂ at the depth of F, counted from the highest point of the full map
+    force:     r √⟨(1 − F₂/F)²⟩        F₂ at the depth of F, counted from the highest point of the full map; r a factor
     area:      exp⟨ln(A/A₂)⟩ − 1       the change of the contact area when the spacing is halved; not an error
 
 The raw contact area of a self-affine surface decreases with the spacing without a limit, so that it has no error. If
@@ -25,6 +25,9 @@ from viscorough.types import Array
 # The difference from the curve on every second point exceeds the true error of most surfaces. With this factor it does
 # for nine of ten (benchmarks/grid_errors.py).
 SAFETY_FACTOR = 1.3
+# The same for the force at a given depth. It changes in one direction from spacing to spacing, above all on surfaces of
+# small Hurst exponent, so that the changes add up to more than the change of the velocity does.
+FORCE_SAFETY_FACTOR = 3.0
 # Points in a decade of force at which two curves are compared: their stiffnesses jump at contact events.
 _POINTS_PER_DECADE = 50
 # Half the width of the range of forces over which differences are averaged, in ln F: half a decade.
@@ -93,7 +96,7 @@ def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indent
     return replace(
         curve,
         grid_error=SAFETY_FACTOR * np.sqrt(_means(points, velocity, *window)),
-        force_grid_error=SAFETY_FACTOR * np.sqrt(_means(points, lost, *window)),
+        force_grid_error=FORCE_SAFETY_FACTOR * np.sqrt(_means(points, lost, *window)),
         area_change=np.expm1(_means(points, area, *window)),
         mean_grid_error=SAFETY_FACTOR * float(np.sqrt(_means(points, velocity, *whole))),
         mean_area_change=float(np.expm1(_means(points, area, *whole))),

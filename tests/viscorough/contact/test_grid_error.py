@@ -39,7 +39,7 @@ def test_grid_error_of_a_sphere_exceeds_the_error_against_hertz(elements):
         assert root_mean_square(velocity[window]) < curve.grid_error[level]
         assert root_mean_square(force[window]) < curve.force_grid_error[level]
     assert curve.grid_error[-1] < 0.02
-    assert curve.force_grid_error[-1] < 0.002
+    assert curve.force_grid_error[-1] < 0.003
     assert -0.03 < curve.area_change[-1] < -0.01  # counting elements makes the area of a disc too large, by about 1.6 %
 
 

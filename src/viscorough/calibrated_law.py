@@ -232,7 +232,7 @@ def penetration_law(hurst: float) -> PenetrationLaw:
     logarithms.
 
     A further sample of discs of 257 elements across, also at exponents in between, had means of vt/h within 12 % of
-    the law, of g within 15 % and of u/h within 9 %, with standard errors of 5 % at small X. The depth depends on the
+    the law, of g within 16 % and of u/h within 7 %, with standard errors of 5 % at small X. The depth depends on the
     grid: discs of 129 elements across have a mean u/h at X = 0.003 for which the law is 12 to 37 % too large from
     H = 0.85 to 0.1 (docs/verification.md).
 

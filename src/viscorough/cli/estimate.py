@@ -46,7 +46,7 @@ def estimate(
     The range of X was chosen so that g is within 5 % of the mean over discs not used for the calibration: from the
     first few contact spots until the whole disc sinks nearly like a flat punch. Outside this range no number is given,
     and the last column says on which side the time is. Within it, further discs of 257 elements across had means of
-    vt/h within 12 % of the law, and of g within 15 %, with standard errors of 5 % where few spots touch.
+    vt/h within 12 % of the law, and of g within 16 %, with standard errors of 5 % where few spots touch.
 
     Plain numbers are in consistent units: m, N and Pa s, for example. Depth is then in the unit of --rms, velocity in
     that unit per unit of --times. If the lengths have units, as in --rms "2 um", force and viscosity may have, too;

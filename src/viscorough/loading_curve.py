@@ -57,16 +57,16 @@ class LoadingCurve(ReadOnlyArrays, Saved):
         Largest gap in contact or overlap outside it that remains, over the depth, shape (levels,) [1].
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
-    grid_error : array, optional
+    grid_error : array
         Estimated relative error of the velocity that is due to the spacing of the map, at the force of each level,
         shape (levels,) [1]. None unless it was requested, as the four quantities that follow;
         `viscorough.contact.grid_error` has the formulas.
-    force_grid_error : array, optional
+    force_grid_error : array
         The same of the force at the depth of each level, counted from the highest point of the map.
-    area_change : array, optional
+    area_change : array
         Relative change of the contact area when the spacing of the map is halved. The contact area of a rough surface
         has no limit and therefore no error.
-    mean_grid_error, mean_area_change : float, optional
+    mean_grid_error, mean_area_change : float
         `grid_error` and `area_change` over all forces from F/G = hL/25 on, with the rms height h of the map and the
         diameter L of a disc of its area, or over the last decade if the curve ends before 0.4 hL.
     sampling : int

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -50,6 +50,10 @@ class Load(ReadOnlyArrays):
     time: np.ndarray
     force: np.ndarray | None = None
     depth: np.ndarray | None = None
+
+    if TYPE_CHECKING:  # it takes lists, too, which become arrays
+
+        def __init__(self, time: ArrayLike, force: ArrayLike | None = None, depth: ArrayLike | None = None) -> None: ...
 
     def __post_init__(self) -> None:
         if (self.force is None) == (self.depth is None):

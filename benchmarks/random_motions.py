@@ -25,9 +25,9 @@ from viscorough.viscous.unilateral_sums import step_row
 _LARGEST = 24  # elements across
 _ENDS = 3  # times at which the springs of a history are examined
 # c over the largest φ of the history, C − 1, and the sum of the forces over the largest force.
-_LEAST_C, _MOST_C, _SUM = 1e-10, 1e-9, 1e-6
+_LEAST_C, _MOST_C, _SUM = 1e-10, 1e-9, 1e-9
 # Differences between histories with few and with many samples, over the largest value.
-_SAMPLES = {CreepTable: 2e-3, Springpot: 1e-3}
+_SAMPLES = {CreepTable: 2e-3, Springpot: 1e-7}
 _SAMPLES_OF_SPRINGS = 1e-9
 # Largest share of the last level at which a history ends: contact that has receded and returns goes deeper than Φ.
 _SHARE = 0.6

@@ -3,6 +3,7 @@
 import numpy as np
 
 from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.viscous.medium import Medium
 
 SPRINGS_AND_DASHPOTS = {
     "newtonian": Newtonian(3.0),
@@ -16,3 +17,19 @@ MEDIA = SPRINGS_AND_DASHPOTS | {
     "springpot": Springpot(2.0, 0.4),
     "table": CreepTable(TABLE_TIMES, 0.2 + TABLE_TIMES**0.3),
 }
+
+
+class Wrapped(Medium):
+    """A medium that is known by its creep compliance alone."""
+
+    def __init__(self, inner):
+        self.inner = inner
+
+    def creep_compliance(self, time):
+        return self.inner.creep_compliance(time)
+
+    def creep_rate(self, time, *, left=False):
+        return self.inner.creep_rate(time)
+
+    def creep_integral(self, start, end):
+        return self.inner.creep_integral(start, end)

@@ -16,12 +16,11 @@ from scipy.optimize import brentq
 
 from support.contract import refused
 from support.curves import curve_of_body
-from support.media import MEDIA, SPRINGS_AND_DASHPOTS
+from support.media import MEDIA, SPRINGS_AND_DASHPOTS, Wrapped
 from viscorough import (
     AccuracyWarning,
     Indenter,
     Load,
-    Medium,
     StandardLinearSolid,
     indent,
     kinetics,
@@ -129,7 +128,7 @@ def test_release_on_grids():
 
 
 def test_release_of_a_sphere():
-    """Under no force the deepest point of the imprint recovers: the creep of its own pressure history."""
+    """Under no force the deepest point of the imprint recovers: the creep of its pressure history."""
     medium, force, end = MEDIA["solid"], 0.05, 0.7
     curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 401))
     motion = kinetics(curve, Load([0.0, end, end, 5.0], force=[force, force, 0, 0]), medium, [0.3, 0.7, 1.0, 2.0, 5.0])
@@ -242,22 +241,6 @@ def test_default_curves_are_fine_enough():
         times = np.linspace(0, 2.5, 101)
         found, expected = (kinetics(each, load, medium, times).force for each in (curve, fine))
         assert np.abs(found - expected).max() < 5e-4 * expected.max()
-
-
-class Wrapped(Medium):
-    """A medium that is known by its creep compliance alone."""
-
-    def __init__(self, inner):
-        self.inner = inner
-
-    def creep_compliance(self, time):
-        return self.inner.creep_compliance(time)
-
-    def creep_rate(self, time, *, left=False):
-        return self.inner.creep_rate(time)
-
-    def creep_integral(self, start, end):
-        return self.inner.creep_integral(start, end)
 
 
 @pytest.mark.parametrize("control", ["force", "depth"])

@@ -35,7 +35,7 @@ ACROSS = (65, 129, 257, 513)
 KINDS = ("odd", "even", "holes", "rectangles")
 FINER = 4
 X = (0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
-# Points in a decade of force at which curves are compared.
+# Points per decade of force in comparisons of curves.
 PER_DECADE = 100
 HALF_WINDOW = np.log(10) / 2
 # Share of the disc in holes, and their diameter over the diameter of the disc.

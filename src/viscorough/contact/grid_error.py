@@ -28,7 +28,7 @@ SAFETY_FACTOR = 1.3
 # The same for the force at a given depth. It changes in one direction from spacing to spacing, above all on surfaces of
 # small Hurst exponent, so that the changes add up to more than the change of the velocity does.
 FORCE_SAFETY_FACTOR = 3.0
-# Points in a decade of force at which two curves are compared: their stiffnesses jump at contact events.
+# Points per decade of force in comparisons of two curves, whose stiffnesses jump at contact events.
 _POINTS_PER_DECADE = 50
 # Half the width of the range of forces over which differences are averaged, in ln F: half a decade.
 _HALF_WINDOW = 0.5 * np.log(10)
@@ -104,7 +104,7 @@ def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indent
 
 
 def _points(first: float, last: float) -> Array:
-    """Return equidistant points from first to last, at which curves are compared."""
+    """Return equidistant points from first to last for the comparison of curves."""
     return np.linspace(first, last, 2 + int(_POINTS_PER_DECADE * (last - first) / np.log(10)))
 
 

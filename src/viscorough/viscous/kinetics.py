@@ -37,7 +37,7 @@ from viscorough.viscous.springs import ROUNDING, RowOfSprings, row_of_springs
 from viscorough.viscous.unilateral import BEYOND, INFINITE, RowMotion, law_of, move_row
 from viscorough.viscous.unilateral_sums import move_row_by_sums
 
-_LATEST = 1e300  # time by which creep that ends has ended
+_LATEST = 1e300  # later than the end of any creep that ends
 _SPREAD, _EARLY = 100, 1e-3  # number of times that are chosen; share of the creep at their ends, where it has no level
 # Shortest time of the springs and dashpots that replace a springpot, over the shortest interval between samples.
 _SHORTEST = 1e-6
@@ -66,9 +66,9 @@ def kinetics(
         Loading curve of the indenter.
     force, depth : array_like or Load, optional
         One of them: a constant applied at time 0; samples of shape (times,), linear in between, with a time given twice
-        where they step; or a Load, whose samples need not be those of `times`. Before the first sample there is no
-        load. Forces are F ≥ 0, in N, depths in the unit of length of the curve, or they have a unit (texts as "5 mN",
-        quantities of pint), if this unit is known. A depth below zero lifts the indenter above the plane.
+        where they step; or a Load, which may have its samples at other times than `times`. Before the first sample
+        there is no load. Forces are F ≥ 0, in N, depths in the unit of length of the curve, or they have a unit (texts
+        as "5 mN", quantities of pint), if this unit is known. A depth below zero lifts the indenter above the plane.
     medium : Medium or float or str
         Medium, as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian one; in Pa, s and Pa s, or a text as "2 kPa
         s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a length².
@@ -81,10 +81,10 @@ def kinetics(
     -------
     Motion
         At `times`. Force and velocity are those just after each time; at the last time of a history and before a step,
-        those before it. At a step of the force the velocity is that of the creep alone; in a Springpot it is infinite,
+        those before it. At a step of the force the velocity is due to the creep alone; in a Springpot it is infinite,
         and so is the force at a step of the depth into the surface. Under no force the depth is not unique: the
         indenter then rests on the recovering surface. Before the curve's first level, unless the curve is straight
-        there, what is not prescribed is nan.
+        there, depths under a force and forces at a depth are nan.
 
     Raises
     ------
@@ -331,7 +331,7 @@ def _growing(curve: LoadingCurve, row: RowOfSprings, load: Load, creep: Array) -
 def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> tuple[Array, Array]:
     """Depth and k/G at F/G = Φ; beyond complete contact along the last tangent."""
     first, last = curve.force[0], curve.force[-1]
-    # A force that equals that of the first or last level up to rounding must not fall outside the curve.
+    # Rounding of a force at the first or last level must not put it outside the curve.
     inside = np.where(np.abs(creep - first) <= ROUNDING * first, first, np.clip(creep, 0.0, last))
     depth, stiffness = curve.at_force(inside)
     beyond = creep > last * (1 + ROUNDING)

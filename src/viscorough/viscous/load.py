@@ -90,7 +90,7 @@ class Load(ReadOnlyArrays):
         Raises
         ------
         ValueError
-            In one line, with the file and what is wrong.
+            In one line, with the file and its fault.
         """
         # By name: files are on a floor above.
         return import_module("viscorough.io.motion").read_load(path, kind, length_unit)

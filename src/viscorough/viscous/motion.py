@@ -17,7 +17,7 @@ class Motion(ReadOnlyArrays, Saved):
     Attributes
     ----------
     time : array
-        Times t, in s if the unit of length is known, else in the unit that those of force and viscosity make.
+        Times t, in s if the unit of length is known, else in the unit of viscosity × length² / force.
     depth : array
         u [length]. Under no force it is not unique: the indenter then rests on the recovering surface.
     force : array
@@ -51,7 +51,7 @@ class Motion(ReadOnlyArrays, Saved):
     receding_from: float = np.nan
 
     def __str__(self) -> str:
-        """What it is; the first and last time, depth, force and velocity, and when the contact recedes."""
+        """The first and last time, depth, force and velocity, and when the contact recedes."""
         unit = self.length_unit
         text = (
             f"Motion at {self.time.size} times\n"

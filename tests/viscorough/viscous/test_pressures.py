@@ -171,6 +171,8 @@ def test_pressures_in_a_springpot_converge_at_second_order():
 def test_media_of_users_are_integrated_numerically():
     """A medium whose ψ is known only as a function has the pressures of the springpot that it is."""
 
+    springpot = Springpot(2.0, 0.4)
+
     class WithRelaxation(Wrapped):
         def relaxation_modulus(self, time):
             return self.inner.relaxation_modulus(time)
@@ -179,10 +181,7 @@ def test_media_of_users_are_integrated_numerically():
             return self.inner.relaxation_integral(start, end)
 
     for time in (0.5, 0.51, 2.0):
-        exact, found = (
-            pressure_at(DISC, medium, STEPS, time)
-            for medium in (Springpot(2.0, 0.4), WithRelaxation(Springpot(2.0, 0.4)))
-        )
+        exact, found = (pressure_at(DISC, medium, STEPS, time) for medium in (springpot, WithRelaxation(springpot)))
         assert np.nansum(abs(found - exact)) < 1e-3 * np.nansum(exact)
 
 

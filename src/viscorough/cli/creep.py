@@ -1,4 +1,4 @@
-"""`viscorough creep`: the medium of a half-space from the measured depth of an indenter."""
+"""`viscorough creep`: the medium of a half-space from a measured indentation."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from viscorough.summaries import si_unit, span
 from viscorough.units import Quantity
 
 
-@click.command(short_help="The medium from a measured depth over time.")
+@click.command(short_help="The medium from a measured depth or force over time.")
 @click.argument("curve", type=options.FILE, metavar="CURVE.nc")
 @click.argument("record", type=options.FILE, metavar="RECORD.csv")
 @options.force

@@ -3,6 +3,8 @@
 Let x ≥ 0 minimise ½ ‖A x − b‖². An extreme value of r·x over all x ≥ 0 with ‖A x − b‖² ≤ least + distance² is found at
 the minimiser of ½ ‖A x − b‖² − λ r·x, with λ adjusted to the distance. An active-set method finds this minimiser
 (Lawson and Hanson 1974). It starts from the unknowns that were positive before, since few of them change with λ or r.
+
+Further unknowns may have any sign. Each is the difference of two non-negative ones with opposite columns.
 """
 
 from typing import Any
@@ -18,24 +20,49 @@ _ROUNDING = 1e-11  # of gradients, relative to the target; columns have norm 1
 _SINGULAR = 1e-13  # a column is taken for dependent on others if its remainder is shorter
 
 
-def non_negative(matrix: Array, target: Array) -> Array:
-    """Return x ≥ 0 that minimises ‖matrix x − target‖."""
+def non_negative(matrix: Array, target: Array, signed: Array | None = None) -> tuple[Array, Array]:
+    """Return x ≥ 0 and z that minimise ‖matrix x + signed z − target‖.
+
+    matrix, signed : columns of non-negative unknowns, and of unknowns of any sign, shape (rows, unknowns)
+    """
     from scipy.optimize import nnls  # takes long to import
 
+    unknowns = matrix.shape[1]
+    matrix = _with_both_signs(matrix, signed)
+    scale = np.linalg.norm(matrix, axis=0)
+    scale[scale == 0] = 1.0
+    matrix = matrix / scale
     if matrix.shape[0] > matrix.shape[1] + 1:
         reduced: Any = np.linalg.qr(np.column_stack([matrix, target]), mode="r")
         matrix, target = reduced[:, :-1], reduced[:, -1]
-    return nnls(matrix, target, maxiter=30 * matrix.shape[1])[0]
+    x = nnls(matrix, target, maxiter=30 * matrix.shape[1])[0] / scale
+    up, down = np.split(x[unknowns:], 2)
+    return x[:unknowns], up - down
 
 
-def extremes(matrix: Array, target: Array, functions: Array, distance: float) -> tuple[Array, Array]:
+def _with_both_signs(matrix: Array, signed: Array | None) -> Array:
+    """Append columns of both signs for unknowns of any sign."""
+    return matrix if signed is None else np.hstack([matrix, signed, -signed])
+
+
+def extremes(
+    matrix: Array, target: Array, functions: Array, distance: float, signed: Array | None = None
+) -> tuple[Array, Array]:
     """Return the least and largest values of linear functions of x ≥ 0 near the minimiser of ‖matrix x − target‖.
 
     functions : coefficients of the functions, shape (functions, unknowns)
     distance : the squared residual may exceed its least value by distance²
+    signed : columns of further unknowns, of any sign; each of these is a further function, after the others
     """
     from scipy.optimize import nnls  # takes long to import
 
+    if signed is not None:
+        count = signed.shape[1]
+        functions = np.block([
+            [functions, np.zeros((functions.shape[0], 2 * count))],
+            [np.zeros((count, matrix.shape[1])), np.eye(count), -np.eye(count)],
+        ])  # fmt: skip
+        matrix = _with_both_signs(matrix, signed)
     scale = np.linalg.norm(matrix, axis=0)
     scale[scale == 0] = 1.0
     reduced: Any = np.linalg.qr(np.column_stack([matrix / scale, target]), mode="r")

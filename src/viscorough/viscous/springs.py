@@ -138,6 +138,19 @@ def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
     return np.where(inside, depth[:-1] + step, np.nan)
 
 
+def merged(gap: Array, stiffness: Array, depth: float, most: int) -> tuple[Array, Array]:
+    """Return gaps and stiffnesses of at most `most` springs with gaps below a depth, for fits that move the row often.
+
+    Neighbours are replaced by one spring at their mean gap. The springs are spread over the cube root of the gap.
+    """
+    inside = gap < depth * (1 + 1e-9)
+    gap, stiffness = gap[inside], stiffness[inside]
+    group = np.floor((most - 1) * np.cbrt(gap / depth)).astype(int)
+    starts = np.flatnonzero(np.diff(group, prepend=-1))
+    total = np.add.reduceat(stiffness, starts)
+    return np.add.reduceat(stiffness * gap, starts) / total, total
+
+
 @njit
 def _below_all(depth, force):
     """Indices of the corners of the greatest convex function below points with increasing depths."""

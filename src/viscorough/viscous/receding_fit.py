@@ -1,0 +1,198 @@
+"""Fit of a medium to the measured depth of a contact that recedes, under a known force that decreases.
+
+The depth is that of the row of springs of the curve in a medium J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)) with amounts ≥ 0.
+It depends on the amounts in a way that is not linear: they are found by the Gauss-Newton method, with derivatives by
+difference quotients of the exact motion (viscous.unilateral). It starts from the fit to the rows before the force
+decreases.
+"""
+
+import numpy as np
+
+from viscorough import units
+from viscorough.loading_curve import LoadingCurve
+from viscorough.types import Array, Integers
+from viscorough.viscous.creep_fit import knots_of, prony_series, spectrum_of_growth
+from viscorough.viscous.kinetics import kinetics
+from viscorough.viscous.load import Load
+from viscorough.viscous.media import CreepTable, Prony, Springpot
+from viscorough.viscous.medium import RetardationSpectrum
+from viscorough.viscous.non_negative import extremes, non_negative
+from viscorough.viscous.record_fit import (
+    RESOLUTION,
+    ROUNDING,
+    RecordFit,
+    Shift,
+    distance_of,
+    finer_times,
+    scatter_of,
+    spread_times,
+)
+from viscorough.viscous.spectra import relaxation_spectrum
+from viscorough.viscous.springs import merged, row_of_springs
+from viscorough.viscous.unilateral import law_of, move_row
+
+_ITERATIONS, _HALVINGS = 12, 6  # of Gauss and Newton, and of a step that does not make the sum of squares smaller
+_STALLED = 1e-3  # the iterations end if the sum of squares decreases by less than this share
+_FINER = 4  # steps of the refined grid of retardation times in one of the first grid
+_SPRINGS = 1000  # largest number in the row
+# Least J₀ and φ t of the medium that is moved, over the largest J: its spectrum of relaxation needs both.
+_LEAST_SPRING, _LEAST_DASHPOT = 1e-6, 1e-7
+_STEP = 1e-4  # of difference quotients, over the largest J
+
+
+def fit_receding_depth(
+    curve: LoadingCurve, load: Load, place: Integers, depth: Array, kind: str, scatter: float | None, shift: Shift
+) -> RecordFit:
+    """Fit a medium to the measured depth of a contact that recedes.
+
+    Arguments as in creep_fit.fit_growing_depth.
+
+    Raises ValueError unless five rows precede the first decrease of the force, and if no medium keeps the contact
+    within the curve.
+    """
+    lags = load.time[place] - load.time[0]
+    falls = np.flatnonzero(np.diff(load.values) < 0)
+    grown = place <= falls[0]
+    if np.count_nonzero(grown) < 5:
+        raise ValueError(
+            f"record: {np.count_nonzero(grown)} rows before the force decreases at time {load.time[falls[0]]:g}; "
+            "allowed: five or more"
+        )
+    spread = spread_times(*lags[lags > 0][[0, -1]])
+    signed = shift.columns(lags)
+    amounts, shifted = spectrum_of_growth(curve, load, place[grown], depth[grown], spread, signed[grown])
+    record = _RecedingRecord(curve, load, place, depth, spread, signed)
+    amounts, shifted, predicted, columns = record.fit(amounts, shifted)
+    times, found = spread, amounts[2:] > 0
+    if found.any():
+        times = finer_times(spread[found], spread, _FINER)
+        start = np.append(amounts[:2], np.zeros(times.size))
+        start[2 + np.abs(np.subtract.outer(spread[found], times)).argmin(axis=1)] = amounts[2:][found]
+        record = _RecedingRecord(curve, load, place, depth, times, signed)
+        amounts, shifted, predicted, columns = record.fit(start, shifted)
+    residual, resolution, freedom = depth - predicted - signed @ shifted, RESOLUTION * depth.max(), np.inf
+    if scatter is None:
+        scatter, freedom = scatter_of(residual, amounts, shifted.size, resolution)
+    time = np.append(0.0, knots_of(load, lags))
+    values = np.column_stack([np.ones(time.size), time, -np.expm1(-time[:, None] / times)])
+    low = high = np.full(time.size + shifted.size, np.nan)
+    if not np.isnan(scatter):
+        target = depth - predicted + columns @ amounts
+        low, high = extremes(columns, target, values, distance_of(np.hypot(scatter, resolution), freedom), signed)
+        before = np.flatnonzero(time < (0.0 if lags[0] == 0 < load.values[0] else lags[lags > 0][0]))
+        low[before], high[before] = 0.0, high[before.size]
+    compliance = values @ amounts
+    medium: CreepTable | Prony | Springpot = CreepTable(time, compliance)
+    if kind == "prony":
+        if amounts[0] <= ROUNDING * compliance[-1] or not amounts[1:].any():
+            raise ValueError(
+                "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
+                "table or springpot"
+            )
+        medium = prony_series(float(amounts[0]), float(amounts[1]), amounts[2:], times)
+    elif kind == "springpot":
+        medium, residual = _springpot(curve, load, place, depth, time[1:], compliance[1:], signed)
+    misfit = float(np.sqrt(np.mean(residual**2)))
+    (low, shift_low), (high, shift_high) = (np.split(ends, [time.size]) for ends in (low, high))
+    return RecordFit(
+        medium, time, compliance, None, low, high, float(scatter), float(freedom), misfit,
+        shifted, shift_low, shift_high,
+    )  # fmt: skip
+
+
+class _RecedingRecord:
+    """Least squares in depth: amounts of compliances of springs and dashpots against the measured depth.
+
+    times : retardation times θ_j, shape (elements,)
+    signed : change of the measured depth by a unit of offset and drift, shape (rows, 0 to 2)
+    """
+
+    def __init__(
+        self, curve: LoadingCurve, load: Load, place: Integers, depth: Array, times: Array, signed: Array
+    ) -> None:
+        self.load, self.place, self.depth, self.times, self.signed = load, place, depth, times, signed
+        row = row_of_springs(curve)
+        self.gap, self.stiffness = merged(row.gap, row.stiffness, curve.depth[-1], _SPRINGS)
+        self.limit = row.limit
+        self.duration = load.time[-1] - load.time[0]
+        self.ends = np.append([1.0, self.duration], -np.expm1(-self.duration / times))  # J at the end by its amounts
+
+    def fit(self, amounts: Array, shift: Array) -> tuple[Array, Array, Array, Array]:
+        """Return J₀, φ and J_j, offset and drift, the depth at the rows, and its derivatives by the amounts."""
+        predicted = self._predicted(amounts)
+        if np.isnan(predicted).any():
+            raise ValueError(
+                "record: in the medium that the rows before the decrease of the force show, the contact grows beyond "
+                "the curve's last level; allowed: curves of larger contacts, with until_fraction=1"
+            )
+        for _ in range(_ITERATIONS):
+            columns = self._derivatives(amounts, predicted)
+            target = self.depth - predicted + columns @ amounts
+            step, new_shift = non_negative(columns, target, self.signed)
+            squares = self._squares(predicted, shift)
+            for _ in range(_HALVINGS):
+                new = self._predicted(step)
+                if not np.isnan(new).any() and self._squares(new, new_shift) <= squares:
+                    break
+                step, new_shift = 0.5 * (step + amounts), 0.5 * (new_shift + shift)
+            else:
+                break
+            amounts, shift, predicted = step, new_shift, new
+            if self._squares(predicted, shift) > (1 - _STALLED) * squares:
+                break
+        return amounts, shift, predicted, self._derivatives(amounts, predicted)
+
+    def _squares(self, predicted: Array, shift: Array) -> float:
+        return float(((self.depth - predicted - self.signed @ shift) ** 2).sum())
+
+    def _predicted(self, amounts: Array) -> Array:
+        """Return the depth at the rows; nan where the contact grows beyond the curve."""
+        largest = amounts @ self.ends
+        kept = amounts[2:] > 0
+        retardation = RetardationSpectrum(
+            max(float(amounts[0]), _LEAST_SPRING * largest),
+            max(float(amounts[1]), _LEAST_DASHPOT * largest / self.duration),
+            amounts[2:][kept],
+            self.times[kept],
+        )
+        law = law_of(relaxation_spectrum(retardation), retardation)
+        moved, _, _ = move_row(
+            self.gap, self.stiffness, self.limit, law, self.load.time, self.load.values, by_depth=False
+        )
+        return moved.depth[self.place]
+
+    def _derivatives(self, amounts: Array, predicted: Array) -> Array:
+        """Return the derivatives of the depth by the amounts, shape (rows, amounts)."""
+        columns = np.empty((predicted.size, amounts.size))
+        for k, step in enumerate(_STEP * (amounts @ self.ends) / self.ends):
+            changed = amounts.copy()
+            changed[k] += step
+            columns[:, k] = (self._predicted(changed) - predicted) / step
+        return np.nan_to_num(columns)
+
+
+def _springpot(
+    curve: LoadingCurve, load: Load, place: Integers, depth: Array, time: Array, compliance: Array, signed: Array
+) -> tuple[Springpot, Array]:
+    """Return the springpot that fits best, and the residuals of the depth.
+
+    time, compliance : J of another fit, from which the search starts
+    """
+    from scipy.optimize import least_squares  # takes long to import
+    from scipy.special import gamma
+
+    exponent, logarithm = np.polyfit(np.log(time), np.log(compliance), 1)
+    exponent = float(np.clip(exponent, 0.01, 0.99))
+
+    def medium(x: Array) -> Springpot:
+        return Springpot(float(np.exp(-x[0]) / gamma(1 + x[1])), float(x[1]))
+
+    force = Load(load.time, force=load.values * units.square_metres(curve.length_unit))
+
+    def residual(x: Array) -> Array:
+        rest = depth - kinetics(curve, force, medium(x), load.time[place]).depth
+        return rest - signed @ np.linalg.lstsq(signed, rest)[0]
+
+    bounds = ([-np.inf, 0.001], [np.inf, 0.999])
+    found = least_squares(residual, [logarithm, exponent], bounds=bounds, diff_step=1e-4, xtol=1e-6, ftol=1e-8)
+    return medium(found.x), found.fun

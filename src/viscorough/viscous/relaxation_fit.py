@@ -1,0 +1,365 @@
+"""Fit of a medium to the measured force on an indenter whose depth is known.
+
+The loading curve is read as a row of springs (viscous.springs). If the first n springs are in contact at time t, and
+spring i, of stiffness k_i, touched at t_i, the force is
+
+    F(t) = Σ_{i<n} k_i ∫_{t_i}^t ψ(t − s) du(s),    ψ(t) = G∞ + Σ G_j exp(−t/τ_j)   with amounts G∞, G_j ≥ 0.
+
+At a prescribed depth each spring moves by itself, and one that lets go carries no force at that time. So the number n
+of springs in contact may be kept while the amounts change a little: the formula is the linearisation of the force. Of a
+contact that only grows n does not depend on the medium, and the force is linear in the amounts. Otherwise n and the
+force come from the exact motion of the row (viscous.unilateral), and the amounts from the Gauss-Newton method.
+
+The response of a branch at t, with R and Z the responses to dF_el(u) and to du, and with K_n = Σ_{i<n} k_i and t_n the
+time at which the last spring in contact touched, is
+
+    Σ_{i<n} k_i ∫_{t_i}^t exp(−(t − s)/τ) du = exp(−(t − t_n)/τ) R(t_n) + K_n (Z(t) − exp(−(t − t_n)/τ) Z(t_n)).
+
+A dashpot parallel to the medium appears as a branch that relaxes long before the first row.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from viscorough import units
+from viscorough.loading_curve import LoadingCurve
+from viscorough.types import Array, Integers
+from viscorough.viscous.creep_response import branch_states
+from viscorough.viscous.kinetics import kinetics
+from viscorough.viscous.load import Load
+from viscorough.viscous.media import CreepTable, Prony, Springpot
+from viscorough.viscous.medium import RelaxationSpectrum
+from viscorough.viscous.non_negative import extremes, non_negative
+from viscorough.viscous.record_fit import (
+    RESOLUTION,
+    RecordFit,
+    Shift,
+    distance_of,
+    finer_times,
+    scatter_of,
+    spread_times,
+)
+from viscorough.viscous.spectra import retardation_spectrum
+from viscorough.viscous.springs import merged, row_of_springs
+from viscorough.viscous.unilateral import law_of, move_row
+
+# Largest number of iterations of Gauss and Newton. They end if the sum of squares decreases by less than this share, or
+# if its root is below this share of the largest force.
+_ITERATIONS, _STALLED, _EXACT = 8, 1e-2, 1e-10
+# Largest number of springs in the row, and if the offset is fitted. With 5000 of them the force is exact to 1e-5, and
+# its derivative to 1e-3.
+_SPRINGS, _FEWER_SPRINGS = 5000, 2000
+# Unknowns whose joint region gives the intervals if the offset is fitted: branches that relax before the first rows can
+# replace a part of the offset, so that the region of one unknown is too narrow.
+_UNKNOWNS_WITH_OFFSET = 3
+# Relaxation times of branches that act as a dashpot, over the time of the first row.
+_DASHPOTS = (1e-4, 1e-3, 1e-2, 1e-1)
+# Number of times at which J and ψ are given, and ratio of the first row to the first of them.
+_KNOTS, _EARLIER = 120, 64
+# Step of difference quotients by the drift, over the largest depth. It is longer than the distance of springs, because
+# the force of a dashpot jumps at each of them.
+_DRIFT_STEP = 2e-3
+# Offsets, over the largest depth, at which fits are made, the number of those about the best, and the number of those
+# within the interval at which the intervals of ψ are computed.
+_OFFSETS, _FINER_OFFSETS, _INSIDE = np.linspace(-0.1, 0.1, 21), 15, 4
+_HALVINGS = 8  # of a step that does not make the sum of squares smaller
+
+
+def fit_force(
+    curve: LoadingCurve, load: Load, place: Integers, force: Array, kind: str, scatter: float | None, shift: Shift
+) -> RecordFit:
+    """Fit a medium to a measured force.
+
+    load : depth over time, with samples at the rows of the record
+    place : index of the sample of each row
+    force : measured force in consistent units, shape (rows,)
+    kind, scatter, shift : as in creep_fit.fit_growing_depth; the scatter is that of the force
+
+    Raises ValueError if the record shows no force, and for a depth beyond the last level of the curve.
+    """
+    lags = load.time[place] - load.time[0]
+    record = _ForceRecord(curve, load, place, force, shift)
+    resolution = RESOLUTION * np.abs(force).max()
+    first, last = lags[lags > 0][[0, -1]]
+    dashpots, spread = first * np.array(_DASHPOTS), spread_times(first, last)
+    times = np.append(dashpots, spread)
+    if shift.offset:
+        fits = _fits_of_offsets(record, times, scatter, resolution)
+    else:
+        fit = record.fit(times, 0.0)
+        if (found := spread[fit.amounts[1 + dashpots.size :] > 0]).size:
+            fit = record.fit(np.append(dashpots, finer_times(found, spread)), 0.0)
+        fits = [fit]
+    fit = min(fits, key=record.squares)
+    if not fit.amounts.any():
+        raise ValueError("record: no force; allowed: records that show how the force relaxes")
+    scatter, freedom = _scatter(record, fit, scatter, resolution)
+    time = np.append(0.0, np.geomspace(first / _EARLIER, last, _KNOTS))
+    unknowns = _UNKNOWNS_WITH_OFFSET if shift.offset else 1
+    intervals = _intervals(record, fits, time, distance_of(np.hypot(scatter, resolution), freedom, unknowns))
+    low, high, shift_low, shift_high = intervals
+    # Before the first row only the area of the pulse counts.
+    high[time < first * (1 - 1e-12)] += np.inf
+    low[low < resolution / record.elastic_force] = 0.0
+    prony, residual = _prony(fit), force - fit.force
+    compliance, modulus = prony.creep_compliance(time), prony.relaxation_modulus(time)
+    medium: CreepTable | Prony | Springpot = prony
+    if kind == "table":
+        medium = CreepTable(time, compliance)
+    elif kind == "springpot":
+        medium, residual = _springpot(record, fit)
+    misfit = float(np.sqrt(np.mean(residual**2)))
+    fitted = np.append([fit.offset] * shift.offset, fit.drift)
+    return RecordFit(
+        medium, time, compliance, modulus, low, high, scatter, freedom, misfit, fitted, shift_low, shift_high
+    )
+
+
+def _scatter(record: "_ForceRecord", fit: "_Fit", scatter: float | None, exact: float) -> tuple[float, float]:
+    """Return the standard deviation of the force, as given or about a fit, and its degrees of freedom."""
+    if scatter is not None:
+        return scatter, np.inf
+    return scatter_of(record.force - fit.force, fit.amounts, fit.drift.size + record.fits_offset, exact)
+
+
+def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None, resolution: float) -> list["_Fit"]:
+    """Return fits at offsets that hold the best one and the ends of its interval.
+
+    The force is not linear in the offset: within its rounding by noise, branches that relax before the first rows may
+    replace a part of it. So the best fit is sought at every offset.
+    """
+    offsets = _OFFSETS * record.load.values.max()
+    fits = [record.fit(times, offset) for offset in offsets]
+    squares = np.array([record.squares(fit) for fit in fits])
+    best = int(squares.argmin())
+    if best in (0, offsets.size - 1):
+        raise ValueError(
+            f"fit_offset: the zero of the depth is off by {offsets[best]:.3g} or more; allowed: errors below "
+            f"{offsets[-1]:.3g}, {100 * _OFFSETS[-1]:g} % of the largest depth; a better zero is needed"
+        )
+    deviation, freedom = _scatter(record, fits[best], scatter, resolution)
+    distance = np.nan_to_num(distance_of(np.hypot(deviation, resolution), freedom, _UNKNOWNS_WITH_OFFSET))
+    near = np.flatnonzero(squares <= squares[best] + distance**2)
+    low, high = offsets[max(near[0] - 1, 0)], offsets[min(near[-1] + 1, offsets.size - 1)]
+    return [record.fit(times, offset) for offset in np.linspace(low, high, _FINER_OFFSETS)]
+
+
+def _intervals(
+    record: "_ForceRecord", fits: list["_Fit"], time: Array, distance: float
+) -> tuple[Array, Array, Array, Array]:
+    """Return the ends of the intervals of ψ at these times, low and high, and of offset and drift, low and high.
+
+    fits : at one or more offsets, in order; distance : as in non_negative.extremes, nan for no intervals
+    """
+    fitted = record.fits_offset + fits[0].drift.size
+    if np.isnan(distance):
+        return *np.full((2, time.size), np.nan), *np.full((2, fitted), np.nan)
+    squares = np.array([record.squares(fit) for fit in fits])
+    excess = squares - squares.min() - distance**2
+    inside = np.flatnonzero(excess <= 0)
+    chosen = np.unique(np.append(inside[np.linspace(0, inside.size - 1, _INSIDE).astype(int)], squares.argmin()))
+    lows, highs = [], []
+    for fit in (fits[k] for k in chosen):
+        values = np.column_stack([np.ones(time.size), np.exp(-time[:, None] / fit.times)])
+        target = record.force - fit.force + fit.columns @ fit.amounts + fit.signed @ fit.drift
+        left = np.sqrt(distance**2 - (record.squares(fit) - squares.min()))
+        low, high = extremes(fit.columns, target, values, left, fit.signed)
+        # At the end of the interval of the offset nothing else may move.
+        lows.append(np.minimum(low, np.append(values @ fit.amounts, fit.drift)))
+        highs.append(np.maximum(high, np.append(values @ fit.amounts, fit.drift)))
+    low, high = np.min(lows, axis=0), np.max(highs, axis=0)
+    ends_low, ends_high = low[time.size :], high[time.size :]
+    if record.fits_offset:
+        offsets = np.array([fit.offset for fit in fits])
+        ends = [_crossing(offsets[:: -1 if first else 1], excess[:: -1 if first else 1]) for first in (True, False)]
+        ends_low, ends_high = np.append(ends[0], ends_low), np.append(ends[1], ends_high)
+    return low[: time.size], high[: time.size], ends_low, ends_high
+
+
+def _crossing(offsets: Array, excess: Array) -> float:
+    """Return where the excess becomes positive for good; between two offsets it is taken for straight."""
+    k = int(np.flatnonzero(excess <= 0)[-1])
+    if k == offsets.size - 1:
+        return float(offsets[k])
+    return float(offsets[k] + (offsets[k + 1] - offsets[k]) * excess[k] / (excess[k] - excess[k + 1]))
+
+
+class _Path(NamedTuple):
+    """Depth over time with a sample at every first touch of a spring.
+
+    time, depth : shape (samples,)
+    touches : index of the sample at which each spring touches that ever does, shape (springs that touch,)
+    place : index of the sample of each row of the record
+    """
+
+    time: Array
+    depth: Array
+    touches: Integers
+    place: Integers
+
+
+class _Fit(NamedTuple):
+    """Amounts G∞ and G_j of branches with these times, offset and drift, and the linearised force at them.
+
+    drift, signed : of shape (1,) and (rows, 1), or (0,) and (rows, 0) if the drift is not fitted
+    """
+
+    times: Array
+    amounts: Array
+    offset: float
+    drift: Array
+    force: Array
+    columns: Array
+    signed: Array
+
+
+class _ForceRecord:
+    """Least squares in force: amounts of relaxation moduli against the measured force."""
+
+    def __init__(self, curve: LoadingCurve, load: Load, place: Integers, force: Array, shift: Shift) -> None:
+        self.curve, self.load, self.place, self.force = curve, load, place, force
+        self.fits_offset = shift.offset
+        self.drifts = Shift(offset=False, drift=shift.drift).columns(load.time - load.time[0])
+        row = row_of_springs(curve)
+        self.gap, spring = merged(
+            row.gap, row.stiffness, load.values.max(), _FEWER_SPRINGS if shift.offset else _SPRINGS
+        )
+        # k and Σ k g of the first n springs, n = 0 to all of them.
+        self.stiffness = np.append(0.0, np.cumsum(spring))
+        self.moment = np.append(0.0, np.cumsum(spring * self.gap))
+        self.elastic_force = load.values.max() * self.stiffness[-1] - self.moment[-1]
+        self.grows = bool((np.diff(load.values) >= 0).all())
+
+    def fit(self, times: Array, offset: float) -> _Fit:
+        """Return the amounts of branches with these times, and the drift, that fit best at an offset."""
+        drift = np.zeros(self.drifts.shape[1])
+        path = self._path(offset, drift)
+        # Springs of an elastic body are in contact at first.
+        columns = self._columns(path, times, np.searchsorted(self.gap, path.depth[path.place]))
+        amounts, _ = non_negative(columns, self.force)
+        if self.grows and not drift.size:
+            return _Fit(times, amounts, offset, drift, columns @ amounts, columns, np.empty((self.force.size, 0)))
+        fit = self._linearised(times, amounts, offset, drift)
+        for _ in range(_ITERATIONS):
+            target = self.force - fit.force + fit.columns @ fit.amounts + fit.signed @ fit.drift
+            amounts, drift = non_negative(fit.columns, target, fit.signed)
+            new = self._linearised(times, amounts, offset, drift)
+            for _ in range(_HALVINGS):
+                if self.squares(new) <= self.squares(fit):
+                    break
+                amounts, drift = 0.5 * (amounts + fit.amounts), 0.5 * (drift + fit.drift)
+                new = self._linearised(times, amounts, offset, drift)
+            else:
+                return fit
+            stalled = self.squares(new) > (1 - _STALLED) * self.squares(fit)
+            fit = new
+            if stalled or self.squares(fit) < self.force.size * (_EXACT * np.abs(self.force).max()) ** 2:
+                break
+        return fit
+
+    def squares(self, fit: _Fit) -> float:
+        """Return the sum of the squared residuals."""
+        return float(((self.force - fit.force) ** 2).sum())
+
+    def _linearised(self, times: Array, amounts: Array, offset: float, drift: Array) -> _Fit:
+        """Return the force of these amounts and its derivatives."""
+        path, force, in_contact = self._force(times, amounts, offset, drift)
+        columns = self._columns(path, times, in_contact)
+        signed = np.empty((force.size, drift.size))
+        if drift.size:
+            step = _DRIFT_STEP * self.load.values.max() / self.drifts.max()
+            above, below = (self._force(times, amounts, offset, drift + sign * step)[1] for sign in (1, -1))
+            signed[:, 0] = (above - below) / (2 * step)
+        return _Fit(times, amounts, offset, drift, force, columns, signed)
+
+    def _force(self, times: Array, amounts: Array, offset: float, drift: Array) -> tuple[_Path, Array, Integers]:
+        """Return the depth, the force at the rows, and the numbers of springs in contact there."""
+        path = self._path(offset, drift)
+        branches = amounts[1:] > 0
+        if self.grows or not branches.any():
+            in_contact = np.searchsorted(self.gap, path.depth[path.place])
+            columns = self._columns(path, times[branches], in_contact)
+            return path, columns @ np.append(amounts[0], amounts[1:][branches]), in_contact
+        spectrum = RelaxationSpectrum(0.0, float(amounts[0]), amounts[1:][branches], times[branches])
+        law = law_of(spectrum, retardation_spectrum(spectrum))
+        springs, depth = (self.gap, np.diff(self.stiffness)), self.load.values - offset - self.drifts @ drift
+        moved, _, _ = move_row(*springs, np.inf, law, self.load.time, depth, by_depth=True)
+        return path, moved.force[self.place], moved.in_contact[self.place]
+
+    def _path(self, offset: float, drift: Array) -> _Path:
+        """Return the depth over time, corrected by offset and drift, with samples at the touches of springs."""
+        depth = self.load.values - offset - self.drifts @ drift
+        # Before the first sample the indenter is not in contact.
+        time, depth = np.append(self.load.time[0], self.load.time), np.append(min(depth[0], 0.0), depth)
+        gap = self.gap
+        after = np.searchsorted(np.maximum.accumulate(depth), gap, side="right")
+        touching = np.arange(np.searchsorted(after, depth.size))
+        after = after[touching]
+        share = (gap[touching] - depth[after - 1]) / (depth[after] - depth[after - 1])
+        touched = time[after - 1] + share * (time[after] - time[after - 1])
+        place = self.place + 1
+        return _Path(
+            np.insert(time, after, touched),
+            np.insert(depth, after, gap[touching]),
+            after + touching,
+            place + np.searchsorted(after, place, side="right"),
+        )
+
+    def _columns(self, path: _Path, times: Array, in_contact: Integers) -> Array:
+        """Return the forces at the rows of a spring and of branches of modulus 1, shape (rows, 1 + times).
+
+        in_contact : number of springs in contact at each row
+        """
+        in_contact = np.minimum(in_contact, path.touches.size)
+        stiffness = self.stiffness[in_contact]
+        spring = stiffness * path.depth[path.place] - self.moment[in_contact]
+        count = np.searchsorted(self.gap, path.depth)
+        elastic = self.stiffness[count] * path.depth - self.moment[count]
+        intervals = np.diff(path.time)
+        _, to_force = branch_states(intervals, elastic, times)
+        _, to_depth = branch_states(intervals, path.depth, times)
+        touch = path.touches[np.maximum(in_contact, 1) - 1]
+        since = np.maximum(path.time[path.place] - path.time[touch], 0.0)  # rows without contact do not count
+        kept = np.exp(-since[:, None] / times)
+        memory = to_depth[path.place] - kept * to_depth[touch]
+        columns = kept * to_force[touch] + stiffness[:, None] * memory
+        columns = np.column_stack([spring, columns])
+        columns[in_contact == 0] = 0.0
+        return columns
+
+
+def _prony(fit: _Fit) -> Prony:
+    """Return the medium of a fit."""
+    branches = fit.amounts[1:] > 0
+    moduli, times = fit.amounts[1:][branches], fit.times[branches]
+    if not branches.any():
+        raise ValueError(
+            "record: the force does not relax, as in an elastic body of the modulus "
+            f"{fit.amounts[0]:.6g}; allowed: records of media that relax"
+        )
+    return Prony(float(fit.amounts[0]), tuple(moduli.tolist()), tuple(times.tolist()))
+
+
+def _springpot(record: _ForceRecord, fit: _Fit) -> tuple[Springpot, Array]:
+    """Return the springpot that fits best at the offset and the drift of a fit, and the residuals of the force.
+
+    The force at a prescribed depth is proportional to the modulus.
+    """
+    from scipy.optimize import minimize_scalar  # takes long to import
+
+    depth = Load(record.load.time, depth=record.load.values - fit.offset - record.drifts @ fit.drift)
+    times = record.load.time[record.place]
+
+    def fitted(exponent: float) -> tuple[float, Array]:
+        motion = kinetics(record.curve, depth, Springpot(1.0, exponent), times)
+        column = motion.force / units.square_metres(record.curve.length_unit)
+        modulus = float(column @ record.force / (column @ column))
+        return modulus, record.force - modulus * column
+
+    def squares(exponent: float) -> float:
+        return float((fitted(exponent)[1] ** 2).sum())
+
+    exponent = float(minimize_scalar(squares, bounds=(0.001, 0.999), method="bounded", options={"xatol": 1e-5}).x)
+    modulus, residual = fitted(exponent)
+    return Springpot(modulus, exponent), residual

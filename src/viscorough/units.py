@@ -124,7 +124,7 @@ def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: s
         return newtons / divisor
     for force in forces if isinstance(forces, list | tuple) else [forces]:
         if isinstance(force, str) or unit_attribute(force):
-            moduli = spelled("--shear-modulus or --young", "shear_modulus")
+            moduli = spelled("--shear-modulus or --young", "shear_modulus or young_modulus")
             text = f"a force needs {moduli}; a plain number is F/G"
             shown = force if isinstance(force, str | Quantity) else f"in {unit_attribute(force)}"
             raise ValueError(f"{name} {shown}: {text}")

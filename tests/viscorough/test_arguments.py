@@ -49,12 +49,28 @@ OPTIONS = {"threads": 1}
 DISC_NUMBERS = {"hurst": 0.5, "elements_across": 5, "rms": 0.5, "diameter": 8.0, "period": 1.5, "seed": 1}
 ROLL_OFF = {"roll_off_wavelength": 0.5, "roll_off_level": 0.5}
 LENGTH, AREA = "um", "um**2"
+
+
+def spring_and_dashpot(function):
+    """Calls with a modulus in shear and with Young's modulus."""
+    modulus, viscosity = (2.0, "Pa"), (4.0, "Pa s")
+    return [
+        call(function, {"shear_modulus": modulus, "viscosity": viscosity}),
+        call(function, {"young_modulus": modulus, "viscosity": viscosity, "poisson": 0.25}),
+    ]
+
+
 CALLS = {
     "indent": [
         call(viscorough.indent, {"depths": ([0.5, 1.0], LENGTH), "tolerance": 0.0625, **OPTIONS}, indenter=DISC),
         call(
             viscorough.indent,
             {"forces": (FORCES, "N"), "shear_modulus": (2.0**14, "Pa"), "tolerance": 0.0625},
+            indenter=DISC,
+        ),
+        call(
+            viscorough.indent,
+            {"forces": (FORCES, "N"), "young_modulus": (2.0**14, "Pa"), "poisson": 0.25, "tolerance": 0.0625},
             indenter=DISC,
         ),
         call(viscorough.indent, {"forces": ([0.5, 1.0], AREA)}, indenter=DISC),
@@ -70,6 +86,11 @@ CALLS = {
         call(
             viscorough.contact_at,
             {"force": (FORCES[0], "N"), "shear_modulus": (2.0**14, "Pa")},
+            indenter=DISC,
+        ),
+        call(
+            viscorough.contact_at,
+            {"force": (FORCES[0], "N"), "young_modulus": (2.0**14, "Pa"), "poisson": 0.25},
             indenter=DISC,
         ),
     ],
@@ -211,21 +232,34 @@ CALLS = {
         )
     ],
     "CreepTable": [call(viscorough.CreepTable, {"times": (POINTS, "s"), "compliances": (POINTS, "1/Pa")})],
-    "KelvinVoigt": [call(viscorough.KelvinVoigt, {"shear_modulus": (2.0, "Pa"), "viscosity": (4.0, "Pa s")})],
-    "Maxwell": [call(viscorough.Maxwell, {"shear_modulus": (2.0, "Pa"), "viscosity": (4.0, "Pa s")})],
+    "KelvinVoigt": spring_and_dashpot(viscorough.KelvinVoigt),
+    "Maxwell": spring_and_dashpot(viscorough.Maxwell),
     "Newtonian": [call(viscorough.Newtonian, {"viscosity": (4.0, "Pa s")})],
     "Prony": [
         call(
             viscorough.Prony,
             {"relaxed_modulus": (1.0, "Pa"), "moduli": ([1.0, 2.0], "Pa"), "relaxation_times": ([1.0, 4.0], "s")},
-        )
+        ),
+        call(
+            viscorough.Prony,
+            {"relaxed_young_modulus": (1.0, "Pa"), "young_moduli": ([1.0, 2.0], "Pa"), "poisson": 0.25},
+            relaxation_times=[1.0, 4.0],
+        ),
     ],
-    "Springpot": [call(viscorough.Springpot, {"modulus": 2.0, "exponent": 0.5})],
+    "Springpot": [
+        call(viscorough.Springpot, {"modulus": 2.0, "exponent": 0.5}),
+        call(viscorough.Springpot, {"young_modulus": 2.0, "exponent": 0.5, "poisson": 0.25}),
+    ],
     "StandardLinearSolid": [
         call(
             viscorough.StandardLinearSolid,
             {"instantaneous_modulus": (4.0, "Pa"), "relaxed_modulus": (1.0, "Pa"), "relaxation_time": (0.5, "s")},
-        )
+        ),
+        call(
+            viscorough.StandardLinearSolid,
+            {"instantaneous_young_modulus": (4.0, "Pa"), "relaxed_young_modulus": (1.0, "Pa"), "poisson": 0.25},
+            relaxation_time=0.5,
+        ),
     ],
     "pressure_at": [
         call(

@@ -63,3 +63,9 @@ def test_forces_in_newtons_on_a_modulus():
         viscorough.contact_at(indenter, force="10 uN")
     with refused("shear_modulus: must be positive and finite, not -1.0"):
         viscorough.contact_at(indenter, force=1, shear_modulus=-1)
+    with refused("shear_modulus and young_modulus exclude each other; one of them is allowed"):
+        viscorough.contact_at(indenter, force=1, shear_modulus=1, young_modulus=1)
+    with refused("poisson is for use with young_modulus"):
+        viscorough.indent(indenter, forces=[1], shear_modulus=1, poisson=0.3)
+    with refused("poisson: must be above -1 and at most 0.5, not -1.0"):
+        viscorough.indent(indenter, forces=[1], young_modulus=1, poisson=-1)

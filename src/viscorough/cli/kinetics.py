@@ -53,7 +53,9 @@ def kinetics(
     MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
     (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony
     (relaxed_modulus, moduli, relaxation_times), springpot (modulus, exponent) and creep_table (file, of two columns,
-    times and compliances J).
+    times and compliances J). Moduli are those in shear. Young's moduli E = 3 G may be given instead, as young_modulus,
+    instantaneous_young_modulus, relaxed_young_modulus or young_moduli; poisson is then the Poisson ratio, by default
+    0.5.
 
     If the unit of length of the curve is known, forces are in N, moduli in Pa, viscosities in Pa s, or have a unit,
     as in --viscosity "2 kPa s" or in the heading t [ms],F [mN] of a force history. If not, they are plain numbers in

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from viscorough import units
+from viscorough.elasticity import INCOMPRESSIBLE, shear_modulus_of
 from viscorough.units import Quantity
 
 
@@ -175,16 +176,10 @@ def elasticity(
 
     G is that of the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units].
 
-    Raises UsageError if the options contradict each other, and ValueError as units.number.
+    Raises ValueError if the options contradict each other, and as units.number.
     """
-    exclusive = "--shear-modulus and --young exclude each other; one of them is allowed"
-    require(shear_modulus is None or young is None, exclusive)
-    require(poisson is None or young is not None, "--poisson is for use with --young")
+    modulus = shear_modulus_of(length_unit, shear_modulus, young, poisson)
     if young is not None:
-        poisson = 0.5 if poisson is None else poisson
-        modulus = units.number(young, "Pa", length_unit, "--young")
-        return modulus / (1 - poisson**2) / 4, {"young_modulus": modulus, "poisson_ratio": poisson}
-    if shear_modulus is not None:
-        modulus = units.number(shear_modulus, "Pa", length_unit, "--shear-modulus")
-        return modulus, {"shear_modulus": modulus}
-    return None, {}
+        stated = units.number(young, "Pa", length_unit, "--young")
+        return modulus, {"young_modulus": stated, "poisson_ratio": INCOMPRESSIBLE if poisson is None else poisson}
+    return modulus, {} if modulus is None else {"shear_modulus": modulus}

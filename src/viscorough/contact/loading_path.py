@@ -29,9 +29,10 @@ from viscorough.contact.sampling import curve_within, part_of
 from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
 from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
-from viscorough.indenter import Indenter, positive
+from viscorough.elasticity import shear_modulus_of
+from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Progress
+from viscorough.types import Array, Progress, Scalar
 
 # The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
 # until their ratio is the last number.
@@ -57,7 +58,9 @@ def indent(
     start_fraction: float = 0.0,
     until_fraction: float = 0.9,
     until_force: float | str = np.inf,
-    shear_modulus: float | str | None = None,
+    shear_modulus: Scalar | str | None = None,
+    young_modulus: Scalar | str | None = None,
+    poisson: float | None = None,
     progress: Progress | None = None,
     threads: int = 1,
     options: SolverOptions = DEFAULT,
@@ -100,7 +103,12 @@ def indent(
     until_force : float or str, optional
         F/G at which to stop [length²]; ignored where depths or forces are given.
     shear_modulus : float or str, optional
-        G [Pa], or a text as "2 MPa"; forces are then F [N], or texts as "5 mN". Depths may be texts, too.
+        G of an incompressible half-space [Pa], or a text as "2 MPa"; forces are then F [N], or texts as "5 mN". Depths
+        may be texts, too.
+    young_modulus : float or str, optional
+        Young's modulus E instead of G: G = E/(1 − ν²)/4.
+    poisson : float, optional
+        Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
     progress : Progress, optional
         Function that is called after a level with the estimated share of the computation that is done, up to 1.
     threads : int, optional
@@ -154,11 +162,9 @@ def indent(
     if not 0 <= start_fraction < until_fraction:
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
     unit = indenter.length_unit
-    if shear_modulus is not None:
-        modulus = argument("shear_modulus")
-        shear_modulus = positive(modulus, units.number(shear_modulus, "Pa", unit, modulus))
+    modulus = shear_modulus_of(unit, shear_modulus, young_modulus, poisson)
     if not (isinstance(until_force, float | np.floating) and until_force == np.inf):
-        until_force = units.forces_over_modulus(until_force, shear_modulus, unit, argument("until_force"))
+        until_force = units.forces_over_modulus(until_force, modulus, unit, argument("until_force"))
         until_force = real_number(argument("until_force"), until_force)
     if not until_force > 0:
         raise ValueError(f"{argument('until_force', of='indent')} must be positive, not {until_force!r}")
@@ -166,7 +172,7 @@ def indent(
         depths = np.atleast_1d(units.numbers(depths, unit, unit, argument("depths")))
         depths = increasing(argument("depths", of="indent"), depths, above_zero=True)
     if forces is not None:
-        forces = np.atleast_1d(units.forces_over_modulus(forces, shear_modulus, unit, argument("forces")))
+        forces = np.atleast_1d(units.forces_over_modulus(forces, modulus, unit, argument("forces")))
         forces = increasing(argument("forces", of="indent"), forces, above_zero=True)
     progress = progress or (lambda done: None)
     of_path: dict[str, Any] = {"start_fraction": start_fraction, "threads": threads, "options": options}

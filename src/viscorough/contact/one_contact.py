@@ -15,8 +15,9 @@ from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
 from viscorough.contact_maps import Contact
+from viscorough.elasticity import shear_modulus_of
 from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter, positive
+from viscorough.indenter import Indenter
 from viscorough.summaries import with_unit
 from viscorough.types import Progress, Scalar, Several
 
@@ -30,6 +31,8 @@ def contact_at(
     depth: Scalar | str,
     force: None = None,
     shear_modulus: Scalar | str | None = None,
+    young_modulus: Scalar | str | None = None,
+    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -44,6 +47,8 @@ def contact_at(
     depth: None = None,
     force: Scalar | str,
     shear_modulus: Scalar | str | None = None,
+    young_modulus: Scalar | str | None = None,
+    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -58,6 +63,8 @@ def contact_at(
     depth: Several,
     force: None = None,
     shear_modulus: Scalar | str | None = None,
+    young_modulus: Scalar | str | None = None,
+    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -72,6 +79,8 @@ def contact_at(
     depth: None = None,
     force: Several,
     shear_modulus: Scalar | str | None = None,
+    young_modulus: Scalar | str | None = None,
+    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -86,6 +95,8 @@ def contact_at(
     depth: ArrayLike | None = None,
     force: ArrayLike | None = None,
     shear_modulus: Scalar | str | None = None,
+    young_modulus: Scalar | str | None = None,
+    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -99,6 +110,8 @@ def contact_at(
     depth: ArrayLike | None = None,
     force: ArrayLike | None = None,
     shear_modulus: Scalar | str | None = None,
+    young_modulus: Scalar | str | None = None,
+    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -115,11 +128,15 @@ def contact_at(
     depth : array_like, optional
         u, from first contact [length], or a text with a unit as "20 nm"; or several ones, increasing.
     force : array_like, optional
-        F/G, G the shear modulus [length²]; with `shear_modulus` F [N], or a text with a unit as "5 mN"; or several
-        ones, increasing. Either depth or force must be given.
+        F/G, G the shear modulus [length²]; with a modulus F [N], or a text with a unit as "5 mN"; or several ones,
+        increasing. Either depth or force must be given.
     shear_modulus : float or str, optional
-        G [Pa], or a text as "2 MPa": E/4/(1 − ν²) of the half-space. If the unit of length is not known, it is in
+        G of an incompressible half-space [Pa], or a text as "2 MPa". If the unit of length is not known, it is in
         consistent units.
+    young_modulus : float or str, optional
+        Young's modulus E instead of G, in the same units: G = E/(1 − ν²)/4.
+    poisson : float, optional
+        Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
     tolerance : float, optional
         Largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of force
         at a given depth, and of depth at a given force, are far below it. Between 1e-12 and 0.1.
@@ -151,18 +168,20 @@ def contact_at(
     >>> contact = viscorough.contact_at(disc, force=0.005)
     >>> round(contact.force, 6)
     0.005
+    >>> tip = viscorough.self_affine_disc(0.7, 17, rms=0.1, diameter=20, length_unit="um", seed=1)
+    >>> contact = viscorough.contact_at(tip, force="20 uN", young_modulus="2 MPa")
+    >>> round(contact.normal_force, 9)
+    2e-05
     """
     tolerance = check_solvable("contact_at", indenter, tolerance, threads, options)
     if (depth is None) == (force is None):
         raise ValueError("contact_at: either depth or force must be given")
     by_depth, unit = force is None, indenter.length_unit
-    if shear_modulus is not None:
-        modulus = argument("shear_modulus")
-        shear_modulus = positive(modulus, units.number(shear_modulus, "Pa", unit, modulus))
+    modulus = shear_modulus_of(unit, shear_modulus, young_modulus, poisson)
     if by_depth:
         given = units.numbers(depth, unit, unit, argument("depth"))
     else:
-        given = units.forces_over_modulus(force, shear_modulus, unit, argument("force"))
+        given = units.forces_over_modulus(force, modulus, unit, argument("force"))
     values = increasing(
         argument("depth" if by_depth else "force", of="contact_at"), np.atleast_1d(given), above_zero=True
     )
@@ -204,7 +223,7 @@ def contact_at(
                 spacing=indenter.spacing,
                 row_spacing=indenter.row_spacing,
                 length_unit=unit,
-                shear_modulus=shear_modulus,
+                shear_modulus=modulus,
             )
         )
         tell(len(contacts) / values.size)

@@ -2,6 +2,7 @@
 
 import contextlib
 import dataclasses
+import inspect
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
@@ -77,7 +78,8 @@ def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
 def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, folder: Path = Path()) -> Medium:
     """The medium of a mapping, in SI units where the unit of length of the indenter is known.
 
-    mapping : `kind`, one of KINDS, and all keys of that kind. Where the unit of length is known, plain moduli are in
+    mapping : `kind`, one of KINDS, and all parameters of that kind; Young's moduli (media.YOUNG), with the optional key
+        `poisson`, may stand in for the moduli. Where the unit of length is known, plain moduli are in
         Pa, viscosities in Pa s and times in s, and any of them may be given with a unit ("2 MPa"), but for the
         springpot's; where it is "1", plain numbers are in consistent units of the user's choice, and no others are
         allowed. A creep table names a file of two columns, times and compliances, in s and 1/Pa or in the units that
@@ -89,17 +91,19 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
     if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"kind {repr(kind)[:60]}; allowed: {', '.join(KINDS)}")
     make = KINDS[kind]
-    keys = ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
+    needed = ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
+    keys = ["file"] if make is media.CreepTable else list(inspect.signature(make).parameters)
     if unknown := [key for key in mapping if key != "kind" and key not in keys]:
         raise ValueError(f"unknown key {repr(unknown[0])[:60]}; allowed for {kind}: {', '.join(keys)}")
-    if missing := [key for key in keys if key not in mapping]:
-        raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
+    if missing := [key for key in needed if not {key, media.YOUNG.get(key)} & mapping.keys()]:
+        needs = [f"{key} (or {media.YOUNG[key]})" if media.YOUNG.get(key) in keys else key for key in needed]
+        raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(needs)}")
     if make is media.CreepTable:
         name, columns = mapping["file"], {"time": "s", "compliance": "1/Pa"}
         if not isinstance(name, str) or not name or "\0" in name:
             raise ValueError(f"file: {repr(name)[:60]}; allowed: the name of a .csv or .npy file")
         return make(*read_columns(folder / name, "a creep table", columns, length_unit))
-    return make(**{key: _values(key, mapping[key], length_unit) for key in keys})
+    return make(**{key: _values(key, value, length_unit) for key, value in mapping.items() if key != "kind"})
 
 
 def creep_table_of(path: FilePath) -> Path | None:

@@ -7,11 +7,14 @@ The half-space is incompressible at all times. Moduli are in one unit, times in 
 and compliances in the inverse of the modulus; a text with a unit, as "2 MPa", is converted to SI units. In all
 media J does not decrease and is concave, as in every medium that relaxes (ψ a sum of decaying exponentials with
 positive weights).
+
+Moduli are those in shear. Keywords of their own (`YOUNG`) take Young's moduli instead, E = 3 G. With a constant Poisson
+ratio other than 0.5 the medium is the incompressible one that responds in the same way (viscorough.elasticity).
 """
 
 import contextlib
 from abc import abstractmethod
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -30,8 +33,9 @@ from viscorough.arrays import (
     shown,
     unit_attribute,
 )
+from viscorough.elasticity import poisson_ratio, shear_over_incompressible, young_over_shear
 from viscorough.summaries import span
-from viscorough.types import Array
+from viscorough.types import Array, Scalar, Several
 from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
 from viscorough.viscous.spectra import retardation_spectrum
 
@@ -41,6 +45,14 @@ UNITS = {  # of values that are given with a unit, by the name of the parameter
     **dict.fromkeys(("relaxation_time", "relaxation_times"), "s"),
     "viscosity": "Pa s",
 }
+YOUNG = {  # Young's moduli, by the name of the modulus in shear that they replace
+    "shear_modulus": "young_modulus",
+    "instantaneous_modulus": "instantaneous_young_modulus",
+    "relaxed_modulus": "relaxed_young_modulus",
+    "moduli": "young_moduli",
+    "modulus": "young_modulus",
+}
+_LISTS = ("moduli", "relaxation_times")
 _TABLE_ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much
 _LAST_DIGITS = 1e-14  # relative; rounding of compliances, which their slopes show where J hardly grows
 
@@ -55,10 +67,6 @@ class _Exponential(Medium):
     @cached_property
     def retardation(self) -> RetardationSpectrum:
         return retardation_spectrum(self.relaxation)
-
-    def __post_init__(self) -> None:
-        _keep_positive(self)
-        self._check_spectra()
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """J at times t ≥ 0, any shape; J(0+) at time 0."""
@@ -119,15 +127,31 @@ class Newtonian(_Exponential):
 
     viscosity: float
 
+    def __post_init__(self) -> None:
+        _set_parameters(self, {"viscosity": self.viscosity})
+        self._check_spectra()
+
     @cached_property
     def relaxation(self) -> RelaxationSpectrum:
         return RelaxationSpectrum(self.viscosity, 0.0, _NONE, _NONE)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class _SpringAndDashpot(_Exponential):
     shear_modulus: float
     viscosity: float
+
+    def __init__(
+        self,
+        shear_modulus: Scalar | str | None = None,
+        viscosity: Scalar | str | None = None,
+        *,
+        young_modulus: Scalar | str | None = None,
+        poisson: float | None = None,
+    ) -> None:
+        given = {"shear_modulus": shear_modulus, "viscosity": viscosity}
+        _set_parameters(self, given, {"shear_modulus": young_modulus}, poisson)
+        self._check_spectra()
 
 
 class Maxwell(_SpringAndDashpot):
@@ -135,16 +159,28 @@ class Maxwell(_SpringAndDashpot):
 
     Parameters
     ----------
-    shear_modulus
-        G.
-    viscosity
-        η. Raises ValueError unless both are finite numbers above 0.
+    shear_modulus : float or str
+        G, or a text as "2 MPa".
+    viscosity : float or str
+        η in shear, or a text as "2 kPa s".
+    young_modulus : float or str, optional
+        Young's modulus E instead of G: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5. The
+        medium then is the incompressible one of the same E(t)/(1 − ν²), so that also η is divided by 2(1 − ν).
+
+    Raises
+    ------
+    ValueError
+        Unless both are finite numbers above 0, and for a Poisson ratio outside these limits.
 
     Examples
     --------
     >>> import viscorough
     >>> float(viscorough.Maxwell(shear_modulus=2.0, viscosity=5.0).creep_compliance(10.0))
     2.5
+    >>> viscorough.Maxwell(young_modulus="6 MPa", viscosity="5 kPa s")
+    Maxwell(shear_modulus=2000000.0, viscosity=5000.0)
     """
 
     @cached_property
@@ -158,10 +194,20 @@ class KelvinVoigt(_SpringAndDashpot):
 
     Parameters
     ----------
-    shear_modulus
-        G.
-    viscosity
-        η. Raises ValueError unless both are finite numbers above 0.
+    shear_modulus : float or str
+        G, or a text as "2 MPa".
+    viscosity : float or str
+        η in shear, or a text as "2 kPa s".
+    young_modulus : float or str, optional
+        Young's modulus E instead of G: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5. The
+        medium then is the incompressible one of the same E(t)/(1 − ν²), so that also η is divided by 2(1 − ν).
+
+    Raises
+    ------
+    ValueError
+        Unless both are finite numbers above 0, and for a Poisson ratio outside these limits.
 
     Examples
     --------
@@ -175,23 +221,27 @@ class KelvinVoigt(_SpringAndDashpot):
         return RelaxationSpectrum(self.viscosity, self.shear_modulus, _NONE, _NONE)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class StandardLinearSolid(_Exponential):
     """J = 1/G∞ − (1/G∞ − 1/G₀) exp(−t/θ), θ = τ G₀/G∞; ψ = G∞ + (G₀ − G∞) exp(−t/τ).
 
     Parameters
     ----------
-    instantaneous_modulus : float
-        G₀.
-    relaxed_modulus : float
+    instantaneous_modulus : float or str
+        G₀, or a text as "2 MPa".
+    relaxed_modulus : float or str
         G∞ < G₀.
-    relaxation_time : float
-        τ.
+    relaxation_time : float or str
+        τ, or a text as "20 ms".
+    instantaneous_young_modulus, relaxed_young_modulus : float or str, optional
+        Young's moduli instead of G₀ and G∞: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with Young's moduli, by default 0.5.
 
     Raises
     ------
     ValueError
-        Unless all are finite numbers above 0 and G∞ < G₀.
+        Unless all are finite numbers above 0 and G∞ < G₀, and for a Poisson ratio outside these limits.
 
     Examples
     --------
@@ -205,6 +255,21 @@ class StandardLinearSolid(_Exponential):
     relaxed_modulus: float
     relaxation_time: float
 
+    def __init__(
+        self,
+        instantaneous_modulus: Scalar | str | None = None,
+        relaxed_modulus: Scalar | str | None = None,
+        relaxation_time: Scalar | str | None = None,
+        *,
+        instantaneous_young_modulus: Scalar | str | None = None,
+        relaxed_young_modulus: Scalar | str | None = None,
+        poisson: float | None = None,
+    ) -> None:
+        given = {"instantaneous_modulus": instantaneous_modulus, "relaxed_modulus": relaxed_modulus}
+        young = {"instantaneous_modulus": instantaneous_young_modulus, "relaxed_modulus": relaxed_young_modulus}
+        _set_parameters(self, given | {"relaxation_time": relaxation_time}, young, poisson)
+        self._check_spectra()
+
     @cached_property
     def relaxation(self) -> RelaxationSpectrum:
         branch = self.instantaneous_modulus - self.relaxed_modulus
@@ -216,18 +281,24 @@ class StandardLinearSolid(_Exponential):
         return RelaxationSpectrum(0.0, self.relaxed_modulus, np.array([branch]), np.array([self.relaxation_time]))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Prony(_Exponential):
     """A Prony series: ψ = G∞ + Σ G_i exp(−t/τ_i); J from the zeros of its relaxance, exactly.
 
     Parameters
     ----------
-    relaxed_modulus : float
-        G∞ ≥ 0, 0 for a medium that flows.
-    moduli : tuple[float, ...]
-        G_i > 0.
-    relaxation_times : tuple[float, ...]
-        τ_i > 0, in any order.
+    relaxed_modulus : float or str
+        G∞ ≥ 0, 0 for a medium that flows; or a text as "2 MPa".
+    moduli : list
+        G_i > 0, numbers or texts.
+    relaxation_times : list
+        τ_i > 0, numbers or texts as "20 ms", in any order.
+    relaxed_young_modulus : float or str, optional
+        Young's modulus instead of G∞: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
+    young_moduli : list, optional
+        Young's moduli instead of G_i.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with Young's moduli, by default 0.5.
 
     Raises
     ------
@@ -246,16 +317,19 @@ class Prony(_Exponential):
     moduli: tuple[float, ...]
     relaxation_times: tuple[float, ...]
 
-    def __post_init__(self) -> None:
-        relaxed = _number(self, "relaxed_modulus", self.relaxed_modulus, zero=True)
-        object.__setattr__(self, "relaxed_modulus", relaxed)
-        for name in ("moduli", "relaxation_times"):
-            values = getattr(self, name)
-            entries = list(values) if isinstance(values, list | tuple) or np.ndim(values) == 1 else []
-            if not entries:
-                raise ValueError(f"Prony: {name} {shown(values)}; allowed: a list of one or more numbers above 0")
-            numbers = tuple(_number(self, f"{name}[{i}]", value) for i, value in enumerate(entries))
-            object.__setattr__(self, name, numbers)
+    def __init__(
+        self,
+        relaxed_modulus: Scalar | str | None = None,
+        moduli: Several | None = None,
+        relaxation_times: Several | None = None,
+        *,
+        relaxed_young_modulus: Scalar | str | None = None,
+        young_moduli: Several | None = None,
+        poisson: float | None = None,
+    ) -> None:
+        given = {"relaxed_modulus": relaxed_modulus, "moduli": moduli, "relaxation_times": relaxation_times}
+        young = {"relaxed_modulus": relaxed_young_modulus, "moduli": young_moduli}
+        _set_parameters(self, given, young, poisson, zero="relaxed_modulus")
         if len(self.moduli) != len(self.relaxation_times):
             raise ValueError(
                 f"Prony: {len(self.moduli)} moduli and {len(self.relaxation_times)} relaxation_times; "
@@ -272,7 +346,7 @@ class Prony(_Exponential):
         return RelaxationSpectrum(0.0, self.relaxed_modulus, moduli, times[first])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Springpot(Medium):
     """Creep by a power law: J = t^a/(K Γ(1+a)), ψ = K t^(−a)/Γ(1−a).
 
@@ -282,11 +356,15 @@ class Springpot(Medium):
         K [modulus · time^a].
     exponent : float
         a.
+    young_modulus : float, optional
+        The same of Young's modulus, E = E₁ t^(−a)/Γ(1−a), instead of K: K = E₁/(1 − ν²)/4, which is E₁/3 for ν = 0.5.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5.
 
     Raises
     ------
     ValueError
-        Unless K is a finite number above 0 and 0 < a < 1.
+        Unless K is a finite number above 0 and 0 < a < 1, and for a Poisson ratio outside these limits.
 
     Examples
     --------
@@ -298,8 +376,15 @@ class Springpot(Medium):
     modulus: float
     exponent: float
 
-    def __post_init__(self) -> None:
-        _keep_positive(self)
+    def __init__(
+        self,
+        modulus: Scalar | None = None,
+        exponent: Scalar | None = None,
+        *,
+        young_modulus: Scalar | None = None,
+        poisson: float | None = None,
+    ) -> None:
+        _set_parameters(self, {"modulus": modulus, "exponent": exponent}, {"modulus": young_modulus}, poisson)
         if not self.exponent < 1:
             text = "allowed: above 0 and below 1 (1 is a Newtonian medium)"
             raise ValueError(f"Springpot: exponent {self.exponent:g}; {text}")
@@ -434,22 +519,67 @@ def _power_increment(start: ArrayLike, end: ArrayLike, power: float) -> Array:
     return np.where(start > 0, increment, end**power)
 
 
-def _keep_positive(medium: Any) -> None:
-    for field in fields(medium):
-        object.__setattr__(medium, field.name, _number(medium, field.name, getattr(medium, field.name)))
+def _set_parameters(
+    medium: Medium,
+    given: dict[str, Any],
+    young: dict[str, Any] | None = None,
+    poisson: float | None = None,
+    *,
+    zero: str = "",
+) -> None:
+    """Set the parameters of a medium: finite numbers above 0, in SI units if they have a unit.
+
+    given : {parameter: value}; a value is None if it is missing, or if Young's modulus is given instead
+    young : {modulus in shear: Young's modulus instead}, None if it is not given
+    poisson : Poisson ratio, with Young's moduli; None: 0.5
+    zero : parameter that may be 0
+
+    Raises ValueError, which names medium and parameter.
+    """
+    name, young = type(medium).__name__, young or {}
+    keywords = ", ".join(YOUNG[modulus] for modulus in young)
+    by_young = any(value is not None for value in young.values())
+    if by_young and any(given[modulus] is not None for modulus in young):
+        text = f"{name}: {', '.join(young)} and {keywords} exclude each other"
+        raise ValueError(f"{text}; one of these kinds of moduli is allowed")
+    if poisson is not None and not by_young:
+        raise ValueError(f"{name}: poisson is for use with {keywords}")
+    ratio = poisson_ratio(f"{name}: poisson", poisson)
+    for parameter, value in given.items():
+        divisor, spelled = 1.0, parameter
+        if by_young and parameter in young:
+            divisor, spelled, value = young_over_shear(ratio), YOUNG[parameter], young[parameter]
+        elif parameter == "viscosity":
+            divisor = shear_over_incompressible(ratio)
+        if value is None:
+            instead = f" or {YOUNG[parameter]}" if parameter in young and not by_young else ""
+            raise ValueError(f"{name}: {spelled}{instead} is missing")
+        checked: Any
+        if parameter in _LISTS:
+            checked = tuple(number / divisor for number in _numbers(name, spelled, value, UNITS[parameter]))
+        else:
+            checked = _number(name, spelled, value, UNITS.get(parameter), zero=parameter == zero) / divisor
+        object.__setattr__(medium, parameter, checked)
 
 
-def _number(medium: Medium, name: str, value: Any, *, zero: bool = False) -> float:
-    """The value as a float, of a text with a unit in SI units.
+def _numbers(medium: str, name: str, values: Any, unit: str) -> list[float]:
+    """Return the values of a list as floats. Raises ValueError as `_number`, and for anything but a list."""
+    entries = list(values) if isinstance(values, list | tuple) or np.ndim(values) == 1 else []
+    if not entries:
+        raise ValueError(f"{medium}: {name} {shown(values)}; allowed: a list of one or more numbers above 0")
+    return [_number(medium, f"{name}[{i}]", entry, unit) for i, entry in enumerate(entries)]
+
+
+def _number(medium: str, name: str, value: Any, unit: str | None, *, zero: bool = False) -> float:
+    """Return the value as a float, of a text with a unit in SI units.
 
     Raises ValueError unless it is a finite number above 0, or 0 where that is allowed.
     """
-    unit = UNITS.get(name.partition("[")[0])
     if unit and (isinstance(value, str) or hasattr(value, "units")):
-        value = units.number(value, unit, "m", f"{type(medium).__name__}: {name}")
+        value = units.number(value, unit, "m", f"{medium}: {name}")
     with contextlib.suppress(ValueError):
         number = real_number(name, value)
         if number > 0 or (zero and number == 0):
             return number
     allowed = "0 or a finite number above 0" if zero else "a finite number above 0"
-    raise ValueError(f"{type(medium).__name__}: {name} {shown(value)}; allowed: {allowed}")
+    raise ValueError(f"{medium}: {name} {shown(value)}; allowed: {allowed}")

@@ -87,6 +87,8 @@ def test_forces_with_a_modulus_are_newtons_where_the_unit_is_known(here):
 def test_moduli_are_in_consistent_units_where_no_unit_is_known(here):
     force = contact("--force 60 --young 1.5 --poisson 0.25")["force"]
     assert force == pytest.approx(60 / (1.5 / (4 * (1 - 0.25**2))), rel=1e-12)
+    in_python = contact_at(Indenter(np.load("heights.npy"), 1.0), force=60, young_modulus=1.5, poisson=0.25)
+    assert in_python.force == force
     assert netcdf.read("out.nc").attributes.items() >= {"young_modulus": 1.5, "poisson_ratio": 0.25}.items()
 
 

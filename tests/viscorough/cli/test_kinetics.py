@@ -101,6 +101,30 @@ def test_depth_histories_have_units(here, curve):
     np.testing.assert_allclose(values("kin.nc")["force"], kinetics(curve, load, medium).force, rtol=1e-12)
 
 
+YOUNG = {
+    "maxwell": ("{kind: maxwell, young_modulus: 6, viscosity: 5}", Maxwell(2.0, 5.0)),
+    "kelvin_voigt": ("{kind: kelvin_voigt, young_modulus: 6, viscosity: 5, poisson: 0.5}", KelvinVoigt(2.0, 5.0)),
+    "standard_linear_solid": (
+        "kind: standard_linear_solid\ninstantaneous_young_modulus: 12\nrelaxed_young_modulus: 3\n"
+        "relaxation_time: 0.3\n",
+        StandardLinearSolid(4.0, 1.0, 0.3),
+    ),
+    "prony": (
+        "{kind: prony, relaxed_young_modulus: 3, young_moduli: [30, 9], relaxation_times: [0.1, 1]}",
+        Prony(1.0, [10, 3], [0.1, 1]),
+    ),
+    "springpot": ("{kind: springpot, young_modulus: 6, exponent: 0.4}", Springpot(2.0, 0.4)),
+}
+
+
+@pytest.mark.parametrize("kind", YOUNG)
+def test_files_may_hold_youngs_moduli(here, curve, kind):
+    text, medium = YOUNG[kind]
+    (here / "medium.yaml").write_text(text)
+    assert run(f"{KINETICS} --force 0.3 --medium medium.yaml --times 0.5,2") == 0
+    np.testing.assert_array_equal(values("kin.nc")["depth"], kinetics(curve, 0.3, medium, [0.5, 2]).depth)
+
+
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
@@ -147,6 +171,10 @@ BAD_MEDIA = [
         for bad in ("0", "null", "[1]", "{a: 1}", "one", "'1 Pa s'", "2013-11-12", "''")
     ],
     *[(medium_text("maxwell", **{key: None}), f"lacks {key}") for key in ("shear_modulus", "viscosity")],
+    (medium_text("maxwell", young_modulus=6), "shear_modulus and young_modulus exclude each other"),
+    (medium_text("maxwell", poisson=0.3), "poisson is for use with young_modulus"),
+    (medium_text("kelvin_voigt", shear_modulus=None, young_modulus=6, poisson=0.6), "poisson: must be above -1"),
+    (medium_text("newtonian", young_modulus=6), "unknown key 'young_modulus'; allowed for newtonian: viscosity"),
     (medium_text("maxwell", more=1), "unknown key 'more'; allowed for"),
     (medium_text("springpot", exponent="half"), "exponent: 'half'; allowed: a plain number"),
     (medium_text("prony", moduli="[a, b]"), "moduli[0]: 'a'; allowed: a plain number"),

@@ -115,6 +115,16 @@ def test_table():
         (lambda: Prony(1.0, [1.0, 0.0], [1.0, 2.0]), r"moduli\[1\] 0.0"),
         (lambda: Prony(1.0, [1.0, 1.0], [1.0]), "one time for every modulus"),
         (lambda: Maxwell(1e-300, 1e300), "too far apart"),
+        (lambda: KelvinVoigt(viscosity=1.0), "^KelvinVoigt: shear_modulus or young_modulus is missing$"),
+        (lambda: KelvinVoigt(young_modulus=1.0), "^KelvinVoigt: viscosity is missing$"),
+        (lambda: Maxwell(1.0, 1.0, young_modulus=3.0), "Maxwell: shear_modulus and young_modulus exclude each other"),
+        (lambda: Maxwell(1.0, 1.0, poisson=0.3), "Maxwell: poisson is for use with young_modulus"),
+        (lambda: Maxwell(viscosity=1.0, young_modulus=3.0, poisson=0.6), "poisson: must be above -1 and at most 0.5"),
+        (
+            lambda: StandardLinearSolid(2.0, 1.0, 1.0, relaxed_young_modulus=1.0),
+            "exclude each other; one of these kinds",
+        ),
+        (lambda: Prony(young_moduli=[1.0], relaxation_times=[1.0]), "Prony: relaxed_young_modulus is missing"),
         (lambda: CreepTable([0.0], [1.0]), "two or more times"),
         (lambda: CreepTable([0.5, 1], [1, 2]), "start with 0"),
         (lambda: CreepTable([0, 1, 1], [1, 2, 3]), "each larger than the one before"),
@@ -139,3 +149,22 @@ def test_values_with_a_unit_are_converted_to_si():
         KelvinVoigt(shear_modulus="1 Pa s", viscosity=1.0)
     with refused("Springpot: exponent '0.5 Pa'"):
         Springpot(1.0, "0.5 Pa")
+
+
+def test_youngs_moduli_of_incompressible_media_are_three_times_those_in_shear():
+    assert Maxwell(young_modulus="6 MPa", viscosity="3 kPa s") == Maxwell(2e6, 3e3)
+    assert KelvinVoigt(young_modulus=6.0, viscosity=5.0, poisson=0.5) == KelvinVoigt(2.0, 5.0)
+    solid = StandardLinearSolid(instantaneous_young_modulus=9.0, relaxed_young_modulus=3.0, relaxation_time=0.5)
+    assert solid == StandardLinearSolid(3.0, 1.0, 0.5)
+    prony = Prony(relaxed_young_modulus=0, young_moduli=["3 kPa", 6.0], relaxation_times=[1.0, 2.0])
+    assert prony == Prony(0, [1e3, 2.0], [1.0, 2.0])
+    assert Springpot(young_modulus=6.0, exponent=0.5) == Springpot(2.0, 0.5)
+
+
+def test_a_constant_poisson_ratio_keeps_relaxation_times():
+    """A contact sees E(t)/(1 − ν²); the relaxation time is the viscosity over the modulus, both in shear."""
+    young, viscosity, ratio = 3.0, 5.0, 0.2
+    medium = Maxwell(young_modulus=young, viscosity=viscosity, poisson=ratio)
+    relaxation_time, times = viscosity / (young / (2 * (1 + ratio))), np.linspace(0, 20, 9)
+    expected = young * np.exp(-times / relaxation_time) / (1 - ratio**2)
+    np.testing.assert_allclose(4 * medium.relaxation_modulus(times), expected, rtol=1e-13)

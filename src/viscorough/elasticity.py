@@ -1,0 +1,63 @@
+"""Elastic constants: from Young's modulus E and Poisson ratio ν to the shear modulus that the solvers use.
+
+Contact without friction depends on E/(1 − ν²) alone. A half-space is therefore as stiff as the incompressible one with
+the shear modulus
+
+    G = E/(1 − ν²)/4,    E/3 if it is incompressible itself (ν = 1/2).
+
+In a linear viscoelastic medium whose Poisson ratio is constant, this holds for Young's modulus at every time. Its
+moduli in shear, E/(2(1 + ν)), and its viscosities in shear are then 2(1 − ν) times those of the incompressible medium.
+"""
+
+from typing import Any
+
+from viscorough import units
+from viscorough.argument_names import spelled
+
+INCOMPRESSIBLE = 0.5  # Poisson ratio
+
+
+def shear_modulus_of(
+    length_unit: str, shear_modulus: Any = None, young_modulus: Any = None, poisson: Any = None
+) -> float | None:
+    """Return G of the incompressible half-space that is as stiff as the given one; None if no modulus is given.
+
+    shear_modulus, young_modulus : G or E in Pa, or with a unit; in consistent units if the unit of length is not known
+    poisson : ν, with Young's modulus only; default: 0.5
+
+    Raises ValueError, which names the argument, for other numbers, and for arguments that exclude each other.
+    """
+    from viscorough.indenter import positive  # numpy takes long to import, and reading the options does not need it
+
+    names = {"shear_modulus": spelled("--shear-modulus", "shear_modulus"), "young": spelled("--young", "young_modulus")}
+    if shear_modulus is not None and young_modulus is not None:
+        raise ValueError(f"{' and '.join(names.values())} exclude each other; one of them is allowed")
+    if young_modulus is None:
+        if poisson is not None:
+            raise ValueError(f"{spelled('--poisson', 'poisson')} is for use with {names['young']}")
+        if shear_modulus is None:
+            return None
+        return positive(names["shear_modulus"], units.number(shear_modulus, "Pa", length_unit, names["shear_modulus"]))
+    ratio = poisson_ratio(spelled("--poisson", "poisson"), poisson)
+    modulus = positive(names["young"], units.number(young_modulus, "Pa", length_unit, names["young"]))
+    return modulus / young_over_shear(ratio)
+
+
+def poisson_ratio(name: str, value: Any) -> float:
+    """Return ν as a float, 0.5 for None. Raises ValueError, which starts with the name, unless −1 < ν ≤ 0.5."""
+    from viscorough.arrays import real_number
+
+    ratio = INCOMPRESSIBLE if value is None else real_number(name, value)
+    if not -1 < ratio <= INCOMPRESSIBLE:
+        raise ValueError(f"{name}: must be above -1 and at most 0.5, not {ratio!r}")
+    return ratio
+
+
+def young_over_shear(poisson: float) -> float:
+    """Return the ratio of Young's modulus to the modulus in shear of the incompressible medium, 4(1 − ν²)."""
+    return 4 * (1 - poisson**2)
+
+
+def shear_over_incompressible(poisson: float) -> float:
+    """Return the ratio of moduli and viscosities in shear to those of the incompressible medium, 2(1 − ν)."""
+    return 2 * (1 - poisson)

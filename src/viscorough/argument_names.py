@@ -43,3 +43,8 @@ def argument(name: str, value: object = None, *, of: str = "") -> str:
     if value is not None:
         option, name = f"{option} {value}", f"{name}={value!r}"
     return spelled(option, f"{of}: {name}" if of else name)
+
+
+def caller(function: str) -> str:
+    """Return "function: " in Python, and nothing on the command line, which names its command anyway."""
+    return spelled("", f"{function}: ")

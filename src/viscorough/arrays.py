@@ -11,7 +11,7 @@ import functools
 import math
 from collections.abc import Iterator
 from numbers import Integral, Real
-from typing import Any, cast, get_args
+from typing import Any, cast, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -161,7 +161,7 @@ class ReadOnlyArrays:
         super().__init_subclass__(**options)
         # Else dataclasses compare tuples, of which arrays cannot be parts.
         cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # a dataclass makes one of its own
-        if "__str__" in vars(cls):
+        if "__str__" in vars(cls) and "__repr__" not in vars(cls):
             cls.__repr__ = cls.__str__  # type: ignore[method-assign]  # likewise
 
     def __eq__(self, other: object) -> bool:
@@ -171,18 +171,25 @@ class ReadOnlyArrays:
         return all(_are_equal(getattr(self, name), getattr(other, name)) for name in names)
 
     def __post_init__(self) -> None:
-        for field in dataclasses.fields(cast(Any, self)):
-            value, name = getattr(self, field.name), f"{type(self).__name__}: {field.name}"
-            kinds: Any = (field.type,) if field.type in _CONVERSIONS else get_args(field.type)
+        for field, declared in _types_of_fields(cast(Any, type(self))).items():
+            value, name = getattr(self, field), f"{type(self).__name__}: {field}"
+            kinds: Any = (declared,) if declared in _CONVERSIONS else get_args(declared)
             for kind in kinds if value is not None or type(None) not in kinds else ():
                 if kind in _CONVERSIONS:
-                    object.__setattr__(self, field.name, _CONVERSIONS[kind](name, value))
+                    object.__setattr__(self, field, _CONVERSIONS[kind](name, value))
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         for name, value in state.items():
             object.__setattr__(self, name, value)
             if isinstance(value, np.ndarray):
                 value.flags.writeable = False
+
+
+@functools.cache
+def _types_of_fields(made: Any) -> dict[str, Any]:
+    """Return the types of the fields of a dataclass, also where annotations are texts."""
+    types = get_type_hints(made)
+    return {field.name: types[field.name] for field in dataclasses.fields(made)}
 
 
 def _kept_numbers(name: str, values: Any) -> NDArray[Any]:

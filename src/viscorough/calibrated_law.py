@@ -33,6 +33,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscorough.argument_names import spelled
 from viscorough.arrays import real_number, real_numbers
 from viscorough.reference import one_element_stiffness
 from viscorough.types import Array, Numbers
@@ -259,9 +260,10 @@ def penetration_law(hurst: float) -> PenetrationLaw:
     """
     table, beyond = calibration(), interface_calibration()
     low, high = table["hurst"][[0, -1]]
-    hurst = real_number("hurst of the penetration law", hurst)
+    name = spelled("--hurst", "hurst of the penetration law")
+    hurst = real_number(name, hurst)
     if not low <= hurst <= high:
-        raise ValueError(f"hurst of the penetration law: must be from {low:g} to {high:g}, not {hurst!r}")
+        raise ValueError(f"{name}: must be from {low:g} to {high:g}, not {hurst!r}")
 
     def linear(name: str, columns: dict[str, Array] = table) -> float:
         return float(np.interp(hurst, columns["hurst"], columns[name]))

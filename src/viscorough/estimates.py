@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscorough.argument_names import argument
 from viscorough.arrays import ReadOnlyArrays, increasing, real_numbers
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
@@ -48,6 +49,11 @@ class Estimate(ReadOnlyArrays, Saved):
     def where(self) -> NDArray[Any]:
         """For every time: "" in the range of the law, else "below" or "above" it."""
         return np.select([self.x < self.law.x_low, self.x > self.law.x_high], ["below", "above"], "")
+
+    def __repr__(self) -> str:
+        """Number of times, and the ranges of times, X, depths and velocities, instead of the table."""
+        ranges = (f"{name} {span(getattr(self, name))}" for name in ("time", "x", "depth", "velocity"))
+        return f"Estimate at {self.time.size} times, {', '.join(ranges)}"
 
     def __str__(self) -> str:
         """A table: time, X, depth and velocity with the intervals of a single surface, and the interval of the mean."""
@@ -105,15 +111,16 @@ def estimate(
     """
     law, medium = penetration_law(hurst), medium_of(medium)
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
-    times = increasing("times", np.atleast_1d(real_numbers("times", times)), above_zero=True)
+    times = np.atleast_1d(real_numbers(argument("times"), times))
+    times = increasing(argument("times"), times, above_zero=True)
     creep, rate = constant_creep(force, medium, times)
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         x = creep / (4 * rms * diameter)
     inside = (x >= law.x_low) & (x <= law.x_high)
     if not inside.any():
         raise ValueError(
-            f"times: X = F·J(t)/(4hL) is {span(x)}; allowed: {law.x_low:.3g} to {law.x_high:.3g}, where the law holds; "
-            "elsewhere indent a surface made by viscorough generate"
+            f"{argument('times')}: X = F·J(t)/(4hL) is {span(x)}; allowed: {law.x_low:.3g} to {law.x_high:.3g}, where "
+            "the law holds; elsewhere indent a surface made by viscorough generate"
         )
     per_time, covered = rms * rate[inside] / creep[inside], x[inside]
     values = np.full((6, times.size), np.nan)

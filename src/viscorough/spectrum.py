@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from viscorough.argument_names import spelled
 from viscorough.arrays import real_number, whole_number
 from viscorough.indenter import positive
 from viscorough.types import Array, Seed
@@ -32,13 +33,17 @@ def roll_off(wavelength: float | None, level: float, period: float) -> tuple[flo
     if wavelength is None:
         return 0.0, level
     rounding = 1 - 1e-12  # so that waves of exactly this length belong to the power law
-    return rounding * period / positive("roll_off_wavelength", wavelength), level
+    return rounding * period / positive(_name_of_wavelength(), wavelength), level
+
+
+def _name_of_wavelength() -> str:
+    return spelled("--roll-off", "roll_off_wavelength")
 
 
 def scale_factor(rms: float, mean_square: Any) -> float:
     """Scale factor to the requested rms height."""
     if mean_square == 0:
-        raise ValueError("roll_off_wavelength: must leave at least one wave of two spacings or more")
+        raise ValueError(f"{_name_of_wavelength()}: must leave at least one wave of two spacings or more")
     return rms / np.sqrt(mean_square)
 
 

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from viscorough.argument_names import argument
 from viscorough.arrays import ReadOnlyArrays, real_number
 from viscorough.contact.complete_contact import joined_surface
 from viscorough.contact.loading_path import indent
@@ -357,9 +358,9 @@ def audit(
     True
     """
     check_indenter("audit", indenter, 2)
-    tolerance = real_number("audit: tolerance", tolerance)
+    tolerance = real_number(argument("tolerance", of="audit"), tolerance)
     if not 1e-10 <= tolerance <= 0.1:
-        raise ValueError(f"audit: tolerance must be between 1e-10 and 0.1, not {tolerance!r}")
+        raise ValueError(f"{argument('tolerance', of='audit')} must be between 1e-10 and 0.1, not {tolerance!r}")
     progress = progress or (lambda done: None)
     contact_tolerance = max(_CONTACT_TOLERANCE * tolerance, _LEAST_CONTACT_TOLERANCE)
     how: dict[str, Any] = {"tolerance": contact_tolerance, "threads": threads, "options": options}

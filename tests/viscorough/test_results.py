@@ -187,6 +187,9 @@ def test_texts_of_results_are_short():
     contact = viscorough.contact_at(heights, depth=0.1)
     times = np.geomspace(1, 10, 200)
     short = [heights, curve, contact, contact.patches(), viscorough.penetration_law(0.7), viscorough.SolverOptions()]
+    short += [viscorough.Load(times, force=times), viscorough.Load(times, depth=times)]
+    short += [viscorough.kinetics(curve, depth=0.5 * curve.depth[-1] * times / times[-1], medium=SOLID, times=times)]
+    short += [viscorough.estimate(0.7, 0.1, 1.0, 1.0, 1.0, 0.01 * times)]
     short += [viscorough.complete_contact(DISC), viscorough.CreepTable(np.append(0, times), np.append(1, 1 + times))]
     for result in short:
         assert len(repr(result)) < 400, repr(result)
@@ -222,8 +225,8 @@ def test_results_are_saved_drawn_and_converted(result, tmp_path):
 
 @pytest.mark.parametrize("name", [name for name in viscorough.__all__ if name != "reference"])
 def test_signatures_name_types_as_the_documentation_does(name):
-    """The unions of numpy.typing would fill a screen; those in viscorough.viscous are not covered."""
+    """The unions of numpy.typing would fill a screen."""
     item = getattr(viscorough, name)
     for function in [item, *(vars(item).values() if isinstance(item, type) else ())]:
-        if inspect.isfunction(function) and not function.__module__.startswith("viscorough.viscous"):
+        if inspect.isfunction(function):
             assert "numpy._typing" not in str(inspect.signature(function)), function.__name__

@@ -87,7 +87,9 @@ def kinetics(
     motion = viscorough.kinetics(loading, load, half_space, times)
     unknown = np.count_nonzero(~np.isfinite(motion.depth + motion.force + motion.velocity))
     if unknown == motion.time.size:
-        raise ValueError("times: all are before the curve's first level; later ones are needed, or an earlier level")
+        raise ValueError(
+            "all times are before the curve's first level; later ones (--times) are needed, or an earlier level"
+        )
     if unknown:
         text = f"at {unknown} of {motion.time.size} times depth, force or velocity are missing: before the first level "
         messages.warn(f"{text}of the curve, or where a step in a springpot has no bound")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
-from viscorough.argument_names import argument
+from viscorough.argument_names import argument, caller
 from viscorough.arrays import increasing
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
@@ -202,7 +202,9 @@ def contact_at(
         else:
             state = search.contact_at(value, report)
         if not np.isfinite(state.force):
-            raise ValueError("contact_at: the force is too large to represent; a larger unit of length is needed")
+            raise ValueError(
+                f"{caller('contact_at')}the force is too large to represent; a larger unit of length is needed"
+            )
         gap, loads = solver.gap_map(state), state.member_loads()
         pressure = np.where(np.isnan(gap), np.nan, 0.0)
         pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
@@ -231,7 +233,7 @@ def contact_at(
     warn_beyond_theory("contact_at", indenter, deepest.depth)
     if deepest.contact_count == deepest.elements and np.ptp(indenter.initial_gap[deepest.contact]) > 0:
         depth = with_unit(deepest.depth, indenter.length_unit)
-        text = f"contact_at: contact is complete, the contact fraction is 1 at the depth u, {depth}; from there on the "
-        text += "stiffness is that of a flat punch, whatever the heights"
+        text = f"{caller('contact_at')}contact is complete, the contact fraction is 1 at the depth u, {depth}; from "
+        text += "there on the stiffness is that of a flat punch, whatever the heights"
         warnings.warn(text, AccuracyWarning, stacklevel=2)
     return contacts if np.ndim(given) else contacts[0]

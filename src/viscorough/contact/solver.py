@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscorough import units
-from viscorough.argument_names import argument
+from viscorough.argument_names import argument, caller
 from viscorough.arrays import real_number
 from viscorough.contact import dense
 from viscorough.contact.complete_contact import EXACT, joined_surface
@@ -65,7 +65,7 @@ def check_solvable(
     check_indenter(name, indenter, 2)
     if indenter.spacing * indenter.row_spacing < sys.float_info.min:
         text = f"a spacing of {indenter.spacing:g} is too small to represent areas"
-        raise ValueError(f"{name}: {text}; a smaller unit of length is needed")
+        raise ValueError(f"{caller(name)}{text}; a smaller unit of length is needed")
     tolerance = real_number(argument("tolerance", of=name), tolerance)
     if not 1e-12 <= tolerance <= 0.1:
         raise ValueError(f"{argument('tolerance', of=name)} must be between 1e-12 and 0.1, not {tolerance!r}")
@@ -83,8 +83,8 @@ def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:
     rows, columns = indenter.heights.shape
     extent = max(rows * indenter.row_spacing, columns * indenter.spacing)
     if indenter.length_unit != units.UNKNOWN and depth > extent * (1 + 1e-9):
-        width = with_unit(extent, indenter.length_unit)
-        text = f"{name}: the depth u, {with_unit(depth, indenter.length_unit)}, is larger than the map is wide, {width}"
+        reached, width = (with_unit(length, indenter.length_unit) for length in (depth, extent))
+        text = f"{caller(name)}the depth u, {reached}, is larger than the map is wide, {width}"
         warnings.warn(f"{text}; the theory ends far below: check the units of force and heights", AccuracyWarning, 3)
 
 

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from viscorough import units
-from viscorough.argument_names import argument
+from viscorough.argument_names import argument, spelled
 
 Spacing = tuple[float, float]
 Stated = dict[str, list[tuple[str, str, str]]]  # what a header states, by role: line, unit in brackets, value
@@ -214,7 +214,7 @@ def _columns(lines: Sequence[str], count: int, of_profile: bool) -> tuple[tuple[
         profile = _profile_columns(cells) if len(cells) == count else None
         if profile and not of_profile:
             text = f"heading {text[:60]!r}: positions and heights of a profile"
-            raise ValueError(f"{text}; viscorough reduce and read_line read it, a map has columns x, y, z")
+            raise ValueError(f"{text}; {spelled('viscorough reduce', 'read_line')} reads it, a map has columns x, y, z")
         heading = profile if of_profile else _map_columns(cells) if len(cells) == count else None
         if names is None and heading:
             names, found = heading

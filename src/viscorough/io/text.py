@@ -320,8 +320,9 @@ def _check_positions(table: Array) -> None:
             even = _is_even(labels) and sum(map(_is_even, others)) <= most
             if even or (are_few and labels.size >= _LEAST_POSITIONS and not any(map(_is_monotonic, others))):
                 text = f"the {place} {name} counts up {'evenly' if even else 'throughout'}, unlike the others"
-                needed = "heights alone, columns x, y, z, or a .npy array, are needed; read_line reads profiles"
-                raise ValueError(f"{text}, as positions do; {needed}")
+                needed = "heights alone, columns x, y, z, or a .npy array, are needed"
+                reads = f"{spelled('viscorough reduce', 'read_line')} reads profiles"
+                raise ValueError(f"{text}, as positions do; {needed}; {reads}")
 
 
 def _is_monotonic(values: Any) -> bool:

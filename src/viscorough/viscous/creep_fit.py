@@ -34,6 +34,7 @@ from viscorough.viscous.record_fit import (
     Shift,
     distance_of,
     finer_times,
+    no_prony_series,
     scatter_of,
     spread_times,
 )
@@ -222,10 +223,7 @@ class Spectrum:
         """
         instantaneous, fluidity, strengths = self.amounts[0], self.amounts[1], self.amounts[2:]
         if instantaneous * force <= ROUNDING * self.creep.max() or not (fluidity or strengths.any()):
-            raise ValueError(
-                "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
-                "table or springpot"
-            )
+            raise no_prony_series()
         return prony_series(instantaneous, fluidity, strengths, self.times)
 
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from viscorough.argument_names import argument
 from viscorough.arrays import jumps_and_slopes
 from viscorough.compilation import njit
 from viscorough.types import Array, Integers
@@ -49,7 +50,8 @@ def creep_response(medium: Medium, load: Load) -> CreepResponse:
 def constant_creep(force: float, medium: Medium, times: Array) -> tuple[Array, Array]:
     """Return Φ and dΦ/dt at times under a force that is constant from time 0 on."""
     if times[-1] > medium.last_time:
-        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
+        allowed = f"allowed: up to the last time of the table, {medium.last_time:g}"
+        raise ValueError(f"{argument('times')}: up to {times[-1]:g}; {allowed}")
     with np.errstate(over="ignore"):
         return force * medium.creep_compliance(times), force * medium.creep_rate(times)
 

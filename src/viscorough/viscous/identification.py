@@ -7,6 +7,8 @@ A record is the depth under a known force, or the force at a known depth. Three 
 3. `relaxation_fit`: the force at a depth of any history, which shows the relaxation modulus ψ.
 """
 
+from __future__ import annotations
+
 import dataclasses
 import warnings
 from dataclasses import dataclass
@@ -16,6 +18,7 @@ from numpy.typing import ArrayLike
 from scipy.special import fdtri
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.errors import AccuracyWarning
 from viscorough.loading_curve import LoadingCurve, check_curve
@@ -125,7 +128,7 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
         name, shown = self.measured, "J" if self.measured == "depth" else "ψ"
         unit = self.length_unit if name == "depth" else si_unit("N", self.length_unit)
         if np.isnan(self.scatter):
-            scatter = f"scatter of {name} unknown, so that {shown} has no intervals (scatter or --scatter states it)"
+            scatter = f"scatter of {name} unknown, so that {shown} has no intervals ({argument('scatter')} states it)"
         else:
             scatter = f"scatter of {name} {with_unit(self.scatter, unit, 3)}"
         return f"{scatter}, misfit of the medium {with_unit(self.misfit, unit, 3)} (rms)"
@@ -322,7 +325,8 @@ def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
         where = int(np.argmax(depth > curve.depth[-1]))
         raise ValueError(
             f"record: depth {depth[where]:.6g} at time {times[where]:.6g} is beyond the curve's last level; allowed: "
-            f"up to {curve.depth[-1]:.6g}; indent further, with until_fraction=1 or a level at that depth (depths)"
+            f"up to {curve.depth[-1]:.6g}; indent further, with {argument('until_fraction', 1)} or a level "
+            f"at that depth ({argument('depths')})"
         )
 
 

@@ -16,6 +16,8 @@ Eqs. 7-9 of the paper instead Laplace-transform the relation u(F/G), which is no
    discretisation of the row.
 """
 
+from __future__ import annotations
+
 import warnings
 from typing import Any
 
@@ -23,6 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough import units
+from viscorough.argument_names import argument, caller, spelled
 from viscorough.arrays import increasing
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.loading_curve import LoadingCurve, check_curve
@@ -115,9 +118,9 @@ def kinetics(
     medium = medium_of(medium, curve.length_unit)  # type: ignore[arg-type]  # None is refused
     load, place = _load_and_places(curve, medium, force, depth, times)
     if (duration := load.time[-1] - load.time[0]) > medium.last_time:
-        raise ValueError(
-            f"times: {duration:g} after the first; allowed: up to the last time of the table, {medium.last_time:g}"
-        )
+        name = _load_name("depth" if load.by_depth else "force") if times is None else argument("times")
+        allowed = f"allowed: up to the last time of the table, {medium.last_time:g}"
+        raise ValueError(f"{name}: up to {duration:g} after the beginning of the load; {allowed}")
     if load.by_depth:
         _check_depths(curve, load.values[: place[-1] + 1])
     creep = None
@@ -162,13 +165,18 @@ def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) 
     return row, moved
 
 
+def _load_name(quantity: str) -> str:
+    """Return the name of a load in messages. On the command line a force is given by one of two options."""
+    return spelled({"force": "--force or --force-history", "depth": "--depth-history"}[quantity], quantity)
+
+
 def _check_overflow(load: Load, values: ArrayLike) -> None:
     """Raise ValueError unless all these results are finite."""
     if not np.isfinite(values).all():
         kind = "depth" if load.by_depth else "force"
         raise ValueError(
-            f"{kind}: depths or forces overflow in this medium; allowed: forces, depths and moduli whose ratios are "
-            "ordinary numbers; check their units"
+            f"{_load_name(kind)}: depths or forces overflow in this medium; allowed: forces, depths and moduli whose "
+            "ratios are ordinary numbers; check their units"
         )
 
 
@@ -233,9 +241,12 @@ def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, time
         raise ValueError("times: missing; a constant depth needs the times of the output")
     times = _spread_times(curve, value, medium) if times is None else increasing("times", times)
     if times[0] < 0:
-        raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant {name} begins")
+        raise ValueError(
+            f"{argument('times')}: start at {times[0]:g}; allowed: from 0 on, where a constant {name} begins"
+        )
     if times[-1] > medium.last_time:
-        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
+        allowed = f"allowed: up to the last time of the table, {medium.last_time:g}"
+        raise ValueError(f"{argument('times')}: up to {times[-1]:g}; {allowed}")
     samples = np.unique([0.0, times[-1]])
     return Load(samples, **{name: np.full(samples.size, value)}), times
 
@@ -251,8 +262,8 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     first, last = curve.force[0] if curve.force.size > 1 else _EARLY * curve.force[-1], curve.force[-1]
     if not (at_once < last and at_last > first):
         raise ValueError(
-            f"times: missing, and the creep is from F/G {at_once:.6g}, at once, to {at_last:.6g}, in the end, beside "
-            f"the curve, from {first:.6g} to {last:.6g}; times or another force are needed"
+            f"{argument('times')}: missing, and the creep is from F/G {at_once:.6g}, at once, to {at_last:.6g}, in the "
+            f"end, beside the curve, from {first:.6g} to {last:.6g}; times or another force are needed"
         )
     start = first if at_once < first else at_once + _EARLY * (min(last, at_last) - at_once)
     end = last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
@@ -260,7 +271,7 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     with np.errstate(all="ignore"):
         ends = zero_of_increasing(lambda t: medium.creep_compliance(t) - target, np.finfo(float).tiny, limit)
     if not (0 < ends[0] < ends[1] < _LATEST / 2):
-        raise ValueError(f"times: from {ends[0]:g} to {ends[1]:g} they overflow; closer force and medium are allowed")
+        raise ValueError(f"the times from {ends[0]:g} to {ends[1]:g} overflow; closer force and medium are allowed")
     times = np.geomspace(ends[0], ends[1], _SPREAD)
     springs = at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
     return np.append(0.0, times) if springs else times
@@ -286,8 +297,8 @@ def _check_depths(curve: LoadingCurve, depths: Array) -> None:
     last = curve.depth[-1]
     if depths.max() > last * (1 + ROUNDING) and curve.contact_count[-1] < curve.elements:
         raise ValueError(
-            f"depth: {depths.max():g} is beyond the curve's last level; allowed: up to {last:g}; indent further, with "
-            "until_fraction=1 or a level at that depth (depths)"
+            f"{_load_name('depth')}: {depths.max():g} is beyond the curve's last level; allowed: up to {last:g}; "
+            f"indent further, with {argument('until_fraction', 1)} or a level at that depth ({argument('depths')})"
         )
 
 
@@ -297,9 +308,9 @@ def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Ar
     if beyond.any() and np.isfinite(row.limit):
         where, enough = int(np.argmax(beyond)), 1.01 * creep[np.isfinite(creep)].max()
         raise ValueError(
-            f"force: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the curve's last level; "
-            f"allowed: up to {curve.force[-1]:.6g}; indent further, with until_fraction=1 or a level at F/G = "
-            f"{enough:.3g} (forces)"
+            f"{_load_name('force')}: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the "
+            f"curve's last level; allowed: up to {curve.force[-1]:.6g}; indent further, with "
+            f"{argument('until_fraction', 1)} or a level at F/G = {enough:.3g} ({argument('forces')})"
         )
 
 
@@ -307,15 +318,16 @@ def _refuse(curve: LoadingCurve, row: RowOfSprings, medium: Medium, load: Load, 
     """Raise the error of a motion that ended early."""
     if ended == INFINITE:
         raise ValueError(
-            f"depth: steps into the surface at time {until:g}, which takes an infinite force here; allowed: ramps"
+            f"{_load_name('depth')}: steps into the surface at time {until:g}, which takes an infinite force here; "
+            "allowed: ramps"
         )
     if ended != BEYOND:
         raise ConvergenceError(f"kinetics: the contact does not settle at time {until:g}")
     if not load.by_depth:
         _check_creep(curve, row, load.time, creep_response(medium, load).creep)
     raise ValueError(
-        f"{'depth' if load.by_depth else 'force'}: at time {until:g} the contact grows beyond the curve's last level; "
-        f"allowed: depths up to {curve.depth[-1]:g}; indent further, with until_fraction=1"
+        f"{_load_name('depth' if load.by_depth else 'force')}: at time {until:g} the contact grows beyond the curve's "
+        f"last level; allowed: depths up to {curve.depth[-1]:g}; indent further, with {argument('until_fraction', 1)}"
     )
 
 
@@ -410,8 +422,9 @@ def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, m
     share = curve.force[0] / max(np.nanmax(moved.deflection), np.finfo(float).tiny)
     if depends and share > _UNKNOWN_SHARE:
         warnings.warn(
-            "kinetics: the motion depends on the curve before its first level, which is taken for a power law; this "
-            f"level carries {100 * min(share, 1):.2g} % of the largest elastic force; an earlier first level is needed",
+            f"{caller('kinetics')}the motion depends on the curve before its first level, which is taken for a power "
+            f"law; this level carries {100 * min(share, 1):.2g} % of the largest elastic force; an earlier first level "
+            "is needed",
             AccuracyWarning,
             stacklevel=3,
         )

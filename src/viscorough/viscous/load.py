@@ -1,5 +1,7 @@
 """Load on an indenter: its depth or the force on it over time."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -9,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, real_numbers
+from viscorough.summaries import span
 from viscorough.types import Array, FilePath, Integers
 
 # Times that differ by less than this share of them are the same to rounding: within a shorter interval the slope of a
@@ -55,6 +58,11 @@ class Load(ReadOnlyArrays):
 
         def __init__(self, time: ArrayLike, force: ArrayLike | None = None, depth: ArrayLike | None = None) -> None: ...
 
+    def __repr__(self) -> str:
+        """Number of samples and their range, instead of all numbers."""
+        name = "depth" if self.by_depth else "force"
+        return f"Load of {self.time.size} samples, time {span(self.time)}, {name} {span(self.values)}"
+
     def __post_init__(self) -> None:
         if (self.force is None) == (self.depth is None):
             raise ValueError("Load: one of force and depth is needed")
@@ -74,7 +82,7 @@ class Load(ReadOnlyArrays):
         object.__setattr__(self, name, read_only(values))
 
     @classmethod
-    def read(cls, path: FilePath, kind: str = "force", length_unit: str = units.UNKNOWN) -> "Load":
+    def read(cls, path: FilePath, kind: str = "force", length_unit: str = units.UNKNOWN) -> Load:
         """Read a load from a .csv or .npy file of two columns, times and forces or depths.
 
         Parameters
@@ -112,7 +120,7 @@ class Load(ReadOnlyArrays):
         """∫F dt or ∫u dt from the first sample to each sample, shape (samples,)."""
         return integral(self.time, self.values, self.time)
 
-    def with_times(self, times: ArrayLike) -> tuple["Load", Integers]:
+    def with_times(self, times: ArrayLike) -> tuple[Load, Integers]:
         """Return the load with further samples at these times, and their indices; after a step at its time.
 
         Times that are equal to rounding share a sample. Raises ValueError for times that do not increase or lie outside
@@ -133,7 +141,7 @@ class Load(ReadOnlyArrays):
         load = Load(np.insert(self.time, place, new), **{"depth" if self.by_depth else "force": values})
         return load, np.searchsorted(load.time, times + rounding, side="right") - 1
 
-    def in_units_of(self, length_unit: str) -> "Load":
+    def in_units_of(self, length_unit: str) -> Load:
         """Return the load with forces in N divided by the area of a square of the unit of length, in m².
 
         Forces are then consistent with moduli in Pa and this unit. A load without forces, or of an unknown unit, is

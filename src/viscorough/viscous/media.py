@@ -12,6 +12,8 @@ Moduli are those in shear. Keywords of their own (`YOUNG`) take Young's moduli i
 ratio other than 0.5 the medium is the incompressible one that responds in the same way (viscorough.elasticity).
 """
 
+from __future__ import annotations
+
 import contextlib
 from abc import abstractmethod
 from dataclasses import dataclass
@@ -23,6 +25,7 @@ from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from viscorough import units
+from viscorough.argument_names import spelled
 from viscorough.arrays import (
     ReadOnlyArrays,
     increasing,
@@ -505,10 +508,11 @@ def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) ->
     try:
         return Newtonian(viscosity)
     except ValueError as error:
-        raise ValueError(
-            f"medium: {shown(medium)}; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian "
-            "one, a finite number above 0"
-        ) from error
+        allowed = spelled(
+            "allowed: a finite number above 0 whose inverse is finite",
+            "allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian one, a finite number above 0",
+        )
+        raise ValueError(f"{spelled('--viscosity', 'medium')}: {shown(medium)}; {allowed}") from error
 
 
 def _power_increment(start: ArrayLike, end: ArrayLike, power: float) -> Array:

@@ -1,5 +1,7 @@
 """What every linear viscoelastic medium answers, whatever is known of it."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from typing import NamedTuple
 

@@ -9,6 +9,7 @@ decreases.
 import numpy as np
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_fit import knots_of, prony_series, spectrum_of_growth
@@ -24,6 +25,7 @@ from viscorough.viscous.record_fit import (
     Shift,
     distance_of,
     finer_times,
+    no_prony_series,
     scatter_of,
     spread_times,
 )
@@ -85,10 +87,7 @@ def fit_receding_depth(
     medium: CreepTable | Prony | Springpot = CreepTable(time, compliance)
     if kind == "prony":
         if amounts[0] <= ROUNDING * compliance[-1] or not amounts[1:].any():
-            raise ValueError(
-                "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
-                "table or springpot"
-            )
+            raise no_prony_series()
         medium = prony_series(float(amounts[0]), float(amounts[1]), amounts[2:], times)
     elif kind == "springpot":
         medium, residual = _springpot(curve, load, place, depth, time[1:], compliance[1:], signed)
@@ -123,7 +122,7 @@ class _RecedingRecord:
         if np.isnan(predicted).any():
             raise ValueError(
                 "record: in the medium that the rows before the decrease of the force show, the contact grows beyond "
-                "the curve's last level; allowed: curves of larger contacts, with until_fraction=1"
+                f"the curve's last level; allowed: curves of larger contacts, with {argument('until_fraction', 1)}"
             )
         for _ in range(_ITERATIONS):
             columns = self._derivatives(amounts, predicted)

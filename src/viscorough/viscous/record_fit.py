@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import fdtri
 
+from viscorough.argument_names import spelled
 from viscorough.types import Array
 from viscorough.viscous.media import CreepTable, Prony, Springpot
 
@@ -71,6 +72,13 @@ class Shift(NamedTuple):
         """
         columns = [np.ones(lags.size)] * self.offset + [lags] * self.drift
         return np.array(columns).reshape(-1, lags.size).T
+
+
+def no_prony_series() -> ValueError:
+    """Return the error of a record that no Prony series describes."""
+    name = spelled("--fit prony", "kind 'prony'")
+    text = "the record shows no compliance at once, or no creep, which a Prony series needs"
+    return ValueError(f"{name}: {text}; allowed: table or springpot")
 
 
 def scatter_of(residual: Array, amounts: Array, others: int, exact: float) -> tuple[float, float]:

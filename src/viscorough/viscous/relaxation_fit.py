@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough import units
+from viscorough.argument_names import argument
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import branch_states
@@ -135,7 +136,7 @@ def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None
     best = int(squares.argmin())
     if best in (0, offsets.size - 1):
         raise ValueError(
-            f"fit_offset: the zero of the depth is off by {offsets[best]:.3g} or more; allowed: errors below "
+            f"{argument('fit_offset')}: the zero of the depth is off by {offsets[best]:.3g} or more; allowed: errors below "
             f"{offsets[-1]:.3g}, {100 * _OFFSETS[-1]:g} % of the largest depth; a better zero is needed"
         )
     deviation, freedom = _scatter(record, fits[best], scatter, resolution)

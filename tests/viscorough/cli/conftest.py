@@ -1,11 +1,17 @@
 """The working folder of a test of the command line, and the contract for a user's mistake in it."""
 
+import re
 import shlex
 
 import pytest
 
 from support.faults import contents
 from viscorough.cli import cli, main
+
+# Arguments of Python whose options are spelled otherwise; those of media are keys of files as well.
+_OF_PYTHON = {option.name for command in cli.commands.values() for option in command.params if "_" in option.name}
+_OF_PYTHON |= {"contact_at", "read_heights", "read_line", "roll_off_wavelength", "young_modulus", "poisson="}
+_OF_PYTHON -= {"shear_modulus"}
 
 
 @pytest.fixture
@@ -19,7 +25,7 @@ def here(tmp_path, monkeypatch):
 def complaint(here, capsys):
     """Function that returns the one line on stderr that refuses a line of arguments.
 
-    The exit code is 2, and no file of the folder is made or changed.
+    The exit code is 2, no file of the folder is made or changed, and the line names options, not arguments of Python.
     """
 
     def refusal(line):
@@ -33,6 +39,8 @@ def complaint(here, capsys):
         assert len(captured.err.splitlines()) == 1
         assert captured.err.endswith("\n")
         assert len(captured.err) < 400
+        words = set(re.findall(r"\w+=?", captured.err))
+        assert not any(word in _OF_PYTHON or word.endswith("=") for word in words), captured.err
         assert contents(here) == before
         return captured.err
 

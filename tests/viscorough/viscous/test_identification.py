@@ -134,7 +134,7 @@ def test_records_that_no_growing_contact_can_have_are_refused():
     with refused("kind 'maxwell'; allowed: table, prony, springpot"):
         identify_medium(CURVE, force, TIMES, depth, kind="maxwell")
     force, depth = record(MEDIA["newtonian"])
-    with refused("kind prony: the record shows no compliance at once"):
+    with refused("kind 'prony': the record shows no compliance at once"):
         identify_medium(CURVE, force, TIMES, depth, kind="prony")
     for scatter in (0.0, -1.0, np.nan, np.inf):
         with refused("scatter: .* finite"):

@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from viscorough.argument_names import argument
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
 from viscorough.contact.grid.depth_adjustment import PrescribedForce
@@ -243,7 +244,7 @@ class ContactSearch:
     def _not_converged(self, contact_set: ContactSet, residual: float, limit: float) -> ConvergenceError:
         return ConvergenceError(
             f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
-            f"{limit:.1e} in {self._options.max_iterations} steps; choose a larger tolerance"
+            f"{limit:.1e} in {self._options.max_iterations} steps; choose a larger {argument('tolerance')}"
         )
 
     def _deflect(self, pressure: Array, depth: float, change: BoundedField) -> None:

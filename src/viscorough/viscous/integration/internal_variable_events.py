@@ -28,6 +28,7 @@ import numpy as np
 from scipy.linalg import lapack
 from scipy.special import exprel, hyp1f1
 
+from viscorough.argument_names import argument
 from viscorough.arrays import jumps_and_slopes
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
@@ -59,14 +60,14 @@ def integrate_events(
     at_once = times[steps_down & (modes.instantaneous_compliance > 0)]
     if np.isfinite(receding_from := first_decrease(times, terms, at_once.min(initial=np.inf))):
         raise ValueError(
-            f"march: from time {receding_from:.6g} on the contact recedes; method events allows contact that grows; "
-            "use method implicit"
+            f"march: from time {receding_from:.6g} on the contact recedes; {argument('method', 'events')} allows "
+            f"contact that grows; use {argument('method', 'implicit')}"
         )
     events = march_events(indenter, until_fraction=until_fraction)
     if motion[-1] > events.impulse[-1] and events.contact_count[-1] < events.elements:
         raise ConvergenceError(
-            f"march: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; a larger until_fraction is "
-            "needed"
+            f"march: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; a larger "
+            f"{argument('until_fraction')} is needed"
         )
     last_event = events.event_at(motion)
     fraction = np.where(motion > 0, events.contact_count[last_event], 0) / events.elements

@@ -48,7 +48,9 @@ def test_events_end_where_contact_recedes(curve):
     """Maxwell: Z' = F'/G + F/η, which is zero at F = η |F'|/G."""
     medium = MEDIA["maxwell"]
     force = largest_force(curve, medium) * np.array([0.5, 0.1])
-    with refused("from time 0 on the contact recedes; method events allows contact that grows; use method implicit"):
+    with refused(
+        "from time 0 on the contact recedes; method='events' allows contact that grows; use method='implicit'"
+    ):
         evented(DISC, medium, [0.0, 1.0], force=force, until_fraction=0.1)
     with refused("from time 1.5 on the contact recedes"):
         evented(DISC, medium, [0.0, 4.0], force=4 * force[[0, 1]] * [1, 0] / force[0], until_fraction=0.1)

@@ -5,7 +5,6 @@ The only module of the library that imports matplotlib, which is not needed for 
 
 import re
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -19,11 +18,12 @@ from viscorough.io.atomic import atomic_write
 from viscorough.io.curves import STORED, curve_from_content, unstack_curves
 from viscorough.io.netcdf import Content, Variable
 from viscorough.io.saving import Result, to_content
+from viscorough.io.suffixes import FIGURES, check_suffix
 from viscorough.summaries import with_unit
 from viscorough.types import Array, FilePath
 
 Variables = dict[str, Variable]
-FORMATS: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}  # metadata: no dates
+_METADATA: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}  # no dates
 _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told apart with any colour vision
 _FEW = 40  # points below which a curve has markers
 _FEW_DECADES = 80  # ratio of the ends of a logarithmic axis
@@ -82,15 +82,13 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     >>> [axes.get_title() for axes in figure.axes]
     ['force', 'stiffness', 'contact fraction']
     """
-    suffix = "" if path is None else Path(path).suffix.lower()
-    if path is not None and suffix not in FORMATS:
-        raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(FORMATS)}")
+    suffix = "" if path is None else check_suffix(path, FIGURES)
     with mpl.rc_context(_STYLE):
         draw, numbers = kind_of(result if isinstance(result, Content) else to_content(result))
         figure = draw(numbers)
         if path is not None:
             with atomic_write(path) as temporary:
-                figure.savefig(temporary, format=suffix[1:], metadata=FORMATS[suffix])
+                figure.savefig(temporary, format=suffix[1:], metadata=_METADATA[suffix])
     return figure
 
 

@@ -6,6 +6,7 @@ import click
 
 from viscorough import units
 from viscorough.cli import files, messages, options
+from viscorough.io import suffixes
 from viscorough.summaries import si_unit, span
 from viscorough.units import Quantity
 
@@ -26,7 +27,7 @@ from viscorough.units import Quantity
     type=options.QuantityOption("m"),
     help="Standard deviation of the measured depth, such as '2 nm'  [default: found from the record]",
 )
-@options.output("MEDIUM.yaml", table=None)
+@options.output("MEDIUM.yaml", allowed=suffixes.MEDIA)
 def creep(
     curve: Path,
     record: Path,

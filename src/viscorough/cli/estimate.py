@@ -17,14 +17,7 @@ from viscorough.units import Quantity
 @options.viscosity
 @options.medium
 @click.option("--times", type=options.Increasing(), required=True, help="Times at which depth and velocity are wanted.")
-@click.option(
-    "-o",
-    "--output",
-    type=options.FILE,
-    metavar="FILE",
-    callback=options.check_suffix,
-    help="NetCDF file (.nc) or table (.csv) to write  [default: none]",
-)
+@options.output("FILE", required=False)
 def estimate(
     *,
     hurst: float,
@@ -85,9 +78,9 @@ def estimate(
             f"elements across; X^beta/zeta from {region[0]:.3g} to {region[1]:.3g}: "
             f"beta {law.beta:.4g} [{low:.4g}, {high:.4g}], zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
         )
-        metres = "depth [m], velocity [m/s]"
-        plain = "depth in the unit of --rms, velocity in that unit per unit of --times"
-        click.echo(plain if unit == units.UNKNOWN else metres)
+        si = "time [s], depth [m], velocity [m/s]"
+        plain = "time in the unit of --times, depth in the unit of --rms, velocity in that unit per unit of time"
+        click.echo(plain if unit == units.UNKNOWN else si)
         click.echo(str(result))
         return
     files.write_output(estimate_to_content(result, unit), output, hurst=hurst, **numbers, **about)

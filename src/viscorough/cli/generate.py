@@ -6,6 +6,7 @@ from typing import Any
 import click
 
 from viscorough.cli import files, messages, options
+from viscorough.io import suffixes
 from viscorough.units import Quantity
 
 
@@ -21,7 +22,7 @@ from viscorough.units import Quantity
 @click.option("--seed", type=click.IntRange(min=0), required=True, help="The same seed gives the same surface.")
 @click.option("--roll-off", type=options.PositiveNumber(), help="Longest wavelength of the power law, in diameters.")
 @click.option("--plateau", is_flag=True, help="With --roll-off: longer waves have the spectral density there.")
-@options.output("SURFACE.nc", table=False)
+@options.output("SURFACE.nc", allowed=suffixes.MAPS)
 def generate(
     *,
     hurst: float,

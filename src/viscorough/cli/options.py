@@ -10,6 +10,7 @@ import click
 
 from viscorough import units
 from viscorough.elasticity import INCOMPRESSIBLE, shear_modulus_of
+from viscorough.io import suffixes
 from viscorough.units import Quantity
 
 
@@ -94,28 +95,22 @@ class Increasing(click.ParamType):
 FILE = click.Path(path_type=Path)
 
 
-def check_suffix(context: click.Context, parameter: click.Parameter, path: Path | None) -> Path | None:
-    """Return the path of an output that is NetCDF or a table, or None. Raises BadParameter for other suffixes."""
-    from viscorough.io import saving
+def output(
+    metavar: str, *, allowed: dict[str, str] = suffixes.RESULTS, required: bool = True
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Decorator that adds -o/--output to a command. Other suffixes than those allowed raise BadParameter."""
+    kinds = ", ".join(f"{suffix} ({kind})" for suffix, kind in allowed.items())
+    text = f"File to write or replace: {kinds}{'' if required else '  [default: none]'}"
 
-    try:
-        if path is not None:
-            saving.check_suffix(path)
-    except ValueError as error:
-        raise click.BadParameter(str(error), context, parameter) from error
-    return path
+    def check(context: click.Context, parameter: click.Parameter, path: Path | None) -> Path | None:
+        try:
+            if path is not None:
+                suffixes.check_suffix(path, allowed)
+        except ValueError as error:
+            raise click.BadParameter(str(error), context, parameter) from error
+        return path
 
-
-def output(metavar: str, table: bool | None = True) -> Callable[..., Any]:
-    """Decorator that adds -o/--output to a command; `table`: whether .csv is allowed; None: the command checks it."""
-    text = "File to write or replace" + ("; as a table if it ends in .csv." if table else ".")
-
-    def check(context: click.Context, parameter: click.Parameter, path: Path) -> Path | None:
-        if path.suffix.lower() == ".csv" and table is False:
-            raise click.BadParameter(f"{path}: maps are no table; a NetCDF file (.nc) is needed", context, parameter)
-        return path if table is None else check_suffix(context, parameter, path)
-
-    return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help=text, callback=check)
+    return click.option("-o", "--output", type=FILE, required=required, metavar=metavar, help=text, callback=check)
 
 
 force = click.option("--force", type=QuantityOption("N"), help="Constant force F, applied at time 0.")

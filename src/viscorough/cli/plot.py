@@ -5,11 +5,12 @@ from pathlib import Path
 import click
 
 from viscorough.cli import files, messages, options, surface_options
+from viscorough.io import suffixes
 
 
 @click.command(short_help="A figure of a surface, a curve, a motion or a contact.")
 @surface_options.heights_input("file")
-@click.option("-o", "--output", type=options.FILE, required=True, metavar="FIGURE", help="A .png, .pdf or .svg file.")
+@options.output("FIGURE", allowed=suffixes.FIGURES)
 def plot(surface: surface_options.Surface, output: Path) -> None:
     """Draw what is in FILE: what another command wrote (.nc), or a map of heights, read as by viscorough indent.
 

@@ -13,6 +13,7 @@ from viscorough.io import tables
 from viscorough.io.atomic import atomic_write, path_named, reading
 from viscorough.io.columns import read_columns
 from viscorough.io.netcdf import Content, Quantities, described
+from viscorough.io.suffixes import MEDIA, check_suffix
 from viscorough.io.unique_keys import UniqueKeys
 from viscorough.types import FilePath
 from viscorough.viscous import media
@@ -168,9 +169,8 @@ def identified_to_content(identified: IdentifiedMedium) -> Content:
 
 
 def check_medium_file(path: FilePath) -> Path:
-    """Path of the table beside a file of a medium. Raises ValueError unless the name of the file ends in .yaml."""
-    if Path(path).suffix.lower() not in (".yaml", ".yml"):
-        raise ValueError(f"{path}: unknown kind of file; a medium is written as .yaml")
+    """Path of the table beside a file of a medium. Raises ValueError for other suffixes than .yaml and .yml."""
+    check_suffix(path, MEDIA)
     return Path(path).with_suffix(".csv")
 
 

@@ -1,7 +1,5 @@
 """Results as files that the command line reads and writes."""
 
-from pathlib import Path
-
 from viscorough.contact_maps import Contact
 from viscorough.estimates import Estimate
 from viscorough.indenter import Indenter
@@ -11,6 +9,7 @@ from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
 from viscorough.io.media import identified_to_content, save_identified
 from viscorough.io.motion import estimate_to_content, motion_to_content
+from viscorough.io.suffixes import RESULTS, check_suffix
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import FilePath
 from viscorough.viscous.identification import IdentifiedMedium
@@ -107,13 +106,6 @@ def to_content(result: Result) -> netcdf.Content:
     )
 
 
-def check_suffix(path: FilePath) -> None:
-    """Raise ValueError unless the name of a file ends as results are written: .nc or .csv."""
-    if Path(path).suffix.lower() not in WRITERS:
-        raise ValueError(f"{path}: unknown kind of file; results are written as .nc (NetCDF) or .csv (a table)")
-
-
 def write_content(content: netcdf.Content, path: FilePath) -> None:
     """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as `save`."""
-    check_suffix(path)
-    WRITERS[Path(path).suffix.lower()](content, path)
+    WRITERS[check_suffix(path, RESULTS)](content, path)

@@ -28,7 +28,7 @@ def test_table_on_standard_output(here, capsys):
     law, units, head, *rows, intervals = captured.out.splitlines()
     low, high = WANTED.law.x_low, WANTED.law.x_high
     assert law.startswith(f"vt/h = X + g(X) for H = 0.8, X from {low:.3g} to {high:.3g}, discs of 257 ")
-    assert "unit of --rms" in units
+    assert units == "time in the unit of --times, depth in the unit of --rms, velocity in that unit per unit of time"
     assert "of single surfaces" in intervals
     assert head.split() == ["time", "X", "depth", "from", "to", "velocity", "from", "to"]
     numbers = np.array([[float(cell) for cell in row.split()] for row in rows])
@@ -40,7 +40,7 @@ def test_units_of_results_are_stated(capsys):
     lengths = {"rms": "1 um", "diameter": "1 cm"}
     assert run(command(**lengths)) == 0
     _, units, _, row, *_ = capsys.readouterr().out.splitlines()
-    assert units == "depth [m], velocity [m/s]"
+    assert units == "time [s], depth [m], velocity [m/s]"
     assert float(row.split()[2]) == pytest.approx(WANTED.depth[0], rel=1e-3)
 
 

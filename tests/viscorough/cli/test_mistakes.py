@@ -26,13 +26,12 @@ OF_PIPES = ["kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "plot pipe.nc 
 OF_PIPES += [f"{command} -o out.nc" for command in ("indent pipe.nc", "indent pipe.npy", "reduce pipe.npy")]
 OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe{suffix}" for suffix in (".csv", ".npy")]
 OF_PIPES += [f"{KINETICS} --force 1 --medium {name}.yaml" for name in ("pipe", "of_pipe.csv")]
-KIND = "unknown kind of file; results are written as .nc (NetCDF) or .csv (a table)"
+KIND = "unknown kind of file; allowed:"
+RESULTS = ".nc (NetCDF), .csv (table)"
 WRITERS = ["indent heights.npy --spacing 1", "contact heights.npy --spacing 1 --depth 1", "reduce line.npy --spacing 1"]
 WRITERS += ["kinetics curve.nc --force 1 --viscosity 1", f"{ESTIMATE} --rms 1 --force 1 --viscosity 1"]
-WRITERS += [
-    "march heights.npy --spacing 1 --method events --times 1",
-    GENERATE.removesuffix(" -o made.nc") + " --elements 5",
-]
+WRITERS += ["march heights.npy --spacing 1 --method events --times 1"]
+MAP, UNKNOWN_KINDS = GENERATE.removesuffix(" -o made.nc") + " --elements 5", ("out.xlsx", "out.txt", "out", "-")
 MISTAKES = [
     ("indent heights.npy --spacing 1", "--output"),
     (f"{INDENT} --tolerance 0", "'--tolerance': 0.0 is not in the range 0<x<=0.1"),
@@ -87,12 +86,30 @@ MISTAKES = [
     (f"{KINETICS} --force 1 --medium table.yaml -o table.csv", "would replace the table of the medium"),
     (f"{CONTACT_UM} --force 1 --young 1e-320", "too small"),
     ("creep curve.nc record.csv -o m.yaml", "one of --force and --force-history is needed"),
-    (f"{CREEP} m.nc", "m.nc: unknown kind of file; a medium is written as .yaml"),
     (f"{CREEP} record.yaml", "record.csv: would replace the record"),
     (f"{ESTIMATE} --rms '1 um' --force 1 --viscosity 1", "one has a unit; both or none is allowed"),
     (f"{ESTIMATE} --rms 1 --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
     (f"{ESTIMATE} --rms 1 --force 1", "one of --viscosity and --medium is needed"),
     (f"{ESTIMATE} --rms 1 --force 1 --medium table.yaml", "allowed: up to the last time of the table"),
+    (f"{ESTIMATE} --rms 1 --force 1 --viscosity 1e-320", "--viscosity: 1e-320; allowed"),
+    (f"{ESTIMATE} --rms 1 --force 1e30 --viscosity 1", "--times: X = F·J(t)/(4hL) is"),
+    (f"{ESTIMATE.replace('0.8', '0.05')} --rms 1 --force 1 --viscosity 1", "--hurst: must be from 0.1 to 1"),
+    (f"{GENERATE} --elements 5 --roll-off 0.01", "--roll-off: must leave at least one wave"),
+    (f"{INDENT} --audit --tolerance 1e-11", "indent: --tolerance must be between 1e-10 and 0.1"),
+    (f"{CONTACT.replace('--spacing 1', '--spacing 1e-170')} --depth 1", "contact: a spacing of 1e-170 is too small"),
+    (
+        f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6",
+        "indent further, with --until-fraction 1 or a level at F/G =",
+    ),
+    (f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6", "kinetics: --force or --force-history: at time"),
+    (f"{KINETICS} --force 1e-320 --viscosity 1", "--times: missing, and the creep is"),
+    (f"{KINETICS} --force 1 --medium table.yaml --times 1", "--times: up to 1; allowed: up to the last time"),
+    (f"{KINETICS} --force-history force.csv --medium table.yaml", "--force or --force-history: up to 2 after"),
+    (f"{KINETICS} --depth-history deep.csv --viscosity 1", "--depth-history: 4e+06 is beyond the curve's last level"),
+    (
+        "creep curve.nc deep.csv --force 1 -o m.yaml",
+        "indent further, with --until-fraction 1 or a level at that depth (--d",
+    ),
     (f"{ESTIMATE} --rms 1 --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (GENERATE, "either --elements (a disc) or --points (a line) is needed"),
     (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),
@@ -113,12 +130,11 @@ MISTAKES = [
     ("reduce line.npy --spacing 1 --flip -o out.nc", "--channel and preparation are for maps"),
     ("reduce map.nc -o map.nc", "would replace the heights"),
     ("reduce heights.npy --spacing 1 --realizations 2 -o a.csv", "several curves are no table"),
-    ("plot curve.nc -o figure.jpg", "unknown kind of figure; allowed: .png, .pdf, .svg"),
     ("plot heights.npy -o out.png", "points is not stated, nor a unit; --spacing is needed, and --unit for forces"),
     ("plot heights.npy --unit um -o out.png", "points is not stated; --spacing is needed\n"),
     ("plot heights.npy --lateral-unit mm -o out.png", "heights are in no stated unit; --unit and --spacing are needed"),
     ("plot other.nc -o out.png", "other.nc: no surface, fields of a contact, loading curve or motion in it"),
-    ("plot curve.nc -o curve.nc", "would replace the results"),
+    ("plot curve.nc -o link.png", "would replace the results"),
     *[(f"plot heights.npy -o out.png --spacing '{text}'", "--spacing") for text in ("", "1,2,3", "1 V", "1 um")],
     ("plot heights.npy -o out.png --spacing 1,-1", "spacing: must be positive"),
     ("plot heights.npy -o out.png --spacing 1 --unit V", "unit 'V': not a unit"),
@@ -128,9 +144,13 @@ MISTAKES = [
     ("indent um.nc --channel y -o out.nc", "heights have the shape (9,)"),
     (f"{INDENT} --scale much", "--scale much"),
     *[(line, "not readable (it is a pipe); ") for line in OF_PIPES],
-    *[(f"{line} -o {name}", f"{name}: {KIND}") for line in WRITERS for name in ("out.xlsx", "out.txt", "out", "-")],
-    *[(f"{CREEP} {name}", f"{name}: unknown kind of file") for name in ("out.xlsx", "-")],
-    *[(f"plot curve.nc -o {name}", f"{name}: unknown kind of figure") for name in ("out.xlsx", "-")],
+    *[(f"{line} -o {name}", f"{name}: {KIND} {RESULTS}") for line in WRITERS for name in UNKNOWN_KINDS],
+    *[(f"{MAP} -o {name}", f"{name}: {KIND} .nc (NetCDF)") for name in (*UNKNOWN_KINDS, "out.csv")],
+    *[(f"{CREEP} {name}", f"{name}: {KIND} .yaml (medium), .yml (medium)") for name in (*UNKNOWN_KINDS, "out.nc")],
+    *[
+        (f"plot curve.nc -o {name}", f"{name}: {KIND} .png (picture), .pdf (drawing), .svg (drawing)")
+        for name in (*UNKNOWN_KINDS, "figure.jpg", "out.nc")
+    ],
 ]
 
 
@@ -146,10 +166,12 @@ def test_mistakes_are_one_line(here, complaint, line, what):
     (here / "medium.yaml").write_text("{kind: newtonian, viscosity: 30}")
     (here / "table.yaml").write_text("{kind: creep_table, file: table.csv}")
     (here / "table.csv").write_text("0,0\n1e-6,1e-12\n")
+    (here / "deep.csv").write_text("0,0\n1,1e6\n2,2e6\n3,3e6\n4,4e6\n")
     for name in ("force.csv", "record.csv"):
         (here / name).write_text("0,0\n1,0.2\n2,0.4\n")
     (here / "link.csv").symlink_to("force.csv")
     (here / "link.nc").symlink_to("medium.yaml")
+    (here / "link.png").symlink_to("curve.nc")
     (here / "of_pipe.csv.yaml").write_text("{kind: creep_table, file: pipe.csv}")
     for suffix in ("", ".nc", ".csv", ".npy", ".yaml"):
         os.mkfifo(f"pipe{suffix}")

@@ -1,0 +1,27 @@
+"""Suffixes of the files that are written: what each stands for, and the check of a name before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # numpy, which it imports, takes long
+    from viscorough.types import FilePath
+
+RESULTS = {".nc": "NetCDF", ".csv": "table"}
+MAPS = {".nc": "NetCDF"}
+MEDIA = {".yaml": "medium", ".yml": "medium"}
+FIGURES = {".png": "picture", ".pdf": "drawing", ".svg": "drawing"}
+
+
+def check_suffix(path: FilePath, allowed: Mapping[str, str]) -> str:
+    """Return the suffix of a file in small letters. Raises ValueError unless it is allowed.
+
+    allowed : {suffix: kind of file}, such as RESULTS
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in allowed:
+        kinds = ", ".join(f"{suffix} ({kind})" for suffix, kind in allowed.items())
+        raise ValueError(f"{path}: unknown kind of file; allowed: {kinds}")
+    return suffix

@@ -77,13 +77,15 @@ def test_contacts_have_the_numbers_of_the_command_line(folder, monkeypatch):
     assert run(f"contact scans/a.npy {how} -o {folder / 'contacts.csv'}") == 0
     table, units = read_table("contacts.csv")
     for name in set(units) - {"file", "error", "warnings", "digest"}:
-        np.testing.assert_allclose(contacts[:2][name], table[name], rtol=1e-2, err_msg=name)
+        np.testing.assert_allclose(contacts[:2][name], table[name], rtol=1e-12, err_msg=name)
 
 
 def test_the_page_has_a_section(folder):
     page = Page((folder / "results/index.html").read_text(encoding="utf-8"))
     assert "measured" in page.ids
     assert "scans/a.npy" in page.text
+    shown = {(attributes["data-table"], attributes["data-column"]) for _, attributes, _ in page.numbers}
+    assert {("measured_contacts", "normal_force"), ("measured_contacts", "corrected_contact_area")} <= shown
     assert (folder / "results/figures/measured.png").stat().st_size > 10_000
 
 

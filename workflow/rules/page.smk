@@ -10,7 +10,7 @@ PAGE_TEXTS = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglo
 QUOTED = ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")
 PAGE_TEXTS += [PROJECT / name for name in QUOTED]
 PAGE_TABLES = ["claims", "scaling", "methods", "failure_map", "level_placement", "rule_costs", "media", "literature"]
-PAGE_TABLES += ["measured_scans", "measured_fits"] if MEASURED else []
+PAGE_TABLES += ["measured_scans", "measured_contacts", "measured_fits"] if MEASURED else []
 
 
 rule make_page:

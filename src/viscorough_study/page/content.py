@@ -95,11 +95,18 @@ def media(results):
 
 
 def measured(results, conventions):
-    """Measured scans, and the power law of each group in the conventions of the figures; empty without any."""
+    """Measured scans, their contacts, and the power law of each group in the conventions of the figures.
+
+    Lists are empty if there are none.
+    """
     if "measured_scans" not in results.tables:
-        return {"scans": [], "groups": []}
+        return {"scans": [], "contacts": [], "groups": []}
     wanted = {"rms_convention": "disc", "average": conventions["average"], "window_rule": conventions["window_rule"]}
-    return {"scans": results.records("measured_scans"), "groups": results.records("measured_fits", **wanted)}
+    return {
+        "scans": results.records("measured_scans"),
+        "contacts": results.records("measured_contacts"),
+        "groups": results.records("measured_fits", **wanted),
+    }
 
 
 # ---- scale

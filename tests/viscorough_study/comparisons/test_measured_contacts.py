@@ -20,5 +20,5 @@ def test_rows_are_those_of_the_command_line(tmp_path, monkeypatch):
     assert run("contact a.npy --spacing 10 --unit um --flip --force 1e-5,1e-4 --young 2e6 --poisson 0.3 -o a.csv") == 0
     expected, units = read_table("a.csv")
     for name in set(units) - {"file", "error", "warnings", "digest"}:
-        assert table[name].tolist() == pytest.approx(expected[name].tolist(), rel=1e-2), name
+        assert table[name].tolist() == pytest.approx(expected[name].tolist(), rel=1e-12), name
         assert CONTACTS[name][1] == units[name]

@@ -71,6 +71,7 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     fits = pd.DataFrame({"case_group": ["j", "k", "k"], **conventions, "beta": [0.1, 0.2, 0.3]})
     fits.loc[2, "average"] = "arithmetic"
     tables = {"level_placement": levels, "measured_fits": fits, "measured_scans": pd.DataFrame({"file": ["g"]})}
+    tables |= {"measured_contacts": pd.DataFrame({"file": ["g", "g"], "normal_force": [0.1, 0.2]})}
     results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {})
     for claim in chain(*verdicts(results, CLAIMS, results.tables["claims"]).values()):
         shown = results.tables["claims"].loc[[case["value"].row for case in claim["cases"]]]
@@ -80,8 +81,9 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     assert found == {("a", "c"): 0, ("a", "d"): 1, ("b", "c"): 2}
     of_scans = measured(results, conventions)
     assert of_scans["scans"] == [{"file": "g"}]
+    assert [(row["file"], row["normal_force"].value) for row in of_scans["contacts"]] == [("g", 0.1), ("g", 0.2)]
     assert [(row["case_group"], row["beta"].value) for row in of_scans["groups"]] == [("j", 0.1), ("k", 0.2)]
-    assert measured(Results({}, {}), conventions) == {"scans": [], "groups": []}
+    assert measured(Results({}, {}), conventions) == {"scans": [], "contacts": [], "groups": []}
 
 
 def test_worst_error_of_the_models_is_one_of_those_that_users_are_told():

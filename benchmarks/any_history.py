@@ -45,7 +45,7 @@ def cost(across, direct_across, contact):
     steps = np.append(0.0, np.linspace(1.0, 1.02, DIRECT_STEPS))
     loads = depth * np.append(0.0, np.linspace(1.0, 0.98, DIRECT_STEPS))
     start = process_time()
-    motion = march(disc, MEDIUM, Load(steps, depth=loads))
+    motion = march(disc, Load(steps, depth=loads), MEDIUM)
     per_step = (process_time() - start) / steps.size
     return {
         "levels": int(curve.depth.size),

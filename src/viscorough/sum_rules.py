@@ -187,7 +187,7 @@ class Audit(ReadOnlyArrays):
         return text
 
 
-def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
+def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact:
     """The complete contact of an indenter, from two linear problems without a contact problem.
 
     With P = p d/(4πG), d the side of an element and K the influence coefficients, K q = 1 and K s = g₀ give::
@@ -364,7 +364,7 @@ def audit(
     progress = progress or (lambda done: None)
     contact_tolerance = max(_CONTACT_TOLERANCE * tolerance, _LEAST_CONTACT_TOLERANCE)
     how: dict[str, Any] = {"tolerance": contact_tolerance, "threads": threads, "options": options}
-    complete = complete_contact(indenter, threads)
+    complete = complete_contact(indenter, threads=threads)
     plain = curve = _curve(indenter, until_fraction=1.0, **how)
     rules, norms = integrals(curve, complete), [np.inf, np.inf]
     for number in range(_MAX_ROUNDS):

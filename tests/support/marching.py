@@ -16,7 +16,7 @@ def stepped(indenter, medium, times, **load):
 
 def evented(indenter, medium, times, force, **options):
     """Motion from contact event to contact event at these times, with `contact_count`."""
-    return _with_count(march(indenter, medium, Load(times, force=force), method="events", **options), indenter)
+    return _with_count(march(indenter, Load(times, force=force), medium, method="events", **options), indenter)
 
 
 def _with_count(motion, indenter, **more):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import inspect
+import itertools
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -372,6 +373,20 @@ def test_every_public_function_and_its_numbers_are_covered():
     assert set(LAWS) == {name for name in laws if not name.startswith("_")}
     for name, numbers in LAWS.items():
         assert set(inspect.signature(getattr(reference, name)).parameters) - set(numbers) <= {"gamma"}, name
+
+
+SAME = {"load": "force", "forces": "force", "depths": "depth", "time": "times"}
+
+
+@pytest.mark.parametrize("kind", [inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY])
+def test_functions_have_their_common_arguments_in_one_order(kind):
+    first = {}
+    for name in viscorough.__all__:
+        if inspect.isfunction(function := getattr(viscorough, name)):
+            parameters = inspect.signature(function).parameters.values()
+            arguments = [SAME.get(each.name, each.name) for each in parameters if each.kind == kind]
+            first |= dict.fromkeys(itertools.combinations(arguments, 2), name)
+    assert not {(pair, name, first[pair[::-1]]) for pair, name in first.items() if pair[::-1] in first}
 
 
 @pytest.mark.parametrize(("each", "name"), CASES)

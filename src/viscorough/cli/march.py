@@ -78,7 +78,7 @@ def march(
         load = viscorough.Load(np.append(0.0, times), force=np.full(1 + len(times), load))
     how: dict[str, Any] = {"method": method} | ({} if until_fraction is None else {"until_fraction": until_fraction})
     with messages.progress_bar("viscorough march", progress) as report:
-        motion = viscorough.march(indenter, half_space, load, **how, progress=report)
+        motion = viscorough.march(indenter, load, half_space, **how, progress=report)
     content = motion_to_content(motion)
     files.write_output(content, output, method=method, **about, **of_load, **surface.attributes(indenter))
     depth, last = with_unit(motion.depth[-1], unit, 6), with_unit(motion.time[-1], si_unit("s", unit), 6)

@@ -50,17 +50,17 @@ _PROGRESS_EXPONENT = 0.5
 def indent(
     indenter: Indenter,
     *,
-    tolerance: float | None = None,
-    error: float | None = None,
-    estimate_grid_error: bool = False,
-    depths: ArrayLike | None = None,
     forces: ArrayLike | None = None,
+    depths: ArrayLike | None = None,
     start_fraction: float = 0.0,
     until_fraction: float = 0.9,
     until_force: float | str = np.inf,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
+    tolerance: float | None = None,
+    error: float | None = None,
+    estimate_grid_error: bool = False,
     progress: Progress | None = None,
     threads: int = 1,
     options: SolverOptions = DEFAULT,
@@ -74,6 +74,25 @@ def indent(
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
+    forces : array_like, optional
+        Levels at exactly these F/G, increasing [length²]; not together with depths.
+    depths : array_like, optional
+        Levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires.
+    start_fraction : float, optional
+        Contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it has only a
+        few levels, and interpolation between these is not held to the tolerance; ignored where depths or forces are
+        given.
+    until_fraction : float, optional
+        Contact fraction at which to stop, in (0, 1]; ignored where depths or forces are given.
+    until_force : float or str, optional
+        F/G at which to stop [length²]; ignored where depths or forces are given.
+    shear_modulus : float or str, optional
+        G of an incompressible half-space [Pa], or a text as "2 MPa"; forces are then F [N], or texts as "5 mN". Depths
+        may be texts, too.
+    young_modulus : float or str, optional
+        Young's modulus E instead of G: G = E/(1 − ν²)/4.
+    poisson : float, optional
+        Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
     tolerance : float, optional
         Largest gap in contact, or overlap outside it, over the depth, at every level, rounding included. The relative
         error of the force there is far below it; the stiffness is less accurate (docs/solver.md). Also the largest
@@ -90,25 +109,6 @@ def indent(
         Whether to estimate the error that is due to the spacing of the map, `grid_error` of the result, from a second
         curve on every second point. This takes 0.2 to 0.6 times as long as the curve. With `error` it is always
         estimated.
-    depths : array_like, optional
-        Levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires.
-    forces : array_like, optional
-        Levels at exactly these F/G, increasing [length²]; not together with depths.
-    start_fraction : float, optional
-        Contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it has only a
-        few levels, and interpolation between these is not held to the tolerance; ignored where depths or forces are
-        given.
-    until_fraction : float, optional
-        Contact fraction at which to stop, in (0, 1]; ignored where depths or forces are given.
-    until_force : float or str, optional
-        F/G at which to stop [length²]; ignored where depths or forces are given.
-    shear_modulus : float or str, optional
-        G of an incompressible half-space [Pa], or a text as "2 MPa"; forces are then F [N], or texts as "5 mN". Depths
-        may be texts, too.
-    young_modulus : float or str, optional
-        Young's modulus E instead of G: G = E/(1 − ν²)/4.
-    poisson : float, optional
-        Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
     progress : Progress, optional
         Function that is called after a level with the estimated share of the computation that is done, up to 1.
     threads : int, optional

@@ -28,8 +28,8 @@ _SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it
 def contact_at(
     indenter: Indenter,
     *,
+    force: None = None,
     depth: Scalar | str,
-    force: None = None,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
@@ -44,8 +44,8 @@ def contact_at(
 def contact_at(
     indenter: Indenter,
     *,
-    depth: None = None,
     force: Scalar | str,
+    depth: None = None,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
@@ -60,8 +60,8 @@ def contact_at(
 def contact_at(
     indenter: Indenter,
     *,
-    depth: Several,
     force: None = None,
+    depth: Several,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
@@ -76,8 +76,8 @@ def contact_at(
 def contact_at(
     indenter: Indenter,
     *,
-    depth: None = None,
     force: Several,
+    depth: None = None,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
@@ -92,8 +92,8 @@ def contact_at(
 def contact_at(
     indenter: Indenter,
     *,
-    depth: ArrayLike | None = None,
     force: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
@@ -107,8 +107,8 @@ def contact_at(
 def contact_at(
     indenter: Indenter,
     *,
-    depth: ArrayLike | None = None,
     force: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
@@ -125,11 +125,11 @@ def contact_at(
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
-    depth : array_like, optional
-        u, from first contact [length], or a text with a unit as "20 nm"; or several ones, increasing.
     force : array_like, optional
         F/G, G the shear modulus [length²]; with a modulus F [N], or a text with a unit as "5 mN"; or several ones,
         increasing. Either depth or force must be given.
+    depth : array_like, optional
+        u, from first contact [length], or a text with a unit as "20 nm"; or several ones, increasing.
     shear_modulus : float or str, optional
         G of an incompressible half-space [Pa], or a text as "2 MPa". If the unit of length is not known, it is in
         consistent units.

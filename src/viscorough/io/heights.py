@@ -94,6 +94,7 @@ def read_heights(
 def read_line(
     path: FilePath,
     spacing: Distance | str | None = None,
+    *,
     unit: str | None = None,
     lateral_unit: str | None = None,
 ) -> Indenter:

@@ -42,8 +42,8 @@ _JUST_AFTER = 1e-12
 
 def pressure_at(
     indenter: Indenter,
-    medium: Medium | float | str,
     force: float | str | Load,
+    medium: Medium | float | str,
     time: float,
     *,
     contacts: int = 64,
@@ -55,10 +55,10 @@ def pressure_at(
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
-    medium : Medium or float or str
-        Medium as in `kinetics`.
     force : float or str or Load
         The constant force F > 0 from t = 0 on; or a Load, which may prescribe the depth instead.
+    medium : Medium or float or str
+        Medium as in `kinetics`.
     time : float
         t, within the history, after its start. p is the pressure just after it, also at a step; in a springpot and in
         media with a parallel dashpot a step of the force is carried as by a flat punch of the shape of the contact.
@@ -84,11 +84,14 @@ def pressure_at(
     --------
     >>> import viscorough
     >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
-    >>> pressure = viscorough.pressure_at(disc, 30.0, force=1.0, time=2.0)
+    >>> pressure = viscorough.pressure_at(disc, force=1.0, medium=30.0, time=2.0)
     >>> pressure.shape
     (17, 17)
     """
     tolerance = check_solvable("pressure_at", indenter, tolerance)
+    if isinstance(force, Medium):
+        text = f"pressure_at: force: {type(force).__name__}; a force or a viscorough.Load is needed, before the medium"
+        raise TypeError(text)
     unit = indenter.length_unit
     medium, contacts = medium_of(medium, unit), whole_number("contacts", contacts, at_least=1)
     time = units.number(time, "s", unit, "time")

@@ -168,7 +168,7 @@ def _by_steps(case, solution):
     """Depths by the second-order steps of direct integration, over those of the reference."""
     if case.medium is None:
         times = np.append(0.0, solution.force)
-        motion = march(case.indenter, Newtonian(1.0), Load(times, force=np.ones(times.size)))
+        motion = march(case.indenter, Load(times, force=np.ones(times.size)), Newtonian(1.0))
         return motion.depth[1:] / solution.depth
     return _ratios(_stepped(case, solution, STEPS), _motion_reference(case, solution))
 
@@ -186,7 +186,7 @@ def _motion_reference(case, solution):
         return _stepped(case, solution, REFERENCE_STEPS)
     until = _last_fraction(case, solution)
     load = Load(times, force=force)
-    return march(case.indenter, case.medium, load, method="events", until_fraction=until).depth
+    return march(case.indenter, load, case.medium, method="events", until_fraction=until).depth
 
 
 def _stepped(case, solution, number):
@@ -198,7 +198,7 @@ def _stepped(case, solution, number):
         parts.append(start[:, None] + (end - start)[:, None] * share)
         place.append(place[-1] + share.size)
     times, force = np.concatenate(parts, axis=1)
-    return march(case.indenter, case.medium, Load(times, force=force)).depth[place]
+    return march(case.indenter, Load(times, force=force), case.medium).depth[place]
 
 
 def _ratios(depth, reference):

@@ -93,7 +93,7 @@ def one_surface(evidence, tolerance):
 def _resistance(disc, force, viscosity):
     """F/(ηvL) over steps of equal impulse Ft/η in a direct integration; v : velocity over a step."""
     times = np.linspace(0.0, IMPULSE * viscosity / force, STEPS + 1)
-    depth = march(disc, Newtonian(viscosity), Load(times, force=np.full(times.size, force))).depth
+    depth = march(disc, Load(times, force=np.full(times.size, force)), Newtonian(viscosity)).depth
     return force / (viscosity * np.diff(depth) / np.diff(times))
 
 

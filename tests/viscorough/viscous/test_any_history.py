@@ -204,7 +204,7 @@ def test_kinetics_of_maps_are_those_of_direct_integration(kind, control):
                 [start + length * share[:-1] for start, length in zip(load.time, lengths, strict=False)]
             )
             fine, _ = load.with_times(np.unique(inner))
-            marched = march(indenter, medium, fine)
+            marched = march(indenter, fine, medium)
             last = np.searchsorted(fine.time, load.time, side="right") - 1
             found, expected = (getattr(each, "force" if load.by_depth else "depth") for each in (marched, motion))
             # At steps compare the state after them; the steps of a dashpot have the force before each time.

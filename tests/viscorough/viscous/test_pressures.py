@@ -33,7 +33,7 @@ def test_pressures_of_a_ramp_and_a_step(name):
     exact = stepped(DISC, medium, steps, force=loads).pressure
     errors = []
     for contacts in (16, 64):
-        pressure = pressure_at(DISC, medium, Load(times, force=force), 2.0, contacts=contacts, tolerance=1e-8)
+        pressure = pressure_at(DISC, Load(times, force=force), medium, 2.0, contacts=contacts, tolerance=1e-8)
         assert (np.isnan(pressure) == np.isnan(DISC.heights)).all()
         errors.append(np.nanmax(abs(pressure - exact)) / np.nanmax(exact))
     assert errors[1] < 0.02
@@ -56,7 +56,7 @@ def test_pressures_of_dashpots_are_those_at_the_last_time(name, history):
     disc, medium = self_affine_disc(0.7, 33, seed=4), MEDIA[name]
     times, force = (np.array(values) for values in HISTORIES[history])
     by_steps = stepped(disc, medium, times, force=force).pressure
-    by_contacts = pressure_at(disc, medium, Load(times, force=force), times[-1], tolerance=1e-8)
+    by_contacts = pressure_at(disc, Load(times, force=force), medium, times[-1], tolerance=1e-8)
     np.testing.assert_allclose(by_contacts, by_steps, rtol=0, atol=1e-7 * np.nanmax(by_steps))
     for pressure in (by_steps, by_contacts):
         assert np.nansum(pressure) * disc.spacing**2 == pytest.approx(force[-1], rel=1e-12)
@@ -73,7 +73,7 @@ def test_force_of_a_dashpot_under_a_ramp_of_the_depth_is_that_at_each_time(name)
 
 def test_pressures_at_a_step_within_the_history_are_those_after_it():
     force, times = [0.1, 0.5, 0.8, 1.0], [0, 0.5, 0.5, 2.0]
-    after = pressure_at(DISC, MEDIA["newtonian"], Load(times, force=force), 0.5)
+    after = pressure_at(DISC, Load(times, force=force), MEDIA["newtonian"], 0.5)
     up_to_it = stepped(DISC, MEDIA["newtonian"], times[:3], force=force[:3]).pressure
     np.testing.assert_allclose(after, up_to_it, rtol=0, atol=1e-3 * np.nanmax(up_to_it))
     assert np.nansum(after) * DISC.spacing**2 == pytest.approx(0.8, rel=1e-12)
@@ -89,7 +89,7 @@ def test_pressures_of_a_receding_and_returning_contact(name, control):
         values = (0.8 if control == "force" else 0.1) * np.array([0, 1, 0.3, 0.6])
     corners, times = np.array([0, 1.0, 1.4, 2.0]), np.linspace(0, 2, 1001)
     moved = stepped(DISC, MEDIA[name], times, **{control: np.interp(times, corners, values)})
-    found = pressure_at(DISC, MEDIA[name], Load(corners, **{control: values}), 2.0, contacts=64, tolerance=1e-8)
+    found = pressure_at(DISC, Load(corners, **{control: values}), MEDIA[name], 2.0, contacts=64, tolerance=1e-8)
     # Under a force both sums are exactly this force; under a depth the force is that of each method.
     exact = 1e-12 if control == "force" else 1e-3
     for pressure in (moved.pressure, found):
@@ -110,7 +110,7 @@ ALL = MEDIA | {f"springpot {exponent}": Springpot(2.0, exponent) for exponent in
 def test_sum_of_the_pressures_is_the_force(name, contacts):
     """At a step, shortly after it and later; in a springpot the depth does not follow a step at once."""
     for time, force in ((0.25, 0.3), (0.5, 0.8), (0.5001, 0.8 + 0.2 * 1e-4 / 1.5), (2.0, 1.0)):
-        pressure = pressure_at(DISC, ALL[name], STEPS, time, contacts=contacts)
+        pressure = pressure_at(DISC, STEPS, ALL[name], time, contacts=contacts)
         assert (np.isnan(pressure) == np.isnan(DISC.heights)).all()
         assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(force, rel=1e-9)
         assert np.nanmin(pressure) >= 0
@@ -119,12 +119,12 @@ def test_sum_of_the_pressures_is_the_force(name, contacts):
 @pytest.mark.parametrize("exponent", [0.2, 0.5, 0.8])
 def test_pressures_at_a_step_in_a_springpot_are_the_limit_from_later_times(exponent):
     medium = Springpot(2.0, exponent)
-    at_step, later = (pressure_at(DISC, medium, STEPS, time, tolerance=1e-8) for time in (0.5, 0.5 + 1e-13))
+    at_step, later = (pressure_at(DISC, STEPS, medium, time, tolerance=1e-8) for time in (0.5, 0.5 + 1e-13))
     assert np.nansum(abs(later - at_step)) < 5e-3 * np.nansum(at_step)
 
 
 def test_first_step_in_a_springpot_is_carried_by_the_highest_element():
-    pressure = pressure_at(DISC, Springpot(2.0, 0.4), Load([0.0, 2.0, 2.0], force=[0.0, 0.0, 1.0]), 2.0)
+    pressure = pressure_at(DISC, Load([0.0, 2.0, 2.0], force=[0.0, 0.0, 1.0]), Springpot(2.0, 0.4), 2.0)
     assert np.nanargmax(pressure) == np.nanargmax(DISC.heights)
     assert np.count_nonzero(np.nan_to_num(pressure)) == 1
     assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(1.0)
@@ -161,7 +161,7 @@ def test_pressures_in_a_springpot_converge_at_second_order():
         medium = Springpot(2.0, exponent)
         for time in (1e-3, 0.1, 1.0, 2.0, 4.0):
             exact = held_in_a_springpot(disc, medium, 0.5, time)
-            found = (pressure_at(disc, medium, 0.5, time, contacts=n, tolerance=1e-9) for n in (8, 64))
+            found = (pressure_at(disc, 0.5, medium, time, contacts=n, tolerance=1e-9) for n in (8, 64))
             errors.append([np.nansum(abs(pressure - exact)) / np.nansum(exact) for pressure in found])
     coarse, fine = np.mean(errors, axis=0)
     assert fine < 2e-4
@@ -181,15 +181,15 @@ def test_media_of_users_are_integrated_numerically():
             return self.inner.relaxation_integral(start, end)
 
     for time in (0.5, 0.51, 2.0):
-        exact, found = (pressure_at(DISC, medium, STEPS, time) for medium in (springpot, WithRelaxation(springpot)))
+        exact, found = (pressure_at(DISC, STEPS, medium, time) for medium in (springpot, WithRelaxation(springpot)))
         assert np.nansum(abs(found - exact)) < 1e-3 * np.nansum(exact)
 
 
 def test_refusals():
     medium, force = Maxwell(1.0, 2.0), Load([0.0, 1.0], force=[1.0, 1.0])
     for arguments, message in (
-        ((medium, force, 2.0), "time: 2.0; allowed: within those of the load"),
-        ((medium, 0.0, 1.0), "constant force: 0.0; allowed: a finite number above 0"),
+        ((force, medium, 2.0), "time: 2.0; allowed: within those of the load"),
+        ((0.0, medium, 1.0), "constant force: 0.0; allowed: a finite number above 0"),
     ):
         with refused(message):
             pressure_at(DISC, *arguments)

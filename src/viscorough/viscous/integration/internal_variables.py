@@ -81,7 +81,7 @@ def checked_input(indenter: Indenter, medium: Any, load: Load) -> tuple[Relaxati
     """
     check_indenter("march", indenter, 2)
     if not isinstance(load, Load):
-        raise TypeError(f"march: load: {type(load).__name__}; a viscorough.Load is needed")
+        raise TypeError(f"march: load: {type(load).__name__}; a viscorough.Load is needed, before the medium")
     unit = indenter.length_unit
     medium = medium_of(medium, unit)
     if medium.relaxation is None:

@@ -13,8 +13,8 @@ METHODS = ("implicit", "events")
 
 def march(
     indenter: Indenter,
-    medium: Medium | float | str,
     load: Load,
+    medium: Medium | float | str,
     *,
     method: str = "implicit",
     until_fraction: float = 1.0,
@@ -29,11 +29,11 @@ def march(
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
-    medium : Medium or float or str
-        Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one.
     load : Load
         Depth [length] or force [N] over time [s], linear between samples. It may decrease. With a parallel dashpot
         (Newtonian, Kelvin-Voigt) a step of the depth must not press on the surface.
+    medium : Medium or float or str
+        Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one.
     method : {"implicit", "events"}, optional
         "implicit" solves one contact problem for the pressures at the end of each step, from sample to sample; it is of
         second order in the steps. "events" proceeds from contact event to contact event, exactly, under a force and
@@ -66,7 +66,7 @@ def march(
     >>> import viscorough
     >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
     >>> load = viscorough.Load([0.0, 1.0, 2.0], force=[1.0, 1.0, 1.0])
-    >>> viscorough.march(disc, 30.0, load, method="events").depth.round(4)
+    >>> viscorough.march(disc, load, medium=30.0, method="events").depth.round(4)
     array([0.    , 0.0247, 0.0369])
     """
     if method not in METHODS:

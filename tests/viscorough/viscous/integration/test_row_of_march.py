@@ -84,7 +84,7 @@ def difference(indenter, medium, load):
     """Difference of the row from march, over the largest depth or force."""
     events = march_events(indenter)
     row = events.depth, np.diff(events.resistance, prepend=0.0)
-    marched = march(indenter, medium, load)
+    marched = march(indenter, load, medium)
     control = "depth" if load.by_depth else "force"
     steps = stepped_row(*row, medium.relaxation, load.time, **{control: load.values})
     one, other = (each.force if load.by_depth else each.depth for each in (marched, steps))

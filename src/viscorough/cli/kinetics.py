@@ -24,7 +24,10 @@ _CORRESPONDENCE = (
 @options.viscosity
 @options.medium
 @click.option(
-    "--times", type=options.Increasing(), help="Times of the output  [default: a hundred, or those of the history]"
+    "--times",
+    type=options.Times(),
+    metavar="A,B,C or FIRST:LAST:COUNT",
+    help="Times of the output, or so many equally spaced ones  [default: a hundred, or those of the history]",
 )
 @options.output("KIN.nc")
 def kinetics(
@@ -41,7 +44,8 @@ def kinetics(
     """Penetration over time of the indenter whose loading curve is in CURVE.nc.
 
     A history may load, hold, unload and reload; with --depth-history the depth is given, and the force follows.
-    KIN.nc holds time, depth, velocity, force and contact fraction. Without --times these are the times of the history;
+    KIN.nc holds time, depth, velocity, force and contact fraction. Without --times these are the times of the history,
+    so that a ramp and a hold of few rows need --times for a curve;
     or under a constant force a hundred at equal ratios between those at which the first and last levels of the curve
     are reached, or until creep has nearly ended; after time 0 if the medium responds elastically at t = 0. While the
     contact grows the depth is that of the curve at F/G = the creep response, the integral of J(t - s) dF(s) with the
@@ -67,7 +71,7 @@ def kinetics(
         viscorough kinetics curve.nc --force-history ramp.csv --medium rubber.yaml \\
             --times 1,10,100 -o kinetics.nc
         viscorough kinetics curve.nc --depth-history approach_retract.csv \\
-            --medium rubber.yaml -o loop.nc
+            --medium rubber.yaml --times 0:2:201 -o loop.nc
     """
     given = sum(each is not None for each in (force, force_history, depth_history))
     options.require(given == 1, "one of --force, --force-history and --depth-history is needed")

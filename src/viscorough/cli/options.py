@@ -13,6 +13,8 @@ from viscorough.elasticity import INCOMPRESSIBLE, shear_modulus_of
 from viscorough.io import suffixes
 from viscorough.units import Quantity
 
+_MOST_TIMES = 1_000_000  # that an option may state by their number
+
 
 def require(condition: bool, text: str) -> None:
     """Raise UsageError with the text unless the condition holds."""
@@ -90,6 +92,23 @@ class Increasing(click.ParamType):
         if any(later <= earlier for earlier, later in itertools.pairwise(numbers)):
             self.fail(f"{value!r}: needed are increasing numbers, each larger than the one before", param, ctx)
         return entries
+
+
+class Times(Increasing):
+    """Increasing numbers above 0 separated by commas, or FIRST:LAST:COUNT, so many equally spaced ones from 0 on."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
+        if ":" not in value:
+            return super().convert(value, param, ctx)
+        try:
+            first, last, count = (float(entry) for entry in value.split(":"))
+        except ValueError:
+            first, last, count = math.nan, math.nan, math.nan
+        if not (0 <= first < last < math.inf and 2 <= count <= _MOST_TIMES and count.is_integer()):
+            text = f"{value!r}: FIRST:LAST:COUNT, as 0:4:201, needs 0 <= FIRST < LAST and 2 to {_MOST_TIMES} times"
+            self.fail(text, param, ctx)
+        steps = int(count) - 1
+        return [first + (last - first) * step / steps for step in range(steps)] + [last]
 
 
 FILE = click.Path(path_type=Path)

@@ -142,6 +142,13 @@ def test_units_are_converted_where_the_unit_of_length_is_known(here, curve, opti
     assert netcdf.read("kin.nc").variables["velocity"].attributes["units"] == "um s-1"
 
 
+def test_times_may_be_given_by_their_number(here):
+    (here / "depth.csv").write_text("0,0\n1,0.2\n3,0.2\n")
+    (here / "medium.yaml").write_text("{kind: maxwell, shear_modulus: 2, viscosity: 5}")
+    assert run(f"{KINETICS} --depth-history depth.csv --medium medium.yaml --times 0:3:7") == 0
+    assert values("kin.nc")["time"].tolist() == [0, 0.5, 1, 1.5, 2, 2.5, 3]
+
+
 def test_missing_values_are_warned_of(here, capsys, complaint):
     """A ramp passes through depths before the first level, at which the curve is not determined."""
     late = indent(Indenter(sphere_heights(17), 1.0), depths=[0.15, 0.6])

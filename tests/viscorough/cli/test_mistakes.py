@@ -102,6 +102,10 @@ MISTAKES = [
         "indent further, with --until-fraction 1 or a level at F/G =",
     ),
     (f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6", "kinetics: --force or --force-history: at time"),
+    *[
+        (f"{KINETICS} --force 1 --viscosity 1 --times {times}", "FIRST:LAST:COUNT, as 0:4:201, needs 0 <= FIRST < LAST")
+        for times in ("0:1", "1:0:3", "0:1:1", "0:1:2.5", "0:inf:3", "0:1:1e9", "a:1:2", "-1:1:2")
+    ],
     (f"{KINETICS} --force 1e-320 --viscosity 1", "--times: missing, and the creep is"),
     (f"{KINETICS} --force 1 --medium table.yaml --times 1", "--times: up to 1; allowed: up to the last time"),
     (f"{KINETICS} --force-history force.csv --medium table.yaml", "--force or --force-history: up to 2 after"),

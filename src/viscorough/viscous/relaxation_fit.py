@@ -136,8 +136,8 @@ def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None
     best = int(squares.argmin())
     if best in (0, offsets.size - 1):
         raise ValueError(
-            f"{argument('fit_offset')}: the zero of the depth is off by {offsets[best]:.3g} or more; allowed: errors below "
-            f"{offsets[-1]:.3g}, {100 * _OFFSETS[-1]:g} % of the largest depth; a better zero is needed"
+            f"{argument('fit_offset')}: the zero of the depth is off by {offsets[best]:.3g} or more; allowed: errors "
+            f"below {offsets[-1]:.3g}, {100 * _OFFSETS[-1]:g} % of the largest depth; a better zero is needed"
         )
     deviation, freedom = _scatter(record, fits[best], scatter, resolution)
     distance = np.nan_to_num(distance_of(np.hypot(deviation, resolution), freedom, _UNKNOWNS_WITH_OFFSET))

@@ -59,7 +59,7 @@ def test_outside_of_its_range_the_law_gives_no_numbers():
     assert estimated.where.tolist() == ["below", "", "above"]
     for name in ("depth", "depth_low", "depth_high", "velocity", "velocity_low", "velocity_high"):
         assert np.isfinite(getattr(estimated, name)).tolist() == [False, True, False]
-    *lines, intervals = repr(estimated).splitlines()
+    *lines, intervals = str(estimated).splitlines()
     assert [line.split()[-1] for line in lines[1:]][::2] == ["below", "above"]
     assert intervals.endswith(f"depth ± {100 * LAW.depth_error:.2g} %, velocity ± {100 * LAW.velocity_error:.2g} %")
 

@@ -1,10 +1,13 @@
 # Needs make, and Python 3.11 to 3.14 with venv (Debian and Ubuntu: python3-venv). The environment in .venv is built from
-# requirements.lock, and again when that changes or the folder is copied or moved.
+# requirements.lock, and again when that changes or the folder is copied or moved. Tests, lint, documentation and formats
+# of instruments need more packages, from requirements-dev.lock, which are added when a target needs them.
 PYTHON ?= python3
 CORES ?= 2
 UV ?= uv
 BIN := .venv/bin
 SETTINGS ?=
+# Modules are compiled when they are first imported: most of them never are.
+PIP_INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
 SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))
 # One line of progress; all that is printed is in results/run.log.
 WITH_PROGRESS = $(BIN)/python workflow/run_with_progress.py --
@@ -27,8 +30,8 @@ endif
 # the packages of the first one.
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
-.PHONY: help environment environment-slurm settings reproduce paper report check lint ready-to-test test docs test-slurm bench \
-	speed light stability sizes law law-errors large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
+.PHONY: help environment environment-dev environment-slurm settings reproduce paper report check lint ready-to-test test docs test-slurm bench \
+	speed light stability sizes law law-errors large article outside fuzz faults seeds publish chaos dist peers lock lock-dev lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -55,7 +58,7 @@ help:
 	@echo "make chaos       a small reproduction killed 60 times, its results compared with those of an undisturbed run"
 	@echo "make test-slurm  the workflow through Slurm on this machine, while jobs are lost; Debian, as root"
 	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
-	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
+	@echo "make lock        renew the lock files from pyproject.toml; needs uv, as do lock-dev, lock-peers and lock-slurm"
 	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"
 	@echo "make clean       remove results and caches, keep the environment"
 	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, stability, sizes."
@@ -71,18 +74,24 @@ moved:
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 		{ echo "The Python modules venv and ensurepip are needed; Debian and Ubuntu: apt install python3-venv" >&2; exit 1; }
 	$(PYTHON) -m venv $(if $(MOVED),--clear) .venv
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(PIP_INSTALL) --require-hashes -r requirements.lock
 	@touch $@
 
 .venv/package-installed: .venv/lock-installed pyproject.toml
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	$(PIP_INSTALL) --no-deps --no-build-isolation -e .
+	@touch $@
+
+environment-dev: .venv/dev-installed
+
+.venv/dev-installed: requirements-dev.lock .venv/package-installed
+	$(PIP_INSTALL) --require-hashes --no-deps -r requirements-dev.lock
 	@touch $@
 
 # What the Slurm executor needs beyond requirements.lock.
 environment-slurm: .venv/slurm-installed
 
 .venv/slurm-installed: requirements-slurm.lock .venv/package-installed
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-slurm.lock
+	$(PIP_INSTALL) --require-hashes --no-deps -r requirements-slurm.lock
 	@touch $@
 
 # Snakemake does not name file and line of what it cannot read.
@@ -100,7 +109,7 @@ report: settings
 	$(SNAKEMAKE) --report results/report.html -- all $(patsubst results/figures/%.png,%,$(wildcard results/figures/sizes.png))
 
 # Written in full each time (-E): pages that are kept would hide the warnings of an earlier run.
-docs: environment
+docs: environment-dev
 	$(BIN)/sphinx-build -q -W -E -b html docs build/docs
 
 # Tests run Python hundreds of times, which would compile every source again.
@@ -112,7 +121,7 @@ check: lint
 	@tests=$$($(BIN)/python tests/changed.py $(COMMIT)) && if [ -n "$$tests" ]; then $(BIN)/python -m pytest $$tests; \
 		else echo "no file has changed since $(COMMIT) that has tests of its own"; fi
 
-lint: environment
+lint: environment-dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check .
@@ -124,7 +133,7 @@ ready-to-test: lint
 	$(BIN)/snakemake --lint
 	$(BIN)/python -m viscorough_study.run.kernels
 
-test: environment
+test: environment-dev
 	@$(MAKE) --no-print-directory --jobs $(CORES) docs ready-to-test
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
@@ -174,12 +183,12 @@ article: settings
 outside: environment
 	$(BIN)/python benchmarks/outside.py --output results/outside.csv
 
-fuzz: environment
+fuzz: environment-dev
 	$(BIN)/python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
 	$(BIN)/python benchmarks/file_campaign.py --files 10000 --output results/file_campaign.json
 	$(BIN)/python benchmarks/damaged_files.py --output results/damaged_files.json
 
-faults: environment
+faults: environment-dev
 	$(BIN)/python benchmarks/mutants.py --cores $(CORES) --output results/mutants.json
 
 seeds: environment
@@ -196,15 +205,19 @@ test-slurm: environment-slurm
 
 include peers/targets.mk
 
-lock:
-	$(UV) pip compile pyproject.toml --extra build --extra formats --extra geo --extra study --extra test --extra docs \
-		--universal --python-version 3.11 --generate-hashes --no-header --no-annotate --output-file requirements.lock
-
+LOCK = $(UV) pip compile --quiet pyproject.toml --universal --python-version 3.11 --generate-hashes --no-header --no-annotate
 # Only packages that are not in requirements.lock, in versions that are compatible with it.
+FURTHER = --constraints requirements.lock $$(sed -n 's/^\([^ =]*\)==.*/--no-emit-package \1/p' requirements.lock)
+
+lock:
+	$(LOCK) --extra build --extra study --output-file requirements.lock
+	$(MAKE) lock-dev lock-slurm
+
+lock-dev:
+	$(LOCK) --extra formats --extra geo --extra test --extra docs $(FURTHER) --output-file requirements-dev.lock
+
 lock-slurm:
-	$(UV) pip compile --quiet pyproject.toml --extra slurm --constraints requirements.lock --universal \
-		--python-version 3.11 --generate-hashes --no-header --no-annotate --output-file requirements-slurm.lock \
-		$(shell sed -n 's/^\([^ =]*\)==.*/--no-emit-package \1/p' requirements.lock)
+	$(LOCK) --extra slurm $(FURTHER) --output-file requirements-slurm.lock
 
 clean:
 	find results -mindepth 1 ! -path results/README.md -delete

@@ -26,13 +26,20 @@ def test_slurm_profile(tmp_path, finished_once):
     assert plan(folder, *TEST, "--profile", "local", "--", "all") == jobs((finished_once / "run.log").read_text())
 
 
-def test_slurm_lock_goes_with_the_other_lock():
-    """Both are installed into one environment, so no package may be in both; and neither may hold an address."""
-    texts = [(ROOT / name).read_text() for name in ("requirements.lock", "requirements-slurm.lock")]
-    names = [set(re.findall(r"^([\w.-]+)==", text, re.MULTILINE)) for text in texts]
-    assert "snakemake-executor-plugin-slurm" in names[1]
-    assert not names[0] & names[1]
-    assert "://" not in "".join(texts)
+def test_lock_files_go_together():
+    """They are installed into one environment, so no package may be in two of them; and none may hold an address."""
+    texts = {path.name: path.read_text() for path in ROOT.glob("requirements*.lock")}
+    packages = {name: set(re.findall(r"^([\w.-]+)==", text, re.MULTILINE)) for name, text in texts.items()}
+    assert set(packages) == {"requirements.lock", "requirements-dev.lock", "requirements-slurm.lock"}
+    assert sum(map(len, packages.values())) == len(set.union(*packages.values()))
+    assert "://" not in "".join(texts.values())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    extras = project["optional-dependencies"] | {"": project["dependencies"]}
+    for extra, requirements in extras.items():
+        lock = "requirements-slurm.lock" if extra == "slurm" else "requirements-dev.lock"
+        further = set() if extra in ("", "build", "study", "plot") else packages[lock]
+        names = {re.match(r"[\w.-]+", requirement)[0].lower().replace("_", "-") for requirement in requirements}
+        assert names <= packages["requirements.lock"] | further, extra
 
 
 def test_missing_venv_is_one_line_and_leaves_nothing(tmp_path):
@@ -104,10 +111,16 @@ def built(tmp_path):
     return tmp_path
 
 
-def make_environment(folder):
-    command = ["make", "--dry-run", "environment"]
+def make_environment(folder, target="environment"):
+    command = ["make", "--dry-run", target]
     own = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=own)
+
+
+def test_only_tests_and_lint_install_their_packages(built):
+    (built / "requirements-dev.lock").touch()
+    assert "pip install" not in make_environment(built, "reproduce").stdout
+    assert "requirements-dev.lock" in make_environment(built, "lint").stdout
 
 
 def test_moved_environment_is_built_again(built):

@@ -2,11 +2,12 @@
 
     python benchmarks/curves.py --output results/benchmarks.json
 
-The file has one key for each function below: parts, line, rectangles, large_map, curve.
+The file has one key for each function below: parts, columns, line, rectangles, large_map, curve.
 Times are medians of repeats in one run; the repeats of what is compared are interleaved. `make bench` runs it.
 """
 
 import contextlib
+import itertools
 import pkgutil
 from functools import partial
 from unittest.mock import patch
@@ -18,6 +19,7 @@ from ducc0 import fft
 from measuring import output_option, run_timed, save
 
 from viscorough import Indenter, contact_at, indent, self_affine_disc
+from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
 from viscorough.surfaces import self_affine_square
@@ -87,6 +89,25 @@ def rectangles(aspects, repeats, elements=ELEMENTS):
     return {aspect: processor / measured[1.0][1] for aspect, (_, processor) in measured.items()}
 
 
+def columns(sizes, repeats):
+    """Half-space operators of both precisions: processor time with convolutions by ducc0 over that with our own."""
+    ratios = []
+    for elements, precision in itertools.product(sizes, ("single", "double")):
+        dtype = {"single": np.float32, "double": np.float64}[precision]
+        operators = {once: Halfspace(elements, elements, dtype, once=once) for once in (False, True)}
+        calls = {once: partial(repeated, operator.apply, 1 + 2000 // elements) for once, operator in operators.items()}
+        measured = medians(calls, repeats)
+        ratio = measured[True][1] / measured[False][1]
+        ratios.append({"elements": elements, "precision": precision, "library_over_own": round(ratio, 3)})
+    return ratios
+
+
+def repeated(function, times):
+    """Call a function several times."""
+    for _ in range(times):
+        function()
+
+
 def large_map(points):
     """The curve of a map similar to measured ones up to 50 % contact, and the contact at the force of about 10 %."""
     surface = Indenter(self_affine_square(0.8, points, seed=1), 1 / points)
@@ -138,6 +159,7 @@ def shares(compute):
 def main(repeats, output):
     content = {
         "parts": parts(),
+        "columns": columns((17, 33, 65, 129, 257, 513, 1025), 3 * repeats),
         "line": lines((0.1, 0.6, 0.9), 3 * repeats),
         "rectangles": rectangles((1.0, 2.0, 0.5, 5.0, 0.2), repeats),
         "large_map": large_map(2049),

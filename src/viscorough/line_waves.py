@@ -129,7 +129,7 @@ def _fill_pairs(spectrum, key, amplitude, fixed):
     return square
 
 
-@njit
+@njit(inner=True)
 def _draw(first, key, amplitude, fixed, parts):
     """Real and imaginary parts of X_k for k = first, first + 1, ...; returns the sum of the squares of the moduli."""
     direction, size = np.empty(amplitude.size, np.uint32), np.empty(amplitude.size, np.uint32)
@@ -141,14 +141,14 @@ def _draw(first, key, amplitude, fixed, parts):
     return _polar(direction, modulus, parts)
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _moduli(size, amplitude, modulus):
     """A √(-2 ln U) with U = (size + 1/2) / 2^32."""
     for i in range(size.size):
         modulus[i] = amplitude[i] * np.sqrt(_TWO * _minus_log(size[i]))
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _polar(direction, modulus, parts):
     """Real and imaginary parts of numbers of this modulus and direction; returns the sum of the squared moduli."""
     square = _F32(0)
@@ -159,14 +159,14 @@ def _polar(direction, modulus, parts):
     return square
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _unit_vectors(first, turn, parts):
     """Real and imaginary parts of exp(2πi (first + i) turn / 2^64)."""
     for i in range(parts.shape[1]):
         parts[0, i], parts[1, i] = _cos_sin(_U32(_U64(first + i) * turn >> _U64(32)))
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _pack(longer, shorter, rotation, size):
     """Overwrite the parts of X_k and of X_(m-k), the latter in reverse, by those of Z_k and Z_(m-k).
 
@@ -182,7 +182,7 @@ def _pack(longer, shorter, rotation, size):
         shorter[0, j], shorter[1, j] = sum_real - turned_real, turned_imag - sum_imag
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _store(parts, numbers):
     for i in range(numbers.size):
         numbers[i] = complex(parts[0, i], parts[1, i])
@@ -201,7 +201,7 @@ def twiddle(spectrum, factor):
         _rotate(spectrum[j], rotation, factor)
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _rotate(pairs, rotation, factor):
     """Multiply complex numbers, stored as pairs of real numbers, by others."""
     for i in range(rotation.shape[1]):
@@ -211,7 +211,7 @@ def _rotate(pairs, rotation, factor):
         pairs[j], pairs[k] = real * cosine - imag * sine, real * sine + imag * cosine
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _cos_sin(direction):
     """Cosine and sine of the angle direction / 2^32 of a turn, from those within an eighth of a turn of an axis."""
     quadrant = _U32(_U32(direction + _U32(1 << 29)) >> _U32(30))
@@ -226,7 +226,7 @@ def _cos_sin(direction):
     return along, -across if quadrant > _U32(1) else across
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _minus_log(size):
     """-ln((size + 1/2) / 2^32), from the exponent and the mantissa of size + 1/2."""
     bits = np.float32(_F32(size) + _HALF).view(np.int32)

@@ -18,5 +18,6 @@ def test_every_part_takes_time():
 def test_costs_are_compared_on_one_problem():
     (line,) = curves.lines([0.6], 1, points=2000)
     assert line["over_transform"] > 0
+    assert [row["precision"] for row in curves.columns([9], 1)] == ["single", "double"]
     assert curves.rectangles([1.0, 5.0], 1, elements=17)[1.0] == 1
     assert set(curves.large_map(33)) == {"curve", "contact"}

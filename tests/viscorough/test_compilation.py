@@ -81,6 +81,6 @@ def test_who_waits_at_a_terminal_is_told(tmp_path):
         "@njit\ndef two(x):\n    return x + 2\n"
         "assert one(1) + two(1) == 5\n"
     )
-    for expected in ("viscorough: compiling once, which takes about 20 s\n", ""):
+    for expected in ("viscorough: compiling once, which takes about 10 s\n", ""):
         done = python(str(tmp_path / "script.py"), NUMBA_CACHE_DIR=str(tmp_path / "cache"))
         assert done.stderr == expected

@@ -143,7 +143,7 @@ def follow_events(
     # The contact at the last event is solved again from the members and their Cholesky factor.
     last, last_depth = events.count[-1], events.depth[-1]
     solution = np.stack([last_depth - elements.initial_gap[members[:last]], np.ones(last)])
-    solve_factored(factor[:last, :last], solution)
+    solve_factored(factor[:last], solution)
     order = np.argsort(members[:last])
     return events, _exact_contact(contact.units, last_depth, members[order], *solution[:, order]), ends_at_force
 
@@ -193,8 +193,10 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
         append_element(factor, influence, row, column, members, count, start[t], forward)
         earliest[start[t]] = _NEVER
         count += 1
-    load[: start.size] = pressure
-    total, element, events = pressure.sum(), start[start.size - 1], 0
+    for t in range(start.size):
+        load[t] = pressure[t]
+        total += pressure[t]
+    element, events = start[start.size - 1], 0
     while True:
         append_element(factor, influence, row, column, members, count, element, forward)
         earliest[element] = _NEVER
@@ -202,7 +204,10 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
         stiffness = solve_flat_punch(factor, count, forward, tangent)
         depths[events], totals[events], stiffnesses[events] = depth, total, stiffness
         events += 1
-        if count == most or total > force or tangent[:count].min() < 0:
+        lowest = 0.0
+        for t in range(count):
+            lowest = min(lowest, tangent[t])
+        if count == most or total > force or lowest < 0:
             break
         depth_step, element, following = _next_touch(
             influence, row, column, initial_gap, depth, members[:count], load, tangent, earliest, following
@@ -214,7 +219,7 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
     return depths[:events], totals[:events], stiffnesses[:events], members[:count], factor
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _next_touch(influence, row, column, initial_gap, depth, members, load, tangent, earliest, guess):
     """Depth from here to the next touch, the element that touches, and the one that may touch first after it.
 

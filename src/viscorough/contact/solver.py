@@ -274,7 +274,7 @@ class ContactSolver:
                 # Dense solutions are exact to the rounding of double precision.
                 exact = contact.fields is None or self.tolerance < self.options.exact_gap_below
                 precision = np.float64 if exact else np.float32
-                halfspace = Halfspace(rows, columns, precision, padding=self.options.padding, **of_map)
+                halfspace = Halfspace(rows, columns, precision, padding=self.options.padding, once=True, **of_map)
                 halfspace.load[place] = load * self.units.length
                 part += halfspace.apply()[:, :columns]
             if contact.fields is None:

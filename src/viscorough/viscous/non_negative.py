@@ -91,7 +91,7 @@ def _extremes(columns, target, functions, best, multipliers, distance):
     return values
 
 
-@njit
+@njit(inner=True)
 def _square(columns, target, x):
     """‖A x − b‖²."""
     residual = target.copy()
@@ -101,7 +101,7 @@ def _square(columns, target, x):
     return residual @ residual
 
 
-@njit
+@njit(inner=True)
 def _minimise(columns, target, tilt, x):
     """Change x ≥ 0 into the minimiser of ½ ‖A x − b‖² − tilt·x.
 
@@ -141,7 +141,7 @@ def _minimise(columns, target, tilt, x):
         passive[new] = True
 
 
-@njit
+@njit(inner=True)
 def _unbounded(columns, target, tilt, members):
     """Minimiser with these members alone, of any sign, by the modified Gram-Schmidt method."""
     count = members.size

@@ -158,13 +158,13 @@ def move_row(
     return motion._replace(receding_from=motion.receding_from + times[0]), ended, until + times[0]
 
 
-@njit
+@njit(inner=True)
 def _mean_decay(x):
     """(1 − exp(−x))/x."""
     return -np.expm1(-x) / x if x > 0 else 1.0
 
 
-@njit
+@njit(inner=True)
 def _second_mean(x):
     """(x − 1 + exp(−x))/x²."""
     if x > _SERIES_BELOW:
@@ -175,7 +175,7 @@ def _second_mean(x):
     return value
 
 
-@njit
+@njit(inner=True)
 def _evaluate(s, value, slope, bend, first, second, rates):
     """f, f' and upper bounds of f'' and −f'' from here on, of f = value + slope s + bend s² + Σ∫x_k.
 
@@ -197,7 +197,7 @@ def _evaluate(s, value, slope, bend, first, second, rates):
     return f, rate, up, down
 
 
-@njit
+@njit(inner=True)
 def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
     """The first s in [0, end] at which f (see _evaluate) exceeds the rounding; infinite if there is none.
 
@@ -243,7 +243,7 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
     return np.inf
 
 
-@njit
+@njit(inner=True)
 def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
     """The zero of f, up to a value of `close`, where f increases from a to b and is positive at b."""
     s = a
@@ -264,7 +264,7 @@ def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
     return b
 
 
-@njit
+@njit(inner=True)
 def _release(row, law, state, t, u, force, rate, count, by_depth, first):
     """Value, slope and rounding of −φ of the last spring in contact; its terms `first` are set in place."""
     top, gap = count - 1, row.gaps[count - 1]
@@ -291,7 +291,7 @@ def _release(row, law, state, t, u, force, rate, count, by_depth, first):
     return -value, -slope, _ROUNDING * size
 
 
-@njit
+@njit(inner=True)
 def _gap_now(state, law, gap, t, i):
     """The gap g + y of a free spring from the undeformed surface."""
     since = t - state.left[i]
@@ -301,7 +301,7 @@ def _gap_now(state, law, gap, t, i):
     return gap + state.rest[i]
 
 
-@njit
+@njit(inner=True)
 def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
     """R_j of the springs in contact, in place."""
     stiffness, top = row.stiffness[count], count - 1
@@ -316,7 +316,7 @@ def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
             remainders[j] += law.remainders[j, b] * variable
 
 
-@njit
+@njit(inner=True)
 def _let_go(row, law, state, t, u, count):
     """Store the state of the last of `count` springs in contact, which lets go, and return how many are left."""
     top = count - 1
@@ -335,7 +335,7 @@ def _let_go(row, law, state, t, u, count):
     return top
 
 
-@njit
+@njit(inner=True)
 def _touch(row, law, state, t, u, force, count, by_depth):
     """Add the first free spring to the `count` springs in contact, and return how many there are.
 
@@ -370,7 +370,7 @@ def _touch(row, law, state, t, u, force, count, by_depth):
     return count + 1
 
 
-@njit
+@njit(inner=True)
 def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
     """Force and velocity at a time; `remainders` is set in place, but that of a parallel dashpot is kept.
 
@@ -394,13 +394,13 @@ def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
     return force, flow / stiffness
 
 
-@njit
+@njit(inner=True)
 def _gap_of_next(row, law, state, t, count):
     """The gap of the first free spring from the undeformed surface; the limit of the depth if there is none."""
     return _gap_now(state, law, row.gaps[count], t, count) if count < row.gaps.size else row.limit
 
 
-@njit
+@njit(inner=True)
 def _jump(row, law, state, t, u, force, count, target, by_depth, of_release):
     """Step of the load to `target` at a time; returns u, F, the number of springs in contact, and how it ended."""
     if law.viscosity > 0 and not by_depth:
@@ -440,7 +440,7 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, of_release):
     return u, force, count, RESTLESS
 
 
-@njit
+@njit(inner=True)
 def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders, until, of_touch, drive):
     """Time from now on at which the first free spring is touched; infinite if it is not, until then."""
     reached = _gap_of_next(row, law, state, t, count)
@@ -465,7 +465,7 @@ def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders,
     return _first_crossing(until, rounding, u - reached, slope, bend, of_touch, drive, law.decays)
 
 
-@njit
+@njit(inner=True)
 def _move(row, law, state, t, u, force, rate, count, by_depth, remainders, s):
     """Move by a time s without events; returns u. The common variables and the remainders are changed in place."""
     if by_depth:
@@ -495,7 +495,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
     springs, samples = gaps.size, times.size
     branches, elements = law.rates.size, law.decays.size
     row = _Row(gaps, weights, np.zeros(springs + 1), np.zeros(springs + 1), limit)
-    row.stiffness[1:], row.moment[1:] = np.cumsum(weights), np.cumsum(weights * gaps)
+    for i in range(springs):
+        row.stiffness[i + 1], row.moment[i + 1] = row.stiffness[i] + weights[i], row.moment[i] + weights[i] * gaps[i]
     state = _State(
         np.zeros(branches), np.zeros(springs), np.zeros((springs, branches)), np.zeros((springs, branches)),
         np.zeros(springs), np.zeros(springs), np.zeros((springs, elements)), np.zeros(1, np.int64), np.full(1, np.nan),

@@ -13,7 +13,7 @@ from viscorough.contact.preconditioner.multilevel import REACH
 _TINY = 1e-30
 
 
-@njit(fastmath=True, nogil=True)
+@njit(fastmath=True)
 def inner_product(left, right, slots):
     """Σ left·right over the contact set in double precision, for arrays laid out as the operator's load."""
     total = 0.0
@@ -22,37 +22,7 @@ def inner_product(left, right, slots):
     return total
 
 
-@njit(nogil=True)
-def contact_places(inside, start, stop, width, stride, end, places, slots):
-    """Store the places in contact from `start` to `stop`, and their indices in the load array, which has no border.
-
-    width : length of a row of flat fields
-    stride : length of a row of the load array
-    end : of their entries in `places` and `slots`
-    """
-    words = inside[: inside.size // 8 * 8].view(np.uint64)  # eight flags at once: most have no contact
-    found = np.empty(width + 1, places.dtype)
-    for row in range((stop - 1) // width, start // width - 1, -1):
-        first, last = max(row * width, start), min((row + 1) * width, stop)
-        first_word, last_word, count = min(-(-first // 8), last // 8), last // 8, 0
-        for i in range(first, min(8 * first_word, last)):
-            found[count] = i  # overwritten unless in contact, which takes less time than a branch
-            count += inside[i]
-        for word in range(first_word, last_word):
-            if words[word]:
-                for i in range(8 * word, 8 * word + 8):
-                    found[count] = i
-                    count += inside[i]
-        for i in range(max(8 * last_word, first), last):
-            found[count] = i
-            count += inside[i]
-        end -= count
-        shift = (row - REACH) * stride - REACH - row * width
-        for t in range(count):
-            places[end + t], slots[end + t] = found[t], found[t] + shift
-
-
-@njit(nogil=True)
+@njit
 def total(field, places):
     """Sum of a field over places, in double precision."""
     result = 0.0
@@ -61,7 +31,7 @@ def total(field, places):
     return result
 
 
-@njit(nogil=True)
+@njit
 def gap_on_set(gap_change, initial_gap, gap, places):
     """Store e on the set in the flat field `gap`; returns the largest |e| there."""
     largest = 0.0
@@ -73,16 +43,7 @@ def gap_on_set(gap_change, initial_gap, gap, places):
     return largest
 
 
-@njit(nogil=True)
-def largest_overlap(gap_change, initial_gap):
-    """Largest −e of a flat field, or 0."""
-    lowest = 0.0
-    for i in range(gap_change.size):
-        lowest = min(lowest, gap_change[i] + initial_gap[i])
-    return -lowest
-
-
-@njit(nogil=True)
+@njit
 def gather_on_set(field, gathered, places):
     """Store a field on the set in the flat field `gathered`; returns its largest magnitude there."""
     largest = 0.0
@@ -92,7 +53,7 @@ def gather_on_set(field, gathered, places):
     return largest
 
 
-@njit(nogil=True)
+@njit
 def shift_on_set(depth_step, gap, preconditioned, places, response):
     """e −= Δu and z −= Δu M 1 on the set, in place."""
     for t in range(places.size):
@@ -100,7 +61,7 @@ def shift_on_set(depth_step, gap, preconditioned, places, response):
         preconditioned[places[t]] -= depth_step * response[t]
 
 
-@njit(fastmath=True, nogil=True)
+@njit(fastmath=True)
 def energies(
     depths, pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap, places
 ):  # fmt: skip
@@ -123,7 +84,7 @@ def energies(
     return np.array([[aa, ab, ac], [ba, bb, bc], [ca, cb, cc]]), np.array([a, b, c])
 
 
-@njit(nogil=True)
+@njit
 def predict(
     depth_step, early_step, predicted, predicted_change, inside, pressure, tangent, gap_change, tangent_gap, initial_gap
 ):  # fmt: skip
@@ -140,7 +101,7 @@ def predict(
         predicted_change[i] = gap_change[i] + depth_step * tangent_gap[i]
 
 
-@njit(nogil=True)
+@njit
 def combine(
     weights, shift, tangent, tangent_gap,
     pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap,
@@ -159,7 +120,7 @@ def combine(
         tangent_gap[i] = deflection + tangent_weight * last_tangent_gap[i] + shift
 
 
-@njit(fastmath=True, nogil=True)
+@njit(fastmath=True)
 def update_gap(length, deflection, gap):
     """e − g, or e_q, += α K d everywhere, in place."""
     rows, columns = deflection.shape
@@ -169,7 +130,7 @@ def update_gap(length, deflection, gap):
             gap[start + j] += length * deflection[i, j]
 
 
-@njit(fastmath=True, nogil=True)
+@njit(fastmath=True)
 def update_pressure(length, direction, pressure, places, slots):
     """P += α d on the set, in place; returns whether any pressure is negative."""
     lowest = 0.0
@@ -180,14 +141,14 @@ def update_pressure(length, direction, pressure, places, slots):
     return lowest < 0
 
 
-@njit(fastmath=True, nogil=True)
+@njit(fastmath=True)
 def update_search_direction(direction, preconditioned, factor, places, slots):
     """d = β d − z on the set, in place, with z the preconditioned residual, a flat field."""
     for t in range(slots.size):
         direction[slots[t]] = factor * direction[slots[t]] - preconditioned[places[t]]
 
 
-@njit(fastmath=True, nogil=True)
+@njit(fastmath=True)
 def direction_sums(direction, deflection, preconditioned, gap, places, slots):
     """z·Kd, d·e and d·Kd over the set, with d and K d laid out as the operator's load; z and e are flat fields."""
     of_preconditioned = of_gap = of_direction = 0.0
@@ -199,7 +160,7 @@ def direction_sums(direction, deflection, preconditioned, gap, places, slots):
     return np.array([of_preconditioned, of_gap, of_direction])
 
 
-@njit(nogil=True)
+@njit
 def unloaded_under_tension(direction, pressure, places, slots):
     """Places of elements without pressure that a step along the direction would put under tension."""
     found, count = np.empty(places.size, places.dtype), 0
@@ -209,7 +170,7 @@ def unloaded_under_tension(direction, pressure, places, slots):
     return found[:count]
 
 
-@njit(nogil=True)
+@njit
 def step_causes_tension(length, direction, pressure, places, slots):
     """Whether a step of that length would put any element under tension."""
     for t in range(places.size):
@@ -219,7 +180,7 @@ def step_causes_tension(length, direction, pressure, places, slots):
     return False
 
 
-@njit(nogil=True)
+@njit
 def step_and_find_tension(length, direction, pressure, inside, places, slots, first):
     """P += α d, the direction becomes α d, and elements under tension are marked as outside; all in place.
 
@@ -238,7 +199,7 @@ def step_and_find_tension(length, direction, pressure, inside, places, slots, fi
     return released[:count]
 
 
-@njit(nogil=True)
+@njit
 def release(direction, pressure, inside, places, slots, released, stencil, width, stride):
     """Elements under tension leave the set: the direction becomes the total change of pressure; all in place.
 
@@ -264,7 +225,7 @@ def release(direction, pressure, inside, places, slots, released, stencil, width
                     direction[slots[t] + row * stride + column] += change
 
 
-@njit(nogil=True)
+@njit
 def add_penetrating_elements(limit, gap_change, initial_gap, inside):
     """Elements that overlap the surface by more than `limit` join the set, in place; returns how many did."""
     joined = 0
@@ -275,7 +236,7 @@ def add_penetrating_elements(limit, gap_change, initial_gap, inside):
     return joined
 
 
-@njit(nogil=True)
+@njit
 def has_open_gap(limit, gap_change, initial_gap, places):
     """Return whether the gap at any of the places is larger than `limit`; the last places are searched first."""
     for t in range(places.size - 1, -1, -1):
@@ -285,7 +246,7 @@ def has_open_gap(limit, gap_change, initial_gap, places):
     return False
 
 
-@njit(nogil=True)
+@njit
 def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, pressure, tangent):
     """Sums over elements that join the contact in a step of the depth, of functions of where in it they touch.
 

@@ -1,7 +1,6 @@
 """The kernels over large arrays, block by block on several threads."""
 
 from collections.abc import Callable, Sequence
-from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -9,6 +8,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.parallel import BLOCK, run_blocks
+from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import GridFields
 from viscorough.types import Array, Integers, Mask
 
@@ -23,7 +23,7 @@ def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:
     return field
 
 
-def joined(parts: list[Integers]) -> Integers:
+def joined(parts: Sequence[Integers]) -> Integers:
     """Arrays of all blocks one after the other."""
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
@@ -80,19 +80,23 @@ class GridLoops:
         Loops take less time where an index cannot be negative, which would count from the end of an array.
         """
         whole_number = np.uint32 if inside.size // width * max(width, stride) < 2**32 else np.int64
-        stops, counts = zip(*self.over(inside, lambda i, j: (j, np.count_nonzero(inside[i:j]))), strict=True)
-        ends = dict(zip(stops, accumulate(counts), strict=True))
-        places, slots = np.empty((2, ends[inside.size]), whole_number)
 
-        def store(i: int, j: int) -> None:
-            kernels.contact_places(inside, i, j, width, stride, ends[j], places, slots)
+        def in_block(i: int, j: int) -> tuple[Integers, Integers]:
+            places: Integers = np.flatnonzero(inside[i:j]).astype(whole_number)
+            places += i
+            row: Integers = places // width
+            return places, (row - REACH) * stride + (places - row * width - REACH)
 
-        self.over(inside, store)
-        return places, slots
+        places, slots = zip(*self.over(inside, in_block), strict=True)
+        return joined(places), joined(slots)
 
     def difference(self, inside: Mask, other: Mask) -> Integers:
         """Places of a set that are not in another one."""
         return joined(self.over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
+
+    def largest_overlap(self, gap_change: Array, initial_gap: Array) -> float:
+        """Largest −e of a flat field, or 0."""
+        return -min(0.0, *self.over(gap_change, lambda i, j: float(np.add(gap_change[i:j], initial_gap[i:j]).min())))
 
     def lowest(self, field: Array) -> float:
         """Lowest value of a field."""
@@ -111,7 +115,7 @@ class GridLoops:
     def update_gap(self, length: float | np.floating[Any], deflection: Array, gap: Array) -> None:
         """e − g, or e_q, += α K d everywhere, in place."""
         rows, columns = deflection.shape
-        width = gap.size // (rows + 2 * kernels.REACH)
+        width = gap.size // (rows + 2 * REACH)
 
         def update(i: int, j: int) -> None:
             kernels.update_gap(length, deflection[i:j], gap[i * width :])

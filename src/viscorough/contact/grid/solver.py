@@ -190,7 +190,7 @@ class GridSolver:
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
         inner, residual = self._search.inner, self._search.residual
         largest = self._loops.largest_gap(change.values, self.initial_gap, residual, places)
-        overlap = max(self._loops.each(kernels.largest_overlap, (), change.values[inner], self.initial_gap[inner]))
+        overlap = self._loops.largest_overlap(change.values[inner], self.initial_gap[inner])
         correction = self._loops.inner_product(tangent, residual, places)
         tangent_correction = self._loops.inner_product(tangent, fields.tangent_gap.values, places)
         return ContactState(

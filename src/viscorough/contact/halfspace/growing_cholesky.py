@@ -10,7 +10,7 @@ import numpy as np
 from viscorough.compilation import njit
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def append_element(factor, influence, row, column, members, count, element, forward):
     """Add an element to the set of `count` members: a row of L and an entry of L⁻¹·1, in place.
 
@@ -38,10 +38,11 @@ def append_element(factor, influence, row, column, members, count, element, forw
     members[count] = element
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def solve_flat_punch(factor, count, forward, tangent):
     """Store the tangent q = L⁻ᵀ (L⁻¹·1) of the `count` members, the solution of K q = 1, in `tangent`; returns Σq."""
-    tangent[:count] = forward[:count]
+    for i in range(count):  # a copy of slices would take a second to compile, for the message that their sizes differ
+        tangent[i] = forward[i]
     total = 0.0
     for i in range(count - 1, -1, -1):
         below = factor[i]
@@ -55,7 +56,7 @@ def solve_flat_punch(factor, count, forward, tangent):
 
 @njit(fastmath=True)
 def solve_factored(factor, right):
-    """Replace each row b of `right`, shape (sides, count), by the x with L Lᵀ x = b, L of shape (count, count)."""
+    """Replace each row b of `right`, shape (sides, count), by the x with L Lᵀ x = b, L of shape (count, ≥ count)."""
     for side in right:
         for i in range(side.size):
             row, value = factor[i], side[i]

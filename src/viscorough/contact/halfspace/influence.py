@@ -69,7 +69,7 @@ def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
     return table
 
 
-@njit
+@njit(inner=True)
 def _closed_form(x, y, length, width):
     """∫∫ dA/r at (x, y) from the centre of a rectangle, by differences of logarithms."""
     total = 0.0
@@ -84,7 +84,7 @@ def _closed_form(x, y, length, width):
     return total
 
 
-@njit(error_model="numpy")
+@njit(inner=True)
 def _mean_inverse_distance(x, y, length, width):
     """Mean of 1/r over a rectangle as seen from far: its moment expansion to fourth order; nan at its centre."""
     x2, y2 = x * x, y * y

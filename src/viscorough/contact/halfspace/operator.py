@@ -7,7 +7,7 @@ import ducc0
 import numpy as np
 from numpy.typing import DTypeLike
 
-from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
+from viscorough.contact.halfspace.column_fft import ColumnConvolution, LibraryConvolution, good_length
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, Buffer, run_blocks
 from viscorough.types import Array
@@ -97,6 +97,7 @@ class Halfspace:
     padding : whether the grid is padded; if not, periodic images of the grid act on it
     threads : on which it is computed
     spectrum : spectrum_of_grid of these arguments, where it is known from another precision
+    once : whether it is applied once, so that it takes less time without compiled convolutions of the columns
 
     load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
         and in the columns beyond the grid
@@ -119,6 +120,7 @@ class Halfspace:
         padding: bool = True,
         threads: int = 1,
         spectrum: Array | None = None,
+        once: bool = False,
     ) -> None:
         self.shape, self._threads = (rows, columns), threads
         self._length = length = convolution_lengths(rows, columns)[1]
@@ -129,7 +131,8 @@ class Halfspace:
         self._is_one = self._block >= rows
         # Two blocks of rows: with their padding, and as they result from inverse transforms.
         self._buffer = Buffer((2, 0 if self._is_one else self._block, length + _ROW_PADDING), precision)
-        self._convolution = ColumnConvolution(rows, spectrum, precision, threads) if rows > 1 else None
+        convolution = LibraryConvolution if once else ColumnConvolution
+        self._convolution = convolution(rows, spectrum, precision, threads) if rows > 1 else None
         self._spectrum = spectrum.astype(precision) if rows == 1 else None
         self.load = np.zeros((rows, (length if self._is_one else columns) + _ROW_PADDING), dtype=precision)
         self._transformed = np.empty((rows, length // 2 + 1), dtype=np.result_type(precision, np.complex64))

@@ -234,7 +234,7 @@ def _distribute(load, weights):
     return coarse
 
 
-@njit(nogil=True, fastmath=True)
+@njit(fastmath=True)
 def _interpolate(coarse, weights):
     """Field of a tile interpolated between the points of the coarse grid."""
     side = (coarse.shape[0] - _POINTS + 1) * _STRIDE

@@ -63,13 +63,13 @@ def load_redistribution_stencil(aspect: float) -> Array:
     return -inverse[12].reshape(5, 5)[1:-1, 1:-1] / inverse[12, 12]
 
 
-@njit
+@njit(inner=True)
 def _rows(field, place, width):
     """Views of a flat field from a place's first neighbour on, in three rows: two before, one before, and its own."""
     return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
 
 
-@njit(nogil=True)
+@njit
 def _factorise(amplitude, places, before, slots, kernel, rows, weights):
     """Store the rows of G for the matrix 1 + a K a between blocks in `rows`, zero on entry, and G a in `weights`.
 

@@ -28,7 +28,7 @@ _COST_OF_CHANGE = 20
 _RENEWED = 1 << NEIGHBOURS
 
 
-@njit(nogil=True)
+@njit
 def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, factor):
     """Renew the patterns and the rows of G from place `start` to `stop` where elements joined or left the set.
 
@@ -37,7 +37,8 @@ def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, fac
     rows_of_pattern : rows of G by pattern and neighbour
     """
     rows, count = np.empty(changed.size * offsets.size, changed.dtype), 0
-    for k in changed:
+    for t in range(changed.size):
+        k = changed[t]
         for s in range(offsets.size):
             i = k - offsets[s]
             if start <= i < stop:
@@ -46,9 +47,11 @@ def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, fac
                     patterns[i] |= _RENEWED
                     rows[count] = i
                     count += 1
-    for i in rows[:count]:
+    for t in range(count):
+        i = rows[t]
         patterns[i] &= ~_RENEWED
-        row, column = divmod(i, factor.shape[2])
+        row = i // factor.shape[2]
+        column = i - row * factor.shape[2]
         if inside[i]:
             entries = rows_of_pattern[patterns[i]]
             for s in range(factor.shape[1]):
@@ -58,7 +61,7 @@ def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, fac
                 factor[row, s, column] = 0
 
 
-@njit(nogil=True)
+@njit
 def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
     """Renew all patterns and rows of G in some rows of blocks, which have so many rows of the grid.
 
@@ -79,13 +82,16 @@ def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
                 out[j] = of_neighbour[of_row[j]] * members[j]
 
 
-@njit
+@njit(inner=True)
 def _any_active(active, first):
     """Whether any of the blocks that are processed together, from the first one on, has elements in contact."""
-    return active[first : first + _TOGETHER].sum() > 0
+    total = 0.0
+    for block in range(first, min(first + _TOGETHER, active.size)):
+        total += active[block]
+    return total > 0
 
 
-@njit
+@njit(inner=True)
 def _next_run(active, first):
     """First and last of the next blocks side by side to be processed, from `first` on; both at the end if none."""
     while first < active.size and not _any_active(active, first):
@@ -96,11 +102,11 @@ def _next_run(active, first):
     return min(first, active.size), min(last, active.size)
 
 
-@njit(nogil=True, fastmath=True)
+@njit(fastmath=True)
 def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
     """Store Σ of the squares of the row sums of G in every block, for some rows of blocks."""
     for block_row in range(first_row, last_row):
-        total = np.full(factor.shape[2], 0 * unit)
+        total = np.full(factor.shape[2], unit - unit)  # zeros in the precision of the unit
         for row in range(block_row * sides[0], min((block_row + 1) * sides[0], height)):
             sums = factor[row + REACH, -1]
             for j in range(sums.size):
@@ -109,7 +115,7 @@ def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
         _add_up(total[REACH:-REACH], sides[1], squares[block_row], 0, squares.shape[1])
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _add_up(values, side, sums, first, last):
     """Store the sums of the values of every block from the first to the last one."""
     for block in range(first, last):
@@ -119,7 +125,7 @@ def _add_up(values, side, sums, first, last):
         sums[block] = total
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _multiply_row(factor, unit, residual, row, first, values):
     """values = G r for consecutive elements of a row of the grid, from a column on, both with the border."""
     width = factor.shape[2]
@@ -135,7 +141,7 @@ def _multiply_row(factor, unit, residual, row, first, values):
         values[j] = unit * value
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _multiply_row_transposed(factor, unit, residual, row, first, values):
     """values = Gᵀ r for consecutive elements of a row of the grid, from a column on, both with the border."""
     width, left = factor.shape[2], first - REACH
@@ -151,7 +157,7 @@ def _multiply_row_transposed(factor, unit, residual, row, first, values):
         values[j] = unit * value
 
 
-@njit(nogil=True, fastmath=True)
+@njit(fastmath=True)
 def _restrict(first_row, last_row, factor, unit, residual, height, sides, active, values, loads):
     """values = G r, and loads = Wᵀ G r of the blocks before W is normalised, for some rows of blocks."""
     width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
@@ -170,7 +176,7 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
             first, last = _next_run(active[block_row], last)
 
 
-@njit(nogil=True, fastmath=True)
+@njit(fastmath=True)
 def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values):
     """values −= W loads for some rows of blocks, with W not normalised."""
     width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
@@ -189,7 +195,7 @@ def _correct(first_row, last_row, factor, unit, loads, height, sides, active, va
             first, last = _next_run(active[block_row], last)
 
 
-@njit(nogil=True, fastmath=True)
+@njit(fastmath=True)
 def _prolong(first_row, last_row, factor, unit, values, height, sides, active, result):
     """result = Gᵀ values for some rows of blocks."""
     width = factor.shape[2]

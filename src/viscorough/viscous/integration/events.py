@@ -121,7 +121,7 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     return Events(impulse, depth, resistance, np.arange(1, most + 1), gap.size, indenter.length_unit)
 
 
-@njit(fastmath=True)
+@njit(inner=True, fastmath=True)
 def _respond(influence, row, column, members, count, first, second, element):
     """Σ_j K_ij first_j and Σ_j K_ij second_j over the contact set, at one element i."""
     a, b = 0.0, 0.0

@@ -1,6 +1,5 @@
 """Loops over fields and contact sets of more than one block."""
 
-from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,14 +14,13 @@ from viscorough.contact.preconditioner.multilevel import REACH
 
 @pytest.mark.parametrize("share", [0.02, 0.6])
 @pytest.mark.parametrize("columns", [1, 60])
-def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share):
-    """Flags are read eight at a time, and neither rows nor blocks end at multiples of eight."""
-    width, stride = columns + 2 * REACH, columns + 3
-    inside = np.pad(np.random.default_rng(2).random((41, columns)) < share, REACH).ravel()
+@pytest.mark.parametrize("further_columns", [-2 * REACH, 16])  # of the load array, which may have no border
+def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share, further_columns):
+    width, stride = columns + 2 * REACH, columns + 2 * REACH + further_columns
+    rows = 2 * BLOCK // width + 5
+    inside = np.pad(np.random.default_rng(2).random((rows, columns)) < share, REACH).ravel()
+    places, slots = GridLoops(3).contact_places(inside, width, stride)
     expected = np.flatnonzero(inside)
-    places, slots = np.zeros((2, expected.size), dtype=np.uint32)
-    for start, stop in pairwise([0, 3, 50, 51, 133, inside.size]):
-        kernels.contact_places(inside, start, stop, width, stride, np.count_nonzero(inside[:stop]), places, slots)
     np.testing.assert_array_equal(places, expected)
     np.testing.assert_array_equal(slots, (expected // width - REACH) * stride + expected % width - REACH)
 

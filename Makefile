@@ -31,7 +31,7 @@ endif
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
 .PHONY: help environment environment-dev environment-slurm settings reproduce paper report check lint ready-to-test test docs test-slurm bench \
-	speed light stability sizes law law-errors large article outside fuzz faults seeds publish chaos dist peers lock lock-dev lock-peers lock-slurm clean
+	speed light stability sizes law law-errors large first-minutes article outside fuzz faults seeds publish chaos dist peers lock lock-dev lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -54,6 +54,7 @@ help:
 	@echo "make fuzz        10000 bad files and options through the command line, 10000 text files of known maps, 1400 damaged files; 15 minutes"
 	@echo "make faults      200 random changes of the sources, one at a time in a copy: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
+	@echo "make first-minutes time from a clone to the page, with empty caches, three times; 15 minutes on a quiet machine"
 	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
 	@echo "make chaos       a small reproduction killed 60 times, its results compared with those of an undisturbed run"
 	@echo "make test-slurm  the workflow through Slurm on this machine, while jobs are lost; Debian, as root"
@@ -173,6 +174,9 @@ law-errors: environment
 large: environment
 	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv \
 		--figure results/figures/large.png
+
+first-minutes: environment
+	$(BIN)/python benchmarks/first_minutes.py --cores $(CORES) --output results/first_minutes.csv
 
 dist: environment
 	$(BIN)/python benchmarks/distribution.py --output build/dist

@@ -5,11 +5,11 @@
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
 of paper include the verdicts and the calibrated power law, those of law the law of the interface, those of law-errors
-its errors and the intervals of single surfaces, those of reproduce verdicts and cost of the default run, those of seeds
-the dependence of the verdicts on the seed, that is, on the surfaces drawn. Without results (`--pages-only`) only the
-tables in README.md and docs/ are written, from the last published results and from the statements in
-resources/paper/claims.yaml. The addresses of the project in pyproject.toml are written to README.md, docs/ and
-CITATION.cff in both cases. The workflow writes only into results/.
+its errors and the intervals of single surfaces, those of reproduce verdicts and cost of the default run, those of
+first-minutes its time from the clone to the page, those of seeds the dependence of the verdicts on the seed, that is,
+on the surfaces drawn. Without results (`--pages-only`) only the tables in README.md and docs/ are written, from the
+last published results and from the statements in resources/paper/claims.yaml. The addresses of the project in
+pyproject.toml are written to README.md, docs/ and CITATION.cff in both cases. The workflow writes only into results/.
 """
 
 import json
@@ -44,8 +44,7 @@ from viscorough_study.verdicts.claims import (
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
 OTHER_SOLVERS = "resources/published/other_solvers.csv"  # quoted by runs that do not measure them
-# The longest of repeated runs of `make reproduce` on virtual machines with two cores of an AMD EPYC [minutes].
-LONGEST_DEFAULT_RUN = 6
+FIRST_MINUTES = "resources/published/first_minutes.csv"
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
 
 
@@ -73,6 +72,7 @@ PUBLISHED = {
     "law": _made(tables="law"),
     "law-errors": _made(tables="law_errors"),
     "reproduce": [],
+    "first-minutes": [],
     "seeds": [],
 }
 # {command: {file in results/ that other parts of the project read: where they find it}}
@@ -87,6 +87,7 @@ KEPT = {
         "tables/rule_costs.csv": DEFAULT_COSTS,
         "tables/claims.csv": DEFAULT_CLAIMS,
     },
+    "first-minutes": {"first_minutes.csv": FIRST_MINUTES},
     "seeds": {"seeds.csv": "docs/seeds.csv"},
 }
 # {key of CITATION.cff: name of its address in pyproject.toml}
@@ -143,10 +144,16 @@ def answer_lines():
     return paragraph(f"**{answer(table)}**") + "\n" + paragraph(scoreboard)
 
 
+def first_minutes():
+    """Table of the parts from the clone to the page, of all repeats with the commit that was measured last."""
+    table = pd.read_csv(ROOT / FIRST_MINUTES)
+    return table[table["commit"] == table["commit"].iloc[-1]]
+
+
 def default_minutes():
-    """Return the range of times of the default run, from the published one to the longest."""
-    minutes = round(pd.read_csv(ROOT / DEFAULT_COSTS)["share_s"].sum() / 60)
-    return f"{minutes} to {max(minutes + 1, LONGEST_DEFAULT_RUN)} minutes"
+    """Return the time from the clone to the page, or its range over the repeats."""
+    minutes = first_minutes().groupby("repeat")["wall_s"].sum().div(60).round().astype(int)
+    return f"{' to '.join(map(str, sorted({minutes.min(), minutes.max()})))} minutes"
 
 
 def sentences():
@@ -215,10 +222,19 @@ def citation(text):
 
 def time_sentence():
     """Sentence on the time of the default run and that of the paper, with machine and date."""
-    costs = pd.read_csv(ROOT / DEFAULT_COSTS).iloc[0]
+    table = first_minutes()
+    seconds = table.groupby("part")["wall_s"].median()
+    machine, measured = table[["machine", "measured"]].iloc[-1]
     weeks = read_paper(ROOT / "resources/paper", "numbers")["boundary_elements"]["computing_time"]["value"]
-    text = f"**{weeks.capitalize()} in the paper, {default_minutes()} here**: `make reproduce` on virtual machines "
-    text += f"({costs['machine']}, {costs['measured']}), with as many discs as in the paper, and shorter lines."
+    text = (
+        f"**{weeks.capitalize()} in the paper, {default_minutes()} here**: from `git clone` to the page on a virtual "
+    )
+    text += (
+        f"machine ({machine}, {measured}), with as many discs as in the paper, and shorter lines. The packages take "
+    )
+    text += (
+        f"{seconds['environment']:.0f} seconds of this, and the compiler {seconds['compilation']:.0f}, both only once."
+    )
     return paragraph(text)
 
 

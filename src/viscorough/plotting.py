@@ -41,9 +41,10 @@ _SYMBOLS = {
     "time": "t",
     "velocity": "v",
     "compliance": "J",
+    "relaxation_modulus": r"\psi",
 }
 # Name of a variable: what stands on its axis.
-_LABELS = {name: f"{name} ${symbol}$" for name, symbol in _SYMBOLS.items()}
+_LABELS = {name: f"{name.replace('_', ' ')} ${symbol}$" for name, symbol in _SYMBOLS.items()}
 _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x": "$x$", "y": "$y$"}
 _LABELS |= {"normal_force": "force $F$", "normal_stiffness": "stiffness $k$", "normal_pressure": "pressure $p$"}
 # Name of a number of a contact: its label above the maps.
@@ -243,13 +244,29 @@ def _loop(variables: Variables) -> Figure:
 
 
 def _compliance(variables: Variables) -> Figure:
-    time, low, high = (variables[name].values for name in ("time", "low", "high"))
     figure, (panel,) = _panels(1)
-    after = time > 0  # logarithmic axes
-    panel.fill_between(time[after], low[after], high[after], color=_BLUE, alpha=0.25, linewidth=0)
-    _curve(panel, time[after], variables["compliance"].values[after])
-    _label(panel, variables, "time", "compliance", "compliance")
+    _with_interval(panel, variables, "compliance")
     return figure
+
+
+def _relaxation(variables: Variables) -> Figure:
+    figure, (modulus, compliance) = _panels(2)
+    _with_interval(modulus, variables, "relaxation_modulus")
+    after = variables["time"].values > 0  # logarithmic axes
+    _curve(compliance, variables["time"].values[after], variables["compliance"].values[after])
+    _label(compliance, variables, "time", "compliance", "compliance")
+    return figure
+
+
+def _with_interval(panel: Axes, variables: Variables, name: str) -> None:
+    """Draw a function of an identified medium over time with its interval, where both ends of it are above 0."""
+    time, values, low, high = (variables[key].values for key in ("time", name, "low", "high"))
+    after = (time > 0) & (values > 0)  # logarithmic axes
+    least = values[after].min() / 10 if after.any() else 0.0
+    ends = np.maximum(low[after], least), np.minimum(high[after], 10 * values[after])
+    panel.fill_between(time[after], *ends, color=_BLUE, alpha=0.25, linewidth=0)
+    _curve(panel, time[after], values[after])
+    _label(panel, variables, "time", name, name.replace("_", " "))
 
 
 def _loading_curve(variables: Variables) -> Figure:
@@ -308,6 +325,7 @@ _KINDS: tuple[tuple[Callable[[Variables], Figure], dict[str, tuple[str, ...]]], 
     (_fields, {"pressure": ("level", "y", "x"), **_XY}),
     (_surface, {"heights": ("y", "x"), **_XY}),
     (_surface, {"heights": ("x",), **_X}),
+    (_relaxation, dict.fromkeys(("time", "compliance", "relaxation_modulus", "low", "high"), ("level",))),
     (_compliance, dict.fromkeys(("time", "compliance", "low", "high"), ("level",))),
     (_motion, {"time": ("level",), "depth": ("level",)}),
     (_loading_curve, {"depth": ("level",), "force": ("level",)}),

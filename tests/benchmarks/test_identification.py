@@ -11,7 +11,6 @@ from viscorough import Newtonian
 
 def test_coverage_has_a_row_for_every_case_whatever_the_number_of_processes(tmp_path, monkeypatch):
     monkeypatch.setattr(identification, "MEDIA", {"newtonian": Newtonian(3.0), "solid": identification.MEDIA["solid"]})
-    monkeypatch.setattr(identification, "NOISE", (1e-3, 1e-2))
     tables = []
     for cores in (2, 1):
         output = tmp_path / f"tables/{cores}.csv"
@@ -32,8 +31,8 @@ def test_intervals_that_miss_are_counted(monkeypatch):
     """Intervals of a hundredth of their width contain few of the compliances."""
     identify = identification.identify_medium
 
-    def narrow(*record):
-        found = identify(*record)
+    def narrow(*record, **options):
+        found = identify(*record, **options)
         middle, half = (found.low + found.high) / 2, (found.high - found.low) / 200
         return dataclasses.replace(found, low=middle - half, high=middle + half)
 

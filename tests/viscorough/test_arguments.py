@@ -218,7 +218,7 @@ CALLS = {
     "identify_medium": [
         call(
             viscorough.identify_medium,
-            {"force": (FORCES[0], "N"), "times": (RECORD.time.tolist(), "s"), "depth": (DEPTHS, LENGTH)}
+            {"load": (FORCES[0], "N"), "times": (RECORD.time.tolist(), "s"), "measured": (DEPTHS, LENGTH)}
             | {"scatter": (2.0**-10, LENGTH)},
             curve=CURVE,
         )

@@ -16,6 +16,7 @@ from viscorough.units import Quantity
 @click.argument("record", type=options.FILE, metavar="RECORD.csv")
 @options.force
 @options.force_history
+@options.depth_history
 @click.option(
     "--fit",
     type=click.Choice(["table", "prony", "springpot"]),
@@ -24,9 +25,11 @@ from viscorough.units import Quantity
 )
 @click.option(
     "--scatter",
-    type=options.QuantityOption("m"),
-    help="Standard deviation of the measured depth, such as '2 nm'  [default: found from the record]",
+    type=options.QuantityOption("m", "N"),
+    help="Standard deviation of the measured depth or force, such as '2 nm'  [default: found from the record]",
 )
+@click.option("--fit-offset", is_flag=True, help="Fit an error of the zero of the depth, too.")
+@click.option("--fit-drift", is_flag=True, help="Fit a drift of the depth that is linear in time, too.")
 @options.output("MEDIUM.yaml", allowed=suffixes.MEDIA)
 def creep(
     curve: Path,
@@ -34,28 +37,37 @@ def creep(
     *,
     force: Quantity | None,
     force_history: Path | None,
+    depth_history: Path | None,
     fit: str,
     scatter: Quantity | None,
+    fit_offset: bool,
+    fit_drift: bool,
     output: Path,
 ) -> None:
-    """The medium of a half-space from the measured depth of the indenter whose loading curve is in CURVE.nc.
+    """The medium of a half-space from a measured indentation by the indenter whose loading curve is in CURVE.nc.
 
-    RECORD.csv has two columns, times and depths, with units in a heading as t [s],u [um] or plain numbers in s and in
-    the unit of length of the curve. At a known depth the curve gives F/G, which equals the creep response, the integral
-    of J(t - s) dF(s): at once the compliance J(t) for a constant force, else by inversion. MEDIUM.yaml is a medium for
-    viscorough kinetics. A creep table is written to MEDIUM.csv, with the columns time, compliance, low and high: of all
-    J that do not decrease and are concave, the one that fits best, and its interval of 95 % from the scatter of the
-    record. Short or very precise records do not determine the scatter: low and high are nan then, unless --scatter
-    states it.
+    RECORD.csv has two columns: times, and depths under a known force, or forces at the depth of --depth-history. Units
+    stand in a heading as t [s],u [um], or numbers are in s, N and the unit of length of the curve. Loads may hold and
+    unload: creep, relaxation, and force curves are records. A measured depth shows the creep compliance J(t), a
+    measured force the relaxation modulus.
 
-    A warning says if a Prony series or a springpot misses the record by more than the scatter. A depth that recedes by
-    more than the scatter, or that leaves the curve, is refused.
+    MEDIUM.yaml is a medium for viscorough kinetics. A creep table is written to MEDIUM.csv, with the columns time,
+    compliance, low and high: J, and its interval of 95 % from the scatter of the record. If the force was measured, low
+    and high belong to the further column modulus, the relaxation modulus. Short or very precise records do not
+    determine the scatter: low and high are nan then, unless --scatter states it.
+
+    An error of the zero of the depth changes the medium. The closing line says by how much, unless --fit-offset finds
+    it. A warning says if a Prony series or a springpot misses the record by more than the scatter. A depth that recedes
+    by more than the scatter while the force does not decrease, or that leaves the curve, is refused.
 
     \b
-    Example:
+    Examples:
         viscorough creep curve.nc record.csv --force "10 mN" -o rubber.yaml
+        viscorough creep curve.nc forces.csv --depth-history ramp_and_hold.csv \\
+            --fit prony --fit-offset -o rubber.yaml
     """
-    options.require((force is None) != (force_history is None), "one of --force and --force-history is needed")
+    given = sum(each is not None for each in (force, force_history, depth_history))
+    options.require(given == 1, "one of --force, --force-history and --depth-history is needed")
 
     import numpy as np
 
@@ -64,16 +76,21 @@ def creep(
     from viscorough.viscous.identification import identify_medium
 
     for path in (output, check_medium_file(output)):
-        files.check_output(path, curve=curve, record=record, force_history=force_history)
+        files.check_output(path, curve=curve, record=record, force_history=force_history, depth_history=depth_history)
     loading = files.read_curve(curve)
     unit = loading.length_unit
-    times, depth = read_columns(record, "a record", {"time": "s", "depth": unit}, unit)
-    load, about = files.read_load(force, force_history, unit)
-    deviation = None if scatter is None else units.number(scatter, unit, unit, "--scatter")
-    identified = identify_medium(loading, load, times, depth, kind=fit, scatter=deviation)
+    measured, value_unit = ("depth", unit) if depth_history is None else ("force", "N")
+    times, values = read_columns(record, "a record", {"time": "s", measured: value_unit}, unit)
+    load, about = files.read_load(force, force_history, unit, depth_history)
+    deviation = None if scatter is None else units.number(scatter, value_unit, unit, "--scatter")
+    identified = identify_medium(
+        loading, load, times, values, kind=fit, scatter=deviation, fit_offset=fit_offset, fit_drift=fit_drift
+    )
     about |= {"curve": files.printable_name(curve), "record": files.printable_name(record)}
     about |= {"scatter": "unknown" if np.isnan(identified.scatter) else identified.scatter, "misfit": identified.misfit}
+    about |= {name: value for name in ("offset", "drift") if not np.isnan(value := getattr(identified, name))}
     save_identified(identified, output, **about)
     ends = identified.time[[1, -1]]
     compliance = span(identified.medium.creep_compliance(ends), si_unit("1/Pa", unit))
-    messages.announce(output, f"J {compliance} from time {ends[0]:.4g} to {ends[1]:.4g}, {identified.quality}")
+    text = f"J {compliance} from time {ends[0]:.4g} to {ends[1]:.4g}, {identified.quality}, {identified.zero_of_depth}"
+    messages.announce(output, text)

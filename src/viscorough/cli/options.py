@@ -1,5 +1,6 @@
 """Types of options, and options, that the commands of the command line share."""
 
+import contextlib
 import itertools
 import math
 from collections.abc import Callable
@@ -36,25 +37,28 @@ class PositiveNumber(click.FloatRange):
 
 
 class QuantityOption(click.ParamType):
-    """A finite number above 0, plain or with a unit that measures the same as `unit`, such as "5 mN" for "N".
+    """A finite number above 0, plain or with a unit that measures the same as one of `units`, such as "5 mN" for "N".
 
     Converted to a viscorough.units.Quantity; units.number gives the number that the solvers need.
     """
 
     name = "quantity"
 
-    def __init__(self, unit: str) -> None:
-        self.unit = unit
+    def __init__(self, *allowed: str) -> None:
+        self.units = allowed
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Quantity:
         reason = ""
         try:
             stated = units.quantity(value)
-            if 0 < stated.to(self.unit) < math.inf:
-                return stated
+            for unit in self.units:
+                with contextlib.suppress(ValueError):
+                    if 0 < stated.to(unit) < math.inf:
+                        return stated
+            stated.to(self.units[0])
         except ValueError as error:
             reason = f" ({error})" if str(error).startswith("unit ") else ""
-        text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
+        text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {' or '.join(self.units)}"
         raise click.BadParameter(f"{text}{reason}", ctx, param)
 
 

@@ -30,12 +30,23 @@ KINDS: dict[str, Any] = {
     "springpot": media.Springpot,
     "creep_table": media.CreepTable,
 }
-# Columns of a creep table that was identified, with the ends of its interval.
-_TABLE: Quantities = {
+# Columns of the table of an identified medium, if the depth was measured and if the force was.
+_COMPLIANCE: dict[str, tuple[str, int | str]] = {
     "time": ("time since a step of the force", "s"),
     "compliance": ("creep compliance J", "1/Pa"),
-    "low": ("creep compliance J, lower end of 95 %, missing if the scatter is unknown", "1/Pa"),
-    "high": ("creep compliance J, upper end of 95 %, missing if the scatter is unknown", "1/Pa"),
+}
+_TABLES: dict[str, Quantities] = {
+    "depth": _COMPLIANCE
+    | {
+        "low": ("creep compliance J, lower end of 95 %, missing if the scatter is unknown", "1/Pa"),
+        "high": ("creep compliance J, upper end of 95 %, missing if the scatter is unknown", "1/Pa"),
+    },
+    "force": _COMPLIANCE
+    | {
+        "relaxation_modulus": ("relaxation modulus at this time after a step of the depth", "Pa"),
+        "low": ("relaxation modulus, lower end of 95 %, missing if the scatter is unknown", "Pa"),
+        "high": ("relaxation modulus, upper end of 95 %, missing if it or the scatter is unknown", "Pa"),
+    },
 }
 _LARGEST_FILE = 1_000_000  # bytes
 
@@ -163,9 +174,10 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
 
 def identified_to_content(identified: IdentifiedMedium) -> Content:
     """Return the compliance of an IdentifiedMedium and the ends of its interval as a Content over time."""
-    values = {name: getattr(identified, name) for name in _TABLE}
-    variables = described(("level",), values, _TABLE, identified.length_unit)
-    return Content(variables, {"title": "Creep compliance identified from a record of depth over time"})
+    quantities = _TABLES[identified.measured]
+    values = {name: getattr(identified, name) for name in quantities}
+    variables = described(("level",), values, quantities, identified.length_unit)
+    return Content(variables, {"title": f"Medium identified from a record of {identified.measured} over time"})
 
 
 def check_medium_file(path: FilePath) -> Path:

@@ -42,7 +42,10 @@ from viscorough.viscous.spectra import zero_of_increasing
 
 _KNOTS = 60  # of J, at most
 _EARLIER = 64  # ratio of the first row to the first knot under a ramp of force
-_ITERATIONS = 6  # of Gauss and Newton; the elastic curve bends little over the scatter of the depth
+# Largest numbers of iterations of Gauss and Newton: the elastic curve bends little over the scatter of the depth, but
+# more over its offset. They end if the depth changes by less than this share of the largest depth.
+_ITERATIONS, _ITERATIONS_OF_SHIFT, _CLOSE = 6, 60, 1e-13
+_HALVINGS = 12  # of a step that does not make the sum of squares smaller
 
 
 def fit_growing_depth(
@@ -145,18 +148,26 @@ class _Record:
         responses : shape (rows, amounts)
         bend : creep that is added, shape (rows,)
         """
-        # At first the elastic curve is replaced by its tangents at the measured depth.
-        target, stiffness = (self.creep - bend) / self.stiffness, self.stiffness
-        last = self.depth
-        for _ in range(_ITERATIONS):
-            amounts, shift = non_negative(responses / stiffness[:, None], target, self.signed)
-            creep = responses @ amounts + bend
-            elastic_depth, stiffness = self._elastic(creep)
+        # At first the elastic curve is replaced by its tangents at the measured depth, without offset and drift.
+        amounts, _ = non_negative(responses / self.stiffness[:, None], (self.creep - bend) / self.stiffness)
+        shift = np.zeros(self.signed.shape[1])
+        elastic_depth, stiffness = self._elastic(responses @ amounts + bend)
+        residual = self.depth - elastic_depth
+        for _ in range(_ITERATIONS_OF_SHIFT if shift.size else _ITERATIONS):
             target = responses @ amounts / stiffness + self.depth - elastic_depth
-            predicted = elastic_depth + self.signed @ shift
-            if abs(predicted - last).max() <= 1e-13 * abs(predicted).max():
+            new, new_shift = non_negative(responses / stiffness[:, None], target, self.signed)
+            for _ in range(_HALVINGS):
+                elastic_depth, stiffness = self._elastic(responses @ new + bend)
+                rest = self.depth - elastic_depth - self.signed @ new_shift
+                if rest @ rest <= residual @ residual:
+                    break
+                new, new_shift = 0.5 * (new + amounts), 0.5 * (new_shift + shift)
+            else:
                 break
-            last = predicted
+            change = np.abs(rest - residual).max()
+            amounts, shift, residual = new, new_shift, rest
+            if change <= _CLOSE * np.abs(self.depth).max():
+                break
         return amounts, shift
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:

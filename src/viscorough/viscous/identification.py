@@ -232,7 +232,8 @@ def identify_medium(
         raise ValueError(f"kind {kind!r}; allowed: {', '.join(KINDS)}")
     check_curve("identify_medium", curve)
     unit, shift = curve.length_unit, Shift(offset=fit_offset, drift=fit_drift)
-    by_depth = isinstance(load, Load) and load.by_depth
+    prescribed = load if isinstance(load, Load) and load.by_depth else None
+    by_depth = prescribed is not None
     value_unit = "N" if by_depth else unit
     if scatter is not None:
         scatter = units.number(scatter, value_unit, unit, "scatter")
@@ -241,8 +242,8 @@ def identify_medium(
             raise ValueError(f"scatter: {scatter!r:.60}; allowed: a finite {quantity} above 0, or None to find it")
     times, measured = _checked_record(curve, times, measured, value_unit)
     area = units.square_metres(unit)
-    if by_depth:
-        load, place = load.with_times(times)
+    if prescribed is not None:
+        load, place = prescribed.with_times(times)
         _check_within(curve, load.time, load.values)
         _check_first_level(curve, times, load.values[place])
         fit_record, measured = fit_force, measured / area

@@ -4,7 +4,7 @@ Let x ≥ 0 minimise ½ ‖A x − b‖². An extreme value of r·x over all x �
 the minimiser of ½ ‖A x − b‖² − λ r·x, with λ adjusted to the distance. An active-set method finds this minimiser
 (Lawson and Hanson 1974). It starts from the unknowns that were positive before, since few of them change with λ or r.
 
-Further unknowns may have any sign. Each is the difference of two non-negative ones with opposite columns.
+Further unknowns may have any sign. Each is replaced by its difference from a bound that lies far below it.
 """
 
 from typing import Any
@@ -17,6 +17,7 @@ from viscorough.types import Array
 _TRIALS, _CLOSE = 12, 0.01  # values of λ, and relative accuracy of the distance
 _LARGEST_FACTOR, _LEAST_SHARE = 4.0, 1e-3  # of λ from one trial to the next; of the distance, to limit this factor
 _ROUNDING = 1e-11  # of gradients, relative to the target; columns have norm 1
+_FAR = 10.0  # bound of an unknown of any sign: its column would then be so many times as long as the target
 _SINGULAR = 1e-13  # a column is taken for dependent on others if its remainder is shorter
 
 
@@ -28,7 +29,7 @@ def non_negative(matrix: Array, target: Array, signed: Array | None = None) -> t
     from scipy.optimize import nnls  # takes long to import
 
     unknowns = matrix.shape[1]
-    matrix = _with_both_signs(matrix, signed)
+    matrix, target, bounds = _with_signed(matrix, target, signed)
     scale = np.linalg.norm(matrix, axis=0)
     scale[scale == 0] = 1.0
     matrix = matrix / scale
@@ -36,13 +37,15 @@ def non_negative(matrix: Array, target: Array, signed: Array | None = None) -> t
         reduced: Any = np.linalg.qr(np.column_stack([matrix, target]), mode="r")
         matrix, target = reduced[:, :-1], reduced[:, -1]
     x = nnls(matrix, target, maxiter=30 * matrix.shape[1])[0] / scale
-    up, down = np.split(x[unknowns:], 2)
-    return x[:unknowns], up - down
+    return x[:unknowns], x[unknowns:] + bounds
 
 
-def _with_both_signs(matrix: Array, signed: Array | None) -> Array:
-    """Append columns of both signs for unknowns of any sign."""
-    return matrix if signed is None else np.hstack([matrix, signed, -signed])
+def _with_signed(matrix: Array, target: Array, signed: Array | None) -> tuple[Array, Array, Array]:
+    """Return the problem for x and z − bounds, all of them non-negative, and these bounds."""
+    if signed is None or not signed.shape[1]:
+        return matrix, target, np.empty(0)
+    bounds = -_FAR * np.linalg.norm(target) / np.linalg.norm(signed, axis=0)
+    return np.hstack([matrix, signed]), target - signed @ bounds, bounds
 
 
 def extremes(
@@ -56,13 +59,11 @@ def extremes(
     """
     from scipy.optimize import nnls  # takes long to import
 
-    if signed is not None:
-        count = signed.shape[1]
-        functions = np.block([
-            [functions, np.zeros((functions.shape[0], 2 * count))],
-            [np.zeros((count, matrix.shape[1])), np.eye(count), -np.eye(count)],
-        ])  # fmt: skip
-        matrix = _with_both_signs(matrix, signed)
+    given, unknowns = functions.shape
+    matrix, target, bounds = _with_signed(matrix, target, signed)
+    # The values of signed unknowns are further functions.
+    functions = np.pad(functions, [(0, bounds.size), (0, bounds.size)])
+    functions[given:, unknowns:] = np.eye(bounds.size)
     scale = np.linalg.norm(matrix, axis=0)
     scale[scale == 0] = 1.0
     reduced: Any = np.linalg.qr(np.column_stack([matrix / scale, target]), mode="r")
@@ -71,7 +72,11 @@ def extremes(
     functions = np.ascontiguousarray(functions / scale)
     # λ if no unknown were bounded, of the solution of least norm.
     multiplier = distance / np.linalg.norm(np.linalg.lstsq(columns, functions.T, rcond=1e-10)[0], axis=0)
-    return tuple(_extremes(columns, target, functions, best, sign * multiplier, distance) for sign in (-1.0, 1.0))
+    shift = np.append(np.zeros(given), bounds)
+    low, high = (
+        _extremes(columns, target, functions, best, sign * multiplier, distance) + shift for sign in (-1.0, 1.0)
+    )
+    return low, high
 
 
 @njit

@@ -1,4 +1,4 @@
-"""Round trips from a medium to a depth over time and back, and records that are refused."""
+"""Round trips from a medium to a depth or a force over time and back, and records that are refused."""
 
 import identification
 import numpy as np
@@ -7,7 +7,17 @@ import pytest
 from support.contract import refused
 from support.curves import curve_of_body
 from support.media import MEDIA
-from viscorough import AccuracyWarning, Load, Prony, Springpot, identify_medium, kinetics
+from viscorough import (
+    AccuracyWarning,
+    Load,
+    Motion,
+    Prony,
+    Springpot,
+    identify_medium,
+    indent,
+    kinetics,
+    self_affine_disc,
+)
 from viscorough.reference import sphere
 
 CURVE = curve_of_body(sphere(1.0), np.geomspace(1e-9, 10, 300))
@@ -176,3 +186,119 @@ def test_slowly_receding_depths_are_refused():
     depth[48:] -= 3 * noise
     with refused("the depth has receded"):
         identify_medium(CURVE, force, times, depth)
+
+
+FEWER_LEVELS = curve_of_body(sphere(1.0), np.geomspace(1e-6, 10, 300))
+DEPTHS = {
+    "relaxation": Load([0.0, 60.0], depth=[3.0, 3.0]),
+    "ramp and hold": Load([0.0, 2.0, 60.0], depth=[0.0, 3.0, 3.0]),
+    "force curve": Load([0.0, 2.0, 30.0, 60.0], depth=[0.0, 3.0, 3.0, -1.0]),
+    "reload": Load([0.0, 2.0, 20.0, 30.0, 40.0, 60.0], depth=[0.0, 3.0, 3.0, 2.0, 2.5, 2.5]),
+}
+# In a Newtonian or a Kelvin-Voigt medium a step of the depth takes an infinite force.
+FORCES = [
+    (history, name)
+    for history in DEPTHS
+    for name in MEDIA
+    if history == "ramp and hold"
+    or (name in ("maxwell", "solid", "prony") or (name == "springpot") == (history == "force curve"))
+    if not (history == "relaxation" and name in ("newtonian", "kelvin-voigt", "table"))
+]
+
+
+@pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
+@pytest.mark.parametrize(("history", "name"), FORCES)
+def test_exact_forces_give_the_compliance(history, name):
+    """Within 1 % from the first row to the last one; a table of chords is no medium of springs and dashpots."""
+    force = kinetics(FEWER_LEVELS, depth=DEPTHS[history], medium=MEDIA[name], times=TIMES).force
+    identified = identify_medium(FEWER_LEVELS, DEPTHS[history], TIMES, force, kind="prony")
+    exact = MEDIA[name].creep_compliance(TIMES)
+    np.testing.assert_allclose(identified.medium.creep_compliance(TIMES), exact, rtol=0.02 if name == "table" else 0.01)
+    assert identified.misfit < (1e-3 if name == "table" else 2e-4) * force.max()
+
+
+@pytest.mark.parametrize("name", ["kelvin-voigt", "solid", "prony"])
+def test_exact_depths_of_a_receding_contact_give_the_compliance(name):
+    force = 10 / float(MEDIA[name].creep_compliance(TIMES[-1]))
+    load = Load([0.0, 2.0, 30.0, 60.0], force=[0.0, force, force, 0.05 * force])
+    motion = kinetics(FEWER_LEVELS, load, MEDIA[name], TIMES)
+    assert motion.depth[-1] < 0.99 * motion.depth.max(), "it recedes"
+    identified = identify_medium(FEWER_LEVELS, load, TIMES, motion.depth)
+    exact = MEDIA[name].creep_compliance(TIMES)
+    np.testing.assert_allclose(identified.medium.creep_compliance(TIMES), exact, rtol=0.006)
+
+
+@pytest.mark.parametrize("history", ["ramp and hold", "force curve"])
+def test_springpots_are_fitted_to_forces(history):
+    force = kinetics(FEWER_LEVELS, depth=DEPTHS[history], medium=MEDIA["springpot"], times=TIMES).force
+    medium = identify_medium(FEWER_LEVELS, DEPTHS[history], TIMES, force, kind="springpot").medium
+    assert (medium.modulus, medium.exponent) == pytest.approx((2.0, 0.4), rel=1e-4)
+
+
+def test_springpots_are_fitted_to_receding_depths():
+    load = Load([0.0, 2.0, 30.0, 60.0], force=[0.0, 2.0, 2.0, 0.1])
+    depth = kinetics(FEWER_LEVELS, load, MEDIA["springpot"], TIMES).depth
+    medium = identify_medium(FEWER_LEVELS, load, TIMES, depth, kind="springpot").medium
+    assert (medium.modulus, medium.exponent) == pytest.approx((2.0, 0.4), rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("load", "name"), [("hold", "solid"), ("hold", "newtonian"), ("retract", "prony"), ("unload", "solid")]
+)
+def test_intervals_of_other_records_hold(load, name):
+    """Few-row version of benchmarks/identification.py: coverage of the modulus, or of the compliance."""
+    cell = identification.coverage((name, load, 50, 1e-3), trials=5)
+    assert cell["coverage"] >= 0.85
+    assert cell["unknown"] == 0
+    assert cell["scatter"] == pytest.approx(1, abs=0.3)
+
+
+@pytest.mark.parametrize("load", ["step", "hold"])
+def test_a_wrong_zero_and_a_drift_of_the_depth_are_found(load):
+    """An error of the zero of 2 % of the largest depth and a drift by 1 % of it; without the options J is wrong."""
+    cell = identification.coverage(("solid", load, 50, 1e-3), trials=4, wrong_zero=True)
+    assert cell["offset_coverage"] >= 0.75
+    assert cell["drift_coverage"] >= 0.75
+    assert cell["coverage"] >= 0.9
+
+
+def test_a_wrong_zero_changes_the_compliance_as_stated():
+    """The depth of a blunt indenter grows with J to the power 2/3: 0.1 % of the last depth are 0.15 % of the last J."""
+    force, depth = record(MEDIA["maxwell"])
+    identified = identify_medium(CURVE, force, TIMES, depth)
+    assert identified.assumed_offset == pytest.approx(1e-3 * depth.max())
+    shifted = identify_medium(CURVE, force, TIMES, depth - identified.assumed_offset)
+    change = np.abs(shifted.compliance[1:] / identified.compliance[1:] - 1)
+    assert identified.offset_effect == pytest.approx(change.max())
+    assert change[-1] == pytest.approx(1.5e-3, rel=0.3)
+    assert f"would change J by up to {100 * change.max():.2g} %" in str(identified)
+
+
+def test_forces_are_in_newtons_and_moduli_in_pascals():
+    """The same numbers on a micrometre scale and on a scale of unit lengths."""
+    disc = self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1, length_unit="m")
+    curve, medium = indent(disc), Prony(1e6, [2e6], [5.0])
+    load, times = Load([0.0, 1.0, 100.0], depth=[0.0, 1e-6, 1e-6]), np.geomspace(0.1, 100, 40)
+    motion: Motion = kinetics(curve, depth=load, medium=medium, times=times)
+    noise = 1e-3 * motion.force.max()
+    force = motion.force + noise * np.random.default_rng(1).standard_normal(40)
+    identified = identify_medium(curve, load, times, force)
+    assert identified.relaxation_modulus[-1] == pytest.approx(1e6, rel=0.01)
+    assert identified.scatter == pytest.approx(noise, rel=0.5)
+    assert identify_medium(curve, load, times, force, scatter=f"{noise} N").scatter == pytest.approx(noise)
+
+
+def test_records_of_other_histories_that_show_nothing_are_refused():
+    load = DEPTHS["ramp and hold"]
+    with refused("record: no force"):
+        identify_medium(FEWER_LEVELS, load, TIMES, np.zeros(TIMES.size))
+    with refused("record: depth 11 .* beyond the curve's last level"):
+        identify_medium(FEWER_LEVELS, Load([0.0, 60.0], depth=[0.0, 11.0]), TIMES, np.ones(TIMES.size))
+    with refused("the zero of the depth is off by .* or more; allowed: errors below"):
+        moved = Load([0.0, 2.0, 60.0], depth=[1.5, 4.5, 4.5])
+        force = kinetics(FEWER_LEVELS, depth=load, medium=MEDIA["solid"], times=TIMES).force
+        identify_medium(FEWER_LEVELS, moved, TIMES, force, fit_offset=True)
+    falling = Load([0.0, 0.03, 60.0], force=[2.0, 2.0, 0.0])
+    depth = kinetics(FEWER_LEVELS, falling, MEDIA["solid"], TIMES).depth
+    with refused("record: 3 rows before the force decreases at time 0.03; allowed: five or more"):
+        identify_medium(FEWER_LEVELS, falling, TIMES, depth)

@@ -42,4 +42,22 @@ def test_a_value_that_a_bound_limits_ends_there():
 
 def test_best_fit_is_non_negative():
     matrix, target = np.array([[1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]), np.array([1.0, -1.0, 0.5])
-    np.testing.assert_allclose(non_negative(matrix, target), [0.75, 0.0], atol=1e-12)
+    np.testing.assert_allclose(non_negative(matrix, target)[0], [0.75, 0.0], atol=1e-12)
+
+
+def test_unknowns_of_any_sign_are_differences_of_non_negative_ones():
+    """The same fit and the same extremes as with two columns of opposite signs, found by the nested search."""
+    random = np.random.default_rng(3)
+    matrix, signed = random.normal(size=(14, 5)) + 0.5, random.normal(size=(14, 2))
+    target = matrix @ [0.0, 1.0, 0.0, 2.0, 0.5] + signed @ [-1.5, 0.7] + 0.1 * random.normal(size=14)
+    both = np.hstack([matrix, signed, -signed])
+    x, z = non_negative(matrix, target, signed)
+    best = nnls(both, target)[0]
+    np.testing.assert_allclose(np.append(x, z), np.append(best[:5], best[5:7] - best[7:]), atol=1e-9)
+    low, high = extremes(matrix, target, np.eye(5)[:1], 0.4, signed)
+    rows = np.zeros((3, 9))
+    rows[0, 0], rows[1, [5, 7]], rows[2, [6, 8]] = 1.0, (1.0, -1.0), (1.0, -1.0)
+    for k, row in enumerate(rows):
+        assert high[k] == pytest.approx(farthest(both, target, row, 0.4, 1), abs=0.01)
+        if k:
+            assert low[k] == pytest.approx(farthest(both, target, row, 0.4, -1), abs=0.01)

@@ -1,8 +1,8 @@
-"""Print the test files for what has changed since a commit: `python tests/changed.py [COMMIT]`, by default HEAD.
+"""Print the tests for the changes since a commit: `python tests/changed.py [COMMIT]`, by default HEAD.
 
-A module has the test file of its name in the folder of tests of the same shape; without one, those of its folder. What
-modules import decides what reruns, so that every change of them has the test of that. Changes of the workflow and of
-pages have the quick tests of their form.
+A module is tested by the test file of its name in the corresponding folder of tests, or by all files of that folder if
+there is none. The imports of a module decide which jobs run again, so every change of a module also runs the test of
+the source digests. Changes of the workflow and of pages run the quick tests of their form.
 """
 
 import subprocess
@@ -21,14 +21,14 @@ BY_FOLDER = {
 
 
 def changed(commit):
-    """Files that differ from a commit, and those that git does not track yet."""
+    """Return the files that differ from a commit, and those that git does not track yet."""
     commands = ["diff", "--name-only", "--diff-filter=d", commit], ["ls-files", "--others", "--exclude-standard"]
     runs = [subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True) for words in commands]
     return [name for run in runs for name in run.stdout.splitlines()]
 
 
 def relevant_tests(name, root=ROOT):
-    """Test files for a changed file; paths from the root as text."""
+    """Return the test files for a changed file; paths are text, relative to the root."""
     path = Path(name)
     if path.name.startswith("test_"):
         return [name]

@@ -1,4 +1,4 @@
-"""The tests that `make check` picks for a changed file."""
+"""The tests that `make check` selects for a changed file."""
 
 from pathlib import Path
 
@@ -12,17 +12,17 @@ import changed
     [
         ("tests/docs/test_pages.py", "tests/docs/test_pages.py"),
         ("src/viscorough/io/text.py", "tests/viscorough/io/test_text.py"),
-        ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_solver.py"),  # of its folder
+        ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_solver.py"),  # all tests of its folder
         ("benchmarks/fuzz.py", "tests/benchmarks/test_fuzz.py"),
         ("Snakefile", "tests/workflow/test_form.py"),
         ("docs/theory.md", "tests/docs/test_numbers.py"),
     ],
 )
-def test_a_changed_file_has_tests_that_exist(name, some):
+def test_changed_file_selects_existing_tests(name, some):
     tests = changed.relevant_tests(name)
     assert some in tests
     assert all((changed.ROOT / Path(test)).is_file() for test in tests)
 
 
-def test_files_without_tests_of_their_own_have_none():
+def test_files_without_tests_select_none():
     assert changed.relevant_tests("LICENSE") == changed.relevant_tests("examples/ball.py") == []

@@ -1,4 +1,4 @@
-"""Sdist and wheel: the library alone."""
+"""Sdist and wheel contain only the library."""
 
 import tarfile
 import zipfile
@@ -13,7 +13,7 @@ LIBRARY = {
 }
 
 
-def test_sdist_and_wheel_hold_the_library_and_nothing_else(tmp_path):
+def test_sdist_and_wheel_contain_only_the_library(tmp_path):
     sdist, wheel = distribution.build(tmp_path)
     names = zipfile.ZipFile(wheel).namelist()
     assert {name for name in names if ".dist-info/" not in name} == LIBRARY

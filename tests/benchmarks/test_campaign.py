@@ -1,4 +1,4 @@
-"""Random indenters against direct integration: none is wrong in silence, and a silent failure is counted."""
+"""Random indenters against direct integration: none fails silently, and the campaign counts a silent failure."""
 
 import json
 
@@ -22,7 +22,7 @@ from click.testing import CliRunner
     ],
 )
 def test_random_indenters_do_not_fail_silently(family, count):
-    """A failure is repeated by `python benchmarks/campaign.py --family FAMILY --case NUMBER --seed 12`."""
+    """Repeat a failure with `python benchmarks/campaign.py --family FAMILY --case NUMBER --seed 12`."""
     failures = {number: campaign.failure(family, 12, number) for number in range(count)}
     assert {number: wrong for number, wrong in failures.items() if wrong} == {}
 

@@ -1,4 +1,4 @@
-"""The comparison of two runs finds every difference, except what is allowed or holds measured times."""
+"""The comparison of two runs finds every difference, except measured times and differences that are allowed."""
 
 import compare_tables
 import numpy as np
@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 @pytest.fixture
 def runs(tmp_path):
-    """Two runs with the same numbers, whose measured times differ."""
+    """Make two runs with the same numbers and different measured times."""
     for name, seconds in (("old", 1.0), ("new", 2.0)):
         (tmp_path / name / "tables").mkdir(parents=True)
         (tmp_path / name / "surfaces").mkdir()
@@ -23,7 +23,7 @@ def runs(tmp_path):
 
 
 def compared(runs, *options):
-    """Exit code and output of the comparison of two runs."""
+    """Return the exit code and the output of the comparison of two runs."""
     result = CliRunner().invoke(compare_tables.main, [*map(str, runs), *options])
     return int(result.exit_code), result.output
 
@@ -38,7 +38,7 @@ def compared(runs, *options):
         ("value", lambda value: value * (1 + 1e-14), False),
     ],
 )
-def test_a_difference_in_a_table(runs, column, change, differs):
+def test_difference_in_a_table_is_found(runs, column, change, differs):
     path = runs[1] / "tables/claims.csv"
     content = pd.read_csv(path)
     content.assign(**{column: change(content.get(column))}).to_csv(path, index=False)

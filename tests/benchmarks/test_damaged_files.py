@@ -1,4 +1,4 @@
-"""No damaged file loads with another content; and the campaign notices those that would."""
+"""No damaged file loads with different content, and the campaign notices a reader that loads one."""
 
 import os
 import time
@@ -23,7 +23,7 @@ def kinds(folder):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_no_damaged_file_loads_with_another_content(folder, kinds, kind, monkeypatch):
+def test_no_damaged_file_loads_with_different_content(folder, kinds, kind, monkeypatch):
     monkeypatch.setattr(campaign, "TIME_LIMIT", 5)
     read, names = kinds[kind]
     words = Counter(word for _, word, *_ in campaign.outcomes(read, [folder / name for name in names], 7, range(40)))
@@ -31,8 +31,8 @@ def test_no_damaged_file_loads_with_another_content(folder, kinds, kind, monkeyp
     assert set(words) <= {campaign.REFUSED, campaign.SAME, campaign.CRASHED, campaign.UNENDING}
 
 
-def test_another_content_errors_crashes_and_hangs_are_told_apart(folder, kinds, monkeypatch):
-    """Readers that do what a damaged file could make the real ones do."""
+def test_campaign_distinguishes_different_content_errors_crashes_and_hangs(folder, kinds, monkeypatch):
+    """The readers here behave as the real ones could on a damaged file."""
     read, (name,) = kinds["curve"]
     whole = (folder / name).read_bytes()
     monkeypatch.setattr(campaign, "TIME_LIMIT", 1)

@@ -1,4 +1,4 @@
-"""What `make chaos` and `make test-slurm` compare, and how they disturb runs, with a stand-in for the workflow."""
+"""How `make chaos` and `make test-slurm` disturb runs and compare them, with a stand-in for the workflow."""
 
 import subprocess
 from functools import partial
@@ -10,7 +10,7 @@ import pytest
 import slurm
 
 
-def test_measured_times_may_differ_and_nothing_else(tmp_path):
+def test_only_measured_times_may_differ(tmp_path):
     results = tmp_path / "results"
     same = ["tables/claims.csv", "figures/fig1.pdf"]
     measured = ["tables/methods.csv", "index.html", "logs/a/b.log", "benchmarks/a.tsv", "methods/rough.csv"]
@@ -29,7 +29,7 @@ def test_measured_times_may_differ_and_nothing_else(tmp_path):
 
 
 def run_of(seconds):
-    """Command of a run of one job."""
+    """Return the command of a run of one job."""
     return ["sh", "-c", f"sleep {seconds} || exit 1; mkdir -p results; echo done > part && mv part results/done.txt"]
 
 
@@ -51,7 +51,7 @@ def test_a_run_or_a_job_is_killed_or_interrupted(tmp_path, monkeypatch, seed, wh
 
 
 def test_processes_of_a_cluster_are_ended():
-    """Those with its settings in their environment."""
+    """Only processes with the settings of the cluster in their environment are ended."""
     with subprocess.Popen(["sleep", "600"], env={"SLURM_CONF": "/of/this/test", "PATH": "/usr/bin:/bin"}):
         slurm.wait_for(lambda: list(slurm.processes("/of/this/test")), "start of a process")
         slurm.stop("/of/this/test")

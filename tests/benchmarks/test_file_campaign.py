@@ -1,4 +1,4 @@
-"""No file of the campaign is read as another map; and its judge notices what is not read as it should be."""
+"""No file of the campaign is read as a different map, and the campaign notices a reader that is wrong."""
 
 import file_campaign as campaign
 import numpy as np
@@ -14,7 +14,7 @@ def some_cases():
 
 @pytest.fixture(scope="module")
 def case(some_cases):
-    """An unambiguous matrix in a known unit, with a point missing."""
+    """Return an unambiguous matrix with a unit and a missing point."""
     return next(
         case
         for case in some_cases
@@ -22,8 +22,8 @@ def case(some_cases):
     )
 
 
-def test_no_file_is_read_as_another_map(some_cases, tmp_path):
-    """A failure is repeated by `python benchmarks/file_campaign.py --seed 2013 --only NUMBER`."""
+def test_no_file_is_read_as_a_different_map(some_cases, tmp_path):
+    """Repeat a failure with `python benchmarks/file_campaign.py --seed 2013 --only NUMBER`."""
     outcomes = [(number, *campaign.outcome(case, tmp_path)) for number, case in enumerate(some_cases)]
     assert [outcome for outcome in outcomes if outcome[1] in (campaign.WRONG, campaign.UNREAD)] == []
 
@@ -32,12 +32,12 @@ def test_every_kind_of_file_is_tried_and_many_are_unambiguous_or_bad(some_cases)
     assert len({case.kind for case in some_cases}) == len(campaign.KINDS)
     assert sum(case.draft.clear for case in some_cases) > 150
     assert sum(case.draft.bad for case in some_cases) > 20
-    for number, again in campaign.cases(2013, [30, 31]):  # whatever came before
+    for number, again in campaign.cases(2013, [30, 31]):  # independent of the cases before
         assert (again.draft.traits, again.options) == (some_cases[number].draft.traits, some_cases[number].options)
 
 
 def reader(case, *, shift=0.0, wider=1.0, unit="m", rows=None, filled=False):
-    """A reader that returns the truth of a case, in metres, or something else."""
+    """Make a reader that returns the true heights of a case in metres, or altered ones."""
     heights, (dx, dy) = case.heights * case.unit, case.spacing
     heights = heights + shift * np.nanmax(abs(heights))
     heights = np.nan_to_num(heights) if filled else heights
@@ -55,7 +55,7 @@ def reader(case, *, shift=0.0, wider=1.0, unit="m", rows=None, filled=False):
         ({"filled": True}, "another map"),
     ],
 )
-def test_another_map_spacing_or_unit_is_noticed(case, tmp_path, monkeypatch, change, what):
+def test_wrong_map_spacing_or_unit_is_noticed(case, tmp_path, monkeypatch, change, what):
     monkeypatch.setattr("viscorough.read_heights", reader(case, **change))
     outcome, why = campaign.outcome(case, tmp_path)
     assert outcome == campaign.WRONG
@@ -69,7 +69,7 @@ def test_profile_read_as_a_map_is_noticed(some_cases, tmp_path, monkeypatch):
     assert campaign.outcome(profile, tmp_path) == (campaign.WRONG, "a profile, read as a map")
 
 
-def test_what_must_be_refused_is_noticed(case, tmp_path, monkeypatch):
+def test_reading_a_file_that_must_be_refused_is_noticed(case, tmp_path, monkeypatch):
     monkeypatch.setattr("viscorough.read_heights", reader(case))
     monkeypatch.setattr(case.draft, "bad", True)
     outcome, why = campaign.outcome(case, tmp_path)

@@ -1,4 +1,4 @@
-"""Random files and options keep the contract of the command line; and the judge of it notices what breaks it."""
+"""Random files and options keep the contract of the command line, and the fuzzer notices every breach of it."""
 
 import fuzz
 import fuzz_cases
@@ -13,7 +13,7 @@ def loaded():
 
 @pytest.mark.usefixtures("loaded")
 def test_random_files_and_options_keep_the_contract(monkeypatch):
-    """A breach is repeated by `python benchmarks/fuzz.py --seed 2013 --only NUMBER`; one file opens too slowly."""
+    """Repeat a breach with `python benchmarks/fuzz.py --seed 2013 --only NUMBER`. One file opens too slowly."""
     monkeypatch.setattr("viscorough.cli.files.LONGEST", 5)
     breaches, codes = fuzz.breaches(2013, range(40))
     assert breaches == []
@@ -23,8 +23,8 @@ def test_random_files_and_options_keep_the_contract(monkeypatch):
 
 @pytest.mark.usefixtures("loaded")
 @pytest.mark.parametrize("line", fuzz_cases.COMMAND_LINES)
-def test_every_command_line_can_be_right(line):
-    """Otherwise the readers would only be tried with what they refuse."""
+def test_every_kind_of_command_line_can_be_valid(line):
+    """Otherwise the readers would only see input that they refuse."""
     for _, random in generators(1, range(60)):
         arguments = fuzz_cases.valid_arguments(random, line)
         code, words = fuzz.result_of(arguments, fuzz_cases.files_of(random, arguments, faults=0))

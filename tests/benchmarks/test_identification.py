@@ -1,4 +1,4 @@
-"""Coverage of identified media: a row for every medium, number of rows and noise, whatever the number of processes."""
+"""Coverage of the intervals of fitted media: one row for each medium, number of rows and noise level."""
 
 import dataclasses
 
@@ -28,7 +28,7 @@ def test_coverage_has_a_row_for_every_case_whatever_the_number_of_processes(tmp_
 
 
 def test_intervals_that_miss_are_counted(monkeypatch):
-    """Intervals of a hundredth of their width contain few of the compliances."""
+    """Intervals of a hundredth of their true width contain few of the compliances."""
     identify = identification.identify_medium
 
     def narrow(*record, **options):

@@ -27,7 +27,7 @@ def test_discs_from_coarse_to_fine_are_in_the_table(tmp_path, monkeypatch):
 
 
 @pytest.mark.filterwarnings("error")
-def test_figure_is_whole_and_has_the_numbers_of_its_table_and_the_exponents_of_its_lines():
+def test_figure_shows_the_numbers_of_its_table_and_the_exponents_of_its_lines():
     table = published("large")
     figure = large_discs.plot_large(table)
     assert whole_on_page(figure)

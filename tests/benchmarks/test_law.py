@@ -1,4 +1,4 @@
-"""Calibration of the penetration law: a row for every Hurst exponent and grid, whatever the number of processes."""
+"""Calibration of the penetration law: one row for each Hurst exponent and grid, for any number of processes."""
 
 import law
 import numpy as np

@@ -1,4 +1,4 @@
-"""Calibration of the penetration law: on curves whose constants are known, and on small discs."""
+"""Calibration of the penetration law on curves with given constants, and on small discs."""
 
 import numpy as np
 import pytest
@@ -12,20 +12,20 @@ LAW, ACROSS = (0.8, 0.35, 4.0, 2.0, 80.0), 129
 
 
 def discs(number, scatter=0.2, seed=1, constants=LAW):
-    """Parts and integrals, the only control variates, of discs whose g is the law times a random factor of mean 1."""
+    """Return g parts and integrals of discs whose g is the law times a random factor of mean 1."""
     factor = 1 + scatter * np.random.default_rng(seed).standard_normal((number, 1))
     law = interface_velocity(X, *constants, across=ACROSS), interface_depth(X, *constants, across=ACROSS)
     return factor[:, None] * np.array(law), factor * law_integrals(constants, ACROSS)
 
 
 @pytest.mark.parametrize("constants", [LAW, (0.58, 0.17, 3.8, 0.76, 300.0), (0.88, 0.4, 6.2, 3.9, 37.0)])
-def test_constants_are_given_back(constants):
+def test_fit_returns_the_constants_of_the_curve(constants):
     g, integrals = interface_velocity(X, *constants, across=257), law_integrals(constants, 257)
     assert fit_constants(g, integrals, np.full(X.size, 0.01), 257) == pytest.approx(constants, rel=1e-3)
 
 
-def test_both_integrals_are_imposed_whatever_the_curve():
-    """Here g is 10 % higher at X = 0.1 than any law with these integrals would have it."""
+def test_both_integrals_are_imposed_on_any_curve():
+    """Here g is 10 % higher at X = 0.1 than in any law with these integrals."""
     integrals = law_integrals(LAW, ACROSS)
     bent = interface_velocity(X, *LAW, across=ACROSS) * (1 + 0.1 * np.exp(-((np.log(X / 0.1) / 2) ** 2)))
     constants = fit_constants(bent, integrals, np.full(X.size, 0.01), ACROSS)
@@ -38,7 +38,7 @@ def test_row_has_intervals_and_the_range_confirmed_by_other_discs():
     assert {"hurst", "across", *row} == set(COLUMNS)
     for name in (*CONSTANTS, "mean_gap", "energy"):
         assert row[f"{name}_low"] < row[name] < row[f"{name}_high"], name
-    # All discs differ by a factor, which their integrals tell: adjusted, the other discs have the g of the law.
+    # All discs differ by a factor that shows in their integrals. Adjusted by it, the other discs have the g of the law.
     assert row["deviation"] < 0.004 < 0.01 < row["unadjusted"]
     assert row["standard_error"] < 1e-3
     assert row["x_low"] == pytest.approx(FIT_LOW, rel=1e-2)

@@ -1,4 +1,4 @@
-"""Test of the calibrated law on fresh discs: the tables of the command, and intervals of known distributions."""
+"""Test of the calibrated law on fresh discs: the tables of the command, and intervals of given distributions."""
 
 import law_errors
 import law_scatter
@@ -15,7 +15,7 @@ X = np.array([0.01, 0.1, 1.0])
 
 
 def scattered(hurst, discs, seed, scatter):
-    """Parts of discs whose vt/h and u/h are the law times exp(scatter H z), with normal z."""
+    """Return parts of discs whose vt/h and u/h are the law times exp(scatter H z), with normal z."""
     factor = np.exp(scatter * hurst * np.random.default_rng(seed).standard_normal((discs, 2, 1)))
     return law_at(hurst, X) * factor - X
 

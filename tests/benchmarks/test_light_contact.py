@@ -14,8 +14,8 @@ from support.figures import published, whole_on_page
 from viscorough import Indenter, contact_at
 
 
-def test_maps_of_the_growth_and_of_the_race_are_all_in_the_table(tmp_path):
-    """In a small form: two loads on a map of 64 x 64 elements, one on a smaller one; no other solver."""
+def test_table_has_the_maps_of_the_cost_exponents_and_of_the_race(tmp_path):
+    """The test is small: two loads on a map of 64 x 64 elements, one load on a smaller map, and no other solver."""
     table, figure = tmp_path / "tables/light.csv", tmp_path / "figures/light.png"
     small = {"ELEMENTS": (32, 64), "FRACTIONS": (0.02,), "RACE_ELEMENTS": (64,), "RACE_FRACTIONS": (0.02, 0.1)}
     with (
@@ -34,7 +34,7 @@ def test_maps_of_the_growth_and_of_the_race_are_all_in_the_table(tmp_path):
     assert all(figure.with_suffix(kind).stat().st_size > 5000 for kind in (".png", ".pdf")), "more than axes"
 
 
-def test_a_load_gives_the_contact_fraction_that_it_was_chosen_for(monkeypatch):
+def test_load_gives_the_requested_contact_fraction(monkeypatch):
     monkeypatch.setattr(light_contact, "RESIDUAL", 1e-5)
     heights = np.random.default_rng(3).standard_normal((48, 48))
     indenter = Indenter(heights, 0.5)
@@ -49,8 +49,8 @@ def test_a_load_gives_the_contact_fraction_that_it_was_chosen_for(monkeypatch):
 
 
 @pytest.mark.filterwarnings("error")
-def test_figure_is_whole_and_has_the_exponents_of_its_lines():
-    """Over the larger half."""
+def test_figure_shows_the_exponents_of_its_lines():
+    """The exponents are fitted to the larger half of the maps."""
     figure = light_contact.plot_light_contact(published("light_contact"))
     assert whole_on_page(figure)
     for line in figure.axes[0].lines[:-1]:

@@ -1,4 +1,4 @@
-"""What `make bench` measures is what it says, on small problems."""
+"""The measurements of `make bench`, on small problems."""
 
 from functools import partial
 
@@ -9,13 +9,13 @@ from viscorough import self_affine_disc
 
 
 def test_every_part_takes_time():
-    """The dense solver and the grid, on a disc of enough elements for both."""
+    """The disc has enough elements for both the dense solver and the grid."""
     shares = curves.shares(partial(curves.indent, self_affine_disc(0.6, 65, seed=1)))
     assert all(share > 0 for share in shares.values())
     assert sum(share for part, share in shares.items() if part != "processor_s") == pytest.approx(1)
 
 
-def test_costs_are_compared_on_one_problem():
+def test_costs_are_compared_on_the_same_problem():
     (line,) = curves.lines([0.6], 1, points=2000)
     assert line["over_transform"] > 0
     assert [row["precision"] for row in curves.columns([9], 1)] == ["single", "double"]

@@ -1,4 +1,4 @@
-"""Random changes of the sources: how they are drawn, and what counts as caught."""
+"""Random changes of the sources: how they are drawn, and how the campaign decides that one is caught."""
 
 import ast
 import random
@@ -22,7 +22,7 @@ def test_half():
 
 @pytest.fixture(scope="module")
 def texts():
-    """A part of the sources, so that drawing takes less time."""
+    """Return some of the sources, so that drawing takes less time."""
     texts = campaign.sources()
     return {name: texts[name] for name in random.Random(1).sample(list(texts), 12)}
 
@@ -35,7 +35,7 @@ def test_mutants_are_single_changes_in_proportion_to_the_lines(texts):
         lines = campaign.difference(mutant, texts[mutant.file])
         assert {line[0] for line in lines} == {"-", "+"}
         assert lines[0][1:] in texts[mutant.file].splitlines()[mutant.line - 2 : mutant.line + 1]
-    (again,) = campaign.drawn(texts, 3, [41])  # whatever came before
+    (again,) = campaign.drawn(texts, 3, [41])  # independent of the draws before
     assert again == mutants[41]
     assert list(campaign.drawn(texts, 4, range(5))) != mutants[:5]
     longest = max(texts, key=lambda name: campaign.code_lines(texts[name]))
@@ -76,7 +76,7 @@ def test_changed_kernels_are_compiled_again_with_what_uses_them():
 
 
 def test_a_mutant_is_caught_survives_or_is_undecided(tmp_path, monkeypatch):
-    """A project of one module and one test."""
+    """The project has one module and one test."""
     clean, file = tmp_path / "clean", "src/half.py"
     odd = TEST.replace("half(4) == 2", "half(5) == 2.5")
     for name, text in {file: SOURCE, "workflow/test_half.py": TEST, "workflow/test_odd.py": odd}.items():

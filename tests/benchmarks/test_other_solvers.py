@@ -24,7 +24,7 @@ from viscorough_study.run.tables import read_recorded
 
 @pytest.fixture(scope="module")
 def indenter():
-    """A rough ellipse of 5 × 6 elements with a spacing other than 1; the highest element is not alone for long."""
+    """Return a rough ellipse of 5 × 6 elements with a spacing other than 1; a second element touches soon."""
     heights = 0.1 * np.random.default_rng(4).random((5, 6)) - 0.2 * np.hypot(*np.mgrid[-2:3, -2.5:3])
     heights[[0, 0, -1, -1], [0, -1, 0, -1]] = np.nan
     return Indenter(heights, 0.7)
@@ -32,7 +32,7 @@ def indenter():
 
 @pytest.fixture
 def aspher(tmp_path, monkeypatch):
-    """The stand-in on the path of other processes, with its version."""
+    """Put the stand-in and its version on the import path of other processes."""
     metadata = tmp_path / "aspher-4.5.dist-info/METADATA"
     metadata.parent.mkdir()
     metadata.write_text("Metadata-Version: 2.1\nName: aspher\nVersion: 4.5\n")
@@ -50,7 +50,7 @@ def test_adapter_solves_the_problem_of_the_request(mode, indenter):
     assert fine.version == "4.5"
     np.testing.assert_allclose(fine.force, exact.force, rtol=1e-10)
     assert fine.residual.max() < 1e-10
-    # The stand-in presses one element too deep by the length that its tolerance allows, here 1e-3 of the depth.
+    # The stand-in moves one element too deep by the length that its tolerance allows, here 1e-3 of the depth.
     element = dense_contact.displacement(np.ones((1, 1)), 4.0, indenter.spacing).item() / indenter.spacing**2
     np.testing.assert_allclose((coarse.force - exact.force) * element, 1e-3 * exact.depth, rtol=1e-6)
     assert (coarse.residual > 3e-4).all()
@@ -61,13 +61,13 @@ def test_adapter_solves_the_problem_of_the_request(mode, indenter):
 
 
 @pytest.mark.usefixtures("aspher")
-def test_a_solver_that_is_late_has_no_answer(indenter):
+def test_solver_beyond_the_time_limit_has_no_answer(indenter):
     command = [sys.executable, "peers/aspher_adapter.py", "levels"]
     depth, force = np.array([0.1]), np.array([0.1])
     assert other_solvers.solve("aspher", command, indenter, depth, force, 1e-12, time_limit=1e-6) is None
 
 
-def test_pressure_outside_the_indenter_is_no_solution(indenter):
+def test_pressure_outside_the_indenter_is_refused(indenter):
     pressure = np.zeros(indenter.heights.shape)
     pressure[0, 0] = 1.0
     assert other_solvers.contact_residual(indenter.initial_gap / indenter.spacing, pressure) == np.inf
@@ -75,8 +75,8 @@ def test_pressure_outside_the_indenter_is_no_solution(indenter):
 
 
 @pytest.mark.usefixtures("aspher")
-def test_small_race(tmp_path):
-    """With the stand-in, whose adapter answers as in the whole race, and a solver that is not installed."""
+def test_race_compares_installed_solvers_and_skips_missing_ones(tmp_path):
+    """The race has the stand-in, whose adapter answers as in the full race, and a solver that is not installed."""
     adapters = {"ASPHER": (sys.executable, "peers/aspher_adapter.py", "levels"), "Tamaas": ("absent/python", "")}
     tasks = {"two levels": (9, 2, (0.1, 0.5), (1,))}
     output = tmp_path / "tables/other_solvers.csv"

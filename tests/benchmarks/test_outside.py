@@ -1,4 +1,4 @@
-"""Numbers of others: what is compared, and what is published of it."""
+"""Comparison with published numbers of others: the compared quantities and the published table."""
 
 import numpy as np
 import outside
@@ -8,8 +8,8 @@ import pytest
 from support.documentation import ROOT
 
 
-def test_a_free_square_has_the_pressure_of_the_study():
-    """Elements touch less on finer grids, and the correction takes away most of that."""
+def test_contact_fraction_of_a_free_square_changes_with_the_grid_as_published():
+    """Fewer elements touch on finer grids, and the correction removes most of this change."""
     rows = {row[1]: row for row in outside.free_squares(2)}
     _, _, theirs, ours, tolerance, *_ = rows["change of A/A₀ from 128² to 512²"]
     assert theirs == pytest.approx(-0.0148)
@@ -17,14 +17,14 @@ def test_a_free_square_has_the_pressure_of_the_study():
     assert abs(rows["change of A*/A₀ from 128² to 512²"][3]) < 0.3 * abs(ours)
 
 
-def test_the_slope_is_that_of_the_interpolated_heights():
+def test_slope_is_the_rms_slope_of_the_interpolated_heights():
     heights, slope = outside.surface(512, 32, 1, 0.8)
     differences = [(np.roll(heights, -1, axis) - heights) * 512 for axis in (0, 1)]
     assert np.sqrt(np.mean(np.square(differences).sum(axis=0))) == pytest.approx(slope, rel=0.01)
     assert heights.std() == pytest.approx(1, rel=1e-3)
 
 
-def test_one_source_alone_is_not_met():
-    """docs/outside.md says which."""
+def test_all_sources_but_one_are_met():
+    """docs/outside.md names the source."""
     published = pd.read_csv(ROOT / "docs/results/outside.csv")
     assert published[published["met"] == 0]["source"].unique().tolist() == [outside.SEPARATION_SOURCE]

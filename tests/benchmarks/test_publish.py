@@ -1,4 +1,4 @@
-"""What is published stands in the pages, says where it comes from, and is copied whole or not at all."""
+"""Published numbers appear on the pages with their origin, and results are copied completely or not at all."""
 
 import json
 import os
@@ -29,7 +29,7 @@ def test_pages_have_the_published_tables(page, name):
 
 
 def test_paragraph_has_no_line_that_would_begin_a_list():
-    """Markdown takes a line that starts with a plus and a space for an item of a list."""
+    """Markdown takes a line that starts with a plus and a space as an item of a list."""
     for shift in range(130):
         lines = publish.paragraph("x" * shift + " H/(1 + H) and a - b " + "of many words " * 20).splitlines()
         assert not any(line.startswith(("+ ", "- ")) for line in lines)
@@ -46,7 +46,7 @@ def test_citation_has_the_addresses_of_the_project():
 
 @pytest.fixture
 def results(tmp_path):
-    """A folder with all that `make paper` and `make large` make."""
+    """Make a folder with everything that `make paper` and `make large` make."""
     for name in [*publish.PUBLISHED["paper"], *publish.PUBLISHED["large"], *publish.KEPT["paper"]]:
         (tmp_path / "results" / name).parent.mkdir(parents=True, exist_ok=True)
         if name.endswith(".png"):
@@ -57,8 +57,8 @@ def results(tmp_path):
     return tmp_path / "results"
 
 
-def test_publishing(results, tmp_path):
-    """Nothing is published of an incomplete run, as the charts of a folder in which `make speed` was not run."""
+def test_only_complete_runs_are_published(results, tmp_path):
+    """An incomplete run publishes nothing, for example a folder without the output of `make speed`."""
     for folder in ("docs", "src/viscorough/data"):
         (tmp_path / folder).mkdir(parents=True)
     with pytest.raises(click.ClickException, match="make speed"):
@@ -75,7 +75,7 @@ def test_publishing(results, tmp_path):
         assert (tmp_path / target).read_text() == (results / name).read_text()
 
 
-def test_published_files_say_where_they_come_from():
+def test_published_files_state_their_origin():
     folder = ROOT / "docs/results"
     names = {path.name for path in folder.iterdir()} - {"published.json"}
     assert set(json.loads(read(folder / "published.json"))) == names
@@ -92,7 +92,7 @@ def test_published_tables_have_the_columns_of_the_code(name):
     assert set(pd.read_csv(ROOT / f"docs/results/{name}.csv")) == set(columns)
 
 
-def test_published_methods_are_those_of_the_code():
+def test_published_tables_have_the_methods_of_the_code():
     table = pd.read_csv(ROOT / "docs/results/methods.csv")
     assert set(table["method"]) == {method.name for method in METHODS}
 

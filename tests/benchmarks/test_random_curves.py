@@ -1,4 +1,4 @@
-"""Levels and curves of random indenters that are wrong in silence are found; the campaign looks for some."""
+"""The campaign of random levels and curves finds errors that a solver does not report."""
 
 import warnings
 from dataclasses import replace
@@ -24,10 +24,11 @@ from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 
 @pytest.mark.parametrize(("seed", "number"), [(1, 266), (1, 674), (2, 460), (2014, 478), (2014, 10105)])
-def test_audit_of_a_right_curve_agrees(seed, number):
-    """An interval with one jump is divided: one part has it at its end, with an error hardly below that of the whole.
+def test_audit_accepts_a_correct_curve(seed, number):
+    """Intervals with one jump are divided so that one part ends at the jump, with almost the whole error.
 
-    In the last two, one quadrature of the second integral is just within the tolerance, and both must be.
+    In the last two cases one quadrature of the second integral is just within the tolerance, and the audit requires
+    both.
     """
     generator = np.random.default_rng(realization_seed(seed, *random_indenter_key(number)))
     assert audit_failure(random_audit(generator)) == ""
@@ -44,7 +45,7 @@ CASE = RandomCurve(DISC, {"tolerance": 1e-4, "until_fraction": 0.8})
 
 
 def altered(**changes):
-    """Computes a loading curve of which fields are changed by functions."""
+    """Make a function that computes a loading curve and changes fields of it."""
 
     def compute(indenter, **arguments):
         curve = indent(indenter, **arguments)
@@ -54,7 +55,7 @@ def altered(**changes):
 
 
 def thinned(indenter, **arguments):
-    """A curve of which only every thirtieth level is left: exact levels, with too much between them."""
+    """Return a curve with only every thirtieth level: the levels are exact but too far apart."""
     curve = indent(indenter, **arguments)
     kept = np.append(np.arange(0, curve.depth.size - 1, 30), curve.depth.size - 1)
     names = ("depth", "force", "stiffness", "contact_count", "residual")
@@ -78,15 +79,15 @@ def test_wrong_end_of_a_whole_curve_is_found():
     assert "force at the end off by" in whole_curve_failure(whole, altered(force=lambda force: 1.001 * force))
 
 
-def test_a_depth_before_the_first_given_one_is_checked():
+def test_depths_below_the_first_level_are_checked():
     case = RandomCurve(DISC, {"tolerance": 1e-4, "depths": [2.0, 3.0]})
     assert curve_failure(case) == ""
-    # Of a stiffness that makes the first tangent pass through the origin.
+    # This stiffness makes the first tangent pass through the origin.
     straight = altered(stiffness=lambda stiffness: stiffness * 0 + indent(DISC, depths=[2.0]).force[0] / 2.0)
     assert curve_failure(case, straight).startswith("depth before the first level off by")
 
 
-def test_a_warning_is_no_silent_failure():
+def test_curve_with_a_warning_is_no_silent_failure():
     def warning(indenter, **arguments):
         warnings.warn("not as accurate", AccuracyWarning, stacklevel=1)
         return thinned(indenter, **arguments)
@@ -100,7 +101,7 @@ LEVELS = RandomCurve(DISC, {"depths": np.array([0.5, 1.0]), "tolerance": 1e-6, "
 
 
 def altered_solver(pressure_sum=1.0, pressure=1.0):
-    """A solver whose contacts have the sum of pressures, or the pressures, multiplied by a factor."""
+    """Make a solver whose sums of pressures, or pressures, are multiplied by a factor."""
 
     class Altered(ContactSolver):
         def advance(self, contact, depth):
@@ -112,17 +113,17 @@ def altered_solver(pressure_sum=1.0, pressure=1.0):
     return Altered
 
 
-def test_a_silent_failure_is_found():
+def test_silent_failure_of_a_level_is_found():
     assert levels_failure(LEVELS) == ""
     assert levels_failure(LEVELS, altered_solver(pressure_sum=1.0001)).startswith("force off by 0.0001")
     assert levels_failure(LEVELS, altered_solver(pressure=1.0001)).startswith("overlap ")
     assert levels_failure(LEVELS, altered_solver(pressure=-1.0)).startswith("tension ")
     loose = replace(LEVELS, arguments=LEVELS.arguments | {"tolerance": 1e-3})
     for name in ("pressure_sum", "pressure"):
-        assert levels_failure(loose, altered_solver(**{name: 1.0001})) == ""  # within ten times that
+        assert levels_failure(loose, altered_solver(**{name: 1.0001})) == ""  # within ten times the tolerance
 
 
-def test_a_convergence_error_is_no_silent_failure_but_does_not_hide_one():
+def test_convergence_error_does_not_hide_a_silent_failure():
     class Refusing(altered_solver(pressure_sum=1.0001)):
         refused_above = 0.0
 

@@ -1,4 +1,4 @@
-"""Verdicts with other seeds."""
+"""Verdicts with different seeds."""
 
 import pandas as pd
 import seeds

@@ -1,4 +1,4 @@
-"""The comparison with other solvers on one task, with solutions made here."""
+"""The comparison with other solvers on one task, with solutions made by stand-ins."""
 
 import sys
 from types import SimpleNamespace
@@ -18,13 +18,13 @@ def disc():
 
 @pytest.fixture(scope="module")
 def exact(disc):
-    """The disc's curve at three levels."""
+    """Return the curve of the disc at three levels."""
     return indent(disc, tolerance=1e-11, depths=[0.5, 1.0, 2.0])
 
 
 @pytest.fixture
 def stand_in(monkeypatch):
-    """Makes solvers whose residual is `least`, and 0.6 of their tolerance more; `in_time` : whether they end."""
+    """Make solvers whose residual is `least` plus 0.6 of their tolerance; `in_time` : False if they do not end."""
 
     def solve(name, made, indenter, depths, forces, tolerance, *, time_limit, threads=1):
         residual, wall = np.full(len(depths), made["least"] + 0.6 * tolerance), made["seconds"] * threads
@@ -36,12 +36,12 @@ def stand_in(monkeypatch):
 
 
 def compared(disc, exact, solvers, pairs=1, **task):
-    """Table of the solvers and the path, at the three levels to a residual of 1e-4."""
+    """Return the table of the solvers and the path, at the three levels to a residual of 1e-4."""
     task = solver_race.Task("three levels", 0.7, disc, exact.depth, exact.force, 1e-4, **task)
     return solver_race.compare_solvers(task, solvers, pairs=pairs, time_limit=20)
 
 
-def test_a_solver_that_fails_is_reported_and_left_out_and_one_that_is_late_left_out(disc, exact, tmp_path):
+def test_failing_and_late_solvers_are_left_out(disc, exact, tmp_path):
     (tmp_path / "broken.py").write_text(
         "import os; raise RuntimeError('OMP_NUM_THREADS=' + os.environ['OMP_NUM_THREADS'])"
     )
@@ -57,15 +57,15 @@ def test_comparison_uses_the_loosest_tolerance_that_meets_the_residual(disc, exa
     table = compared(disc, exact, {"stand-in": stand_in()}, pairs=3, threads=(1, 2))
     assert list(table.columns) == list(solver_race.COLUMNS)
     assert table["solver"].tolist() == ["viscorough", "viscorough", "stand-in", "stand-in"]
-    np.testing.assert_allclose(table["tolerance"], 1e-4)  # three times that would leave 1.8e-4
+    np.testing.assert_allclose(table["tolerance"], 1e-4)  # three times this tolerance would leave a residual of 1.8e-4
     assert (table["met"] == 1).all()
     assert table["wall_s"].tolist()[2:] == [0.5, 1.0]
-    # The stand-in reports the same time in every pair, so that the median ratio is that to the median time of the path.
+    # The stand-in reports the same time in every pair, so the median ratio is the ratio to the path's median time.
     np.testing.assert_allclose(table["ratio"][2:], table["wall_s"][2:].to_numpy() / table["wall_s"][:2])
     assert (table["ratio"].between(table["ratio_low"], table["ratio_high"])).all()
 
 
-def test_far_slower_solvers_are_not_repeated(disc, exact, stand_in):
+def test_much_slower_solvers_are_not_repeated(disc, exact, stand_in):
     solvers = {f"{seconds}": stand_in(seconds=seconds) for seconds in (0.5, 1.9, 2.1)}
     table = compared(disc, exact, solvers, pairs=2)
     assert table["wall_s"].tolist()[1:] == [0.5, 1.9, 2.1]
@@ -73,7 +73,7 @@ def test_far_slower_solvers_are_not_repeated(disc, exact, stand_in):
     assert table["ratio"].notna().all()
 
 
-def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):
+def test_solver_that_misses_the_residual_is_marked(disc, exact, stand_in):
     assert compared(disc, exact, {"slow": stand_in(in_time=False)})["solver"].tolist() == ["viscorough"]
     table = compared(disc, exact, {"stand-in": stand_in(least=0.01)})
     assert table["met"].tolist() == [1, 0]
@@ -81,7 +81,7 @@ def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):
     assert table["tolerance"][1] == pytest.approx(min(solver_race.TOLERANCE_RATIOS) * 1e-4)
 
 
-def test_a_task_is_at_the_contact_fractions_asked_for():
+def test_task_has_the_requested_contact_fractions():
     task = solver_race.disc_task("few", 0.7, 33, [0.05, 0.3], (1, 2), seed=2)
     curve = indent(task.indenter, tolerance=1e-6, depths=task.depths)
     np.testing.assert_allclose(curve.contact_fraction, [0.05, 0.3], rtol=0.1)

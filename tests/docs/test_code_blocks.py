@@ -1,6 +1,6 @@
 """The blocks of code in README and docs/ run, in the order of the page.
 
-Those on the page of the results run in tests/workflow/test_page.py, those for workflows in tests/workflow.
+The blocks on the page of the results run in tests/workflow/test_page.py, the blocks for workflows in tests/workflow.
 """
 
 import re
@@ -50,7 +50,7 @@ def run_page(page):
 
 
 def write_scan():
-    """A text file of heights that states its unit and its spacing, as the blocks name it."""
+    """Write a text file of heights that states its unit and its spacing, under the name that the blocks use."""
     heights = self_affine_disc(0.7, 17, rms=1.0, diameter=170.0, seed=1).heights
     rows = "\n".join(" ".join(f"{height:.4f}" for height in row) for row in heights)
     Path("scan.txt").write_text(f"# Width: 170 um\n# Height: 170 um\n# Value units: um\n{rows}\n")
@@ -74,8 +74,8 @@ CHECKERS = {
 
 
 @pytest.mark.parametrize("checker", [name for name in CHECKERS if name == "mypy" or shutil.which(name)])
-def test_checkers_of_types_accept_the_blocks(tmp_path, checker):
-    """All blocks in Python of a page as a user's script; packages without annotations are left out."""
+def test_type_checkers_accept_the_blocks(tmp_path, checker):
+    """All Python blocks of a page form one script, as a user would write it. Untyped packages are left out."""
     for page in (README, ROOT / "docs/own_surface.md"):
         script = tmp_path / f"{page.stem.lower()}.py"
         script.write_text("\n".join(block.text for block in RUN[page] if block.language == "python"))
@@ -101,7 +101,7 @@ def test_every_block_is_run_by_a_test():
     assert kinds == {"python", "console", "shell", "text"} | ELSEWHERE
 
 
-def test_extras_that_are_installed_exist():
+def test_extras_named_on_pages_exist():
     extras = tomllib.loads(read(ROOT / "pyproject.toml"))["project"]["optional-dependencies"]
     sources = [*PAGES, *(ROOT / "src/viscorough").rglob("*.py")]
     named = {name for file in sources for name in re.findall(r'pip\s+install "(?:\.|viscorough)\[(\w+)\]', read(file))}
@@ -113,8 +113,8 @@ def test_extras_are_added_to_an_installed_package_without_an_index_that_has_it()
     subprocess.run(command, check=True, capture_output=True)
 
 
-def test_commands_without_make_are_those_of_make():
-    """Those of the environment and of the tests in full, those of the workflow without its line of progress."""
+def test_commands_without_make_agree_with_the_makefile():
+    """Commands of environment and tests are compared in full, commands of the workflow without progress lines."""
     page = ROOT / "docs/getting_started.md"
     (text,) = (block.text for block in blocks(page) if "python3 -m venv .venv" in block.text)
     command = ["make", "--dry-run", "--always-make", "CORES=2", "environment", "reproduce", "test"]

@@ -23,8 +23,8 @@ def test_examples_run(name):
 
 
 @pytest.mark.parametrize("name", [name for name, item in PUBLIC.items() if inspect.isfunction(item)])
-def test_parameters_are_those_of_the_signature(name):
-    """Formulas that take what their one line names need no section."""
+def test_docstring_describes_every_parameter_of_the_signature(name):
+    """Formulas whose one line names all arguments need no section of parameters."""
     text = inspect.getdoc(PUBLIC[name])
     if "reference." in name and "Parameters\n" not in text:
         return

@@ -5,7 +5,7 @@ from PIL import Image
 
 
 def test_picture_has_the_rules_of_the_workflow():
-    """The edges that it was drawn from are those that Snakemake tells now."""
+    """The picture was drawn from the edges that Snakemake reports now."""
     with Image.open(draw_rules.PICTURE) as picture:
         drawn = {tuple(line.split(" -> ")) for line in picture.text[draw_rules.SOURCE].splitlines()}
     assert drawn == draw_rules.rule_graph(), "run python docs/draw_rules.py"

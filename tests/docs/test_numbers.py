@@ -1,4 +1,4 @@
-"""The numbers that README and docs/ quote are those of the published tables."""
+"""The numbers on the pages of README and docs/ agree with the published tables."""
 
 import json
 import re
@@ -36,40 +36,40 @@ def words(page):
 
 @cache
 def published(name):
-    """A table of docs/results."""
+    """Return a table of docs/results."""
     return pd.read_csv(ROOT / "docs/results" / name)
 
 
 def value(claim, case=slice(None), column="value"):
-    """Values of a claim by case, or that of one case."""
+    """Return the values of a claim by case, or the value of one case."""
     return TABLE[TABLE["claim"] == claim].set_index("case")[column].loc[case]
 
 
 def ends(values, places=0):
-    """The least and the largest of values, rounded."""
+    """Return the smallest and the largest of some values, rounded."""
     return [f"{end:.{places}f}" for end in (np.min(values), np.max(values))]
 
 
 def percents(claim):
-    """Deviations of the least and the largest value of a claim from what the paper says."""
+    """Return how far the smallest and the largest value of a claim are from the paper's number [%]."""
     ratios = value(claim) / value(claim, column="expected")
     return ends(100 * abs(ratios - 1))
 
 
 def base_fits():
-    """Fits of discs in the conventions of the figures, by Hurst exponent."""
+    """Return the fits of discs in the conventions of the figures, by Hurst exponent."""
     rows = published("scaling.csv").query(f"{DISCS} and case_group == 'base' and window_rule == 'default'")
     return rows.set_index("hurst")
 
 
 def prefactors():
-    """ζ of both formulas of the paper and of discs, as the article shows them, by Hurst exponent."""
+    """Return ζ by both formulas of the paper and of discs, as the article shows them, by Hurst exponent."""
     results = Results({"scaling": published("scaling.csv"), "claims": pd.read_csv(ROOT / "docs/claims.csv")}, {})
     return pd.DataFrame(article.prefactors(results, SHOWN)["rows"]).set_index("hurst")
 
 
 def stiffness_over():
-    """Stiffness over that of Eq. 4, then of Eq. 11 without Γ, each at both ends of region (b), by Hurst exponent."""
+    """Return the stiffness over Eq. 4, then over Eq. 11 without Γ, at both ends of region (b), by Hurst exponent."""
     ratios = {}
     for hurst, fit in base_fits().iterrows():
         ends_of_region = fit[["x_low", "x_high"]].to_numpy(dtype=float)
@@ -80,9 +80,9 @@ def stiffness_over():
 
 @cache
 def grid_errors():
-    """Errors of the velocity on 257 elements across, by every second point of 513, at H = 0.4 and 0.8 [%].
+    """Return rms errors of the velocity on 257 elements across, by every second point of 513, at H = 0.4 and 0.8 [%].
 
-    Of the first three of the eight discs of which the page speaks, which give the same digits.
+    The first three of the page's eight discs are used; they give the same digits.
     """
     x = np.geomspace(0.01, 1, 17)
     errors = []
@@ -93,33 +93,33 @@ def grid_errors():
 
 
 def _coarse_over_fine(disc, force):
-    """Velocity of every second point of a disc over that of all points, at forces F/G."""
+    """Return the velocity of every second point of a disc over the velocity of all points, at forces F/G."""
     coarse = Indenter(disc.heights[::2, ::2], 2 * disc.spacing)
     stiffness, of_coarse = (indent(one, until_force=force[-1]).at_force(force)[1] for one in (disc, coarse))
     return stiffness / of_coarse
 
 
 def above_expected():
-    """β less H/(1 + H), of discs at H = 0.4 and 0.1."""
+    """Return β − H/(1 + H) of discs at H = 0.4 and 0.1."""
     beta = base_fits()["beta"][[0.4, 0.1]]
     return beta - beta.index.map(exponent_beta)
 
 
 def equal_windows():
-    """Distances of the exponents of lines from those of discs in equal windows: from H = 0.6 on, at 0.4, at 0.1."""
+    """Return how far exponents of lines and discs differ in equal windows: largest for H ≥ 0.6, at 0.4, at 0.1."""
     distance = published("mdr_exponents.csv").query("window != 'own region'").set_index("hurst")["difference"].abs()
     return distance[[0.6, 0.9]].max(), distance[0.4].max(), distance[0.1].max()
 
 
 def grid_factors(quantity):
-    """Factors of a quantity on a grid of ten times as many elements, by the Hurst exponent."""
+    """Return the factors of a quantity on a grid of ten times as many elements, by Hurst exponent."""
     return published("grid_dependence.csv").query("quantity == @quantity").groupby("hurst")["factor"].max().to_numpy()
 
 
 def trends(window_rule):
-    """Change of β with ten times as many elements, by source and Hurst exponent, in a fixed window of X.
+    """Return the change of β with ten times as many elements, by source and Hurst exponent, in a fixed window of X.
 
-    By least squares, weighted by the intervals.
+    The slopes are least-squares fits, weighted by the intervals.
     """
     table = published("sizes.csv").query(f"case_group == 'sizes' and window_rule == '{window_rule}'")
     table = table.query("average == 'geometric' and rms_convention in ('disc', 'line')").dropna(subset="beta")
@@ -133,26 +133,26 @@ def trends(window_rule):
 
 
 def default_path():
-    """Boundary elements at the default tolerance, on rough discs of 257 elements across."""
+    """Return the rows of boundary elements at the default tolerance, on rough discs of 257 elements across."""
     methods = published("methods.csv").dropna(subset="hurst")
     return methods.query("method == 'path, automatic levels' and value == 1e-3 and elements == 257")
 
 
 def periodic(roll_off):
-    """The least and the largest g of periodic surfaces around X = 1, with or without a roll-off."""
+    """Return the smallest and the largest g of periodic surfaces around X = 1, with or without a roll-off."""
     table = published("periodic.csv").query("0.7 < x < 1.4")
     return ends(table[table["roll_off_wavelength"].notna() == roll_off].groupby("hurst")["g"].mean(), 2)
 
 
 def largest(roll_off):
-    """The largest g of periodic surfaces by Hurst exponent, then its X, with or without a roll-off."""
+    """Return the largest g of periodic surfaces by Hurst exponent, then its X, with or without a roll-off."""
     rows = article.control(Results({"periodic": published("periodic.csv")}, {}))
     kind = "rolled" if roll_off else "whole"
     return [row[kind][column] for column in ("g", "x") for row in rows]
 
 
 def plateau():
-    """u₀/h of discs on the paper's grid."""
+    """Return u₀/h of discs on the paper's grid."""
     rows = published("interface.csv").query("source == 'discs' and across == 257")
     return rows.drop_duplicates("hurst")
 
@@ -166,7 +166,7 @@ def growth_of_large(across):
 
 
 def placed(choice):
-    """Times of levels placed otherwise over those of automatic ones, scene by scene, the least first."""
+    """Return the times of levels placed by a choice over the times of automatic levels, sorted by scene."""
     table = published("level_placement.csv").query("reached == 1")
     return table.pivot(index="scene", columns="choice", values="ratio")[choice].sort_values()
 
@@ -183,43 +183,43 @@ PAPER, DEFAULT = merged(read_settings("config"), read_settings("paper")), read_s
 
 
 def discs_of_paper(settings=PAPER):
-    """Numbers of discs of the paper's scale, or of other settings, for the figures and for all else."""
+    """Return the numbers of discs of a scale, by default the paper's: for the figures, and for everything else."""
     cases = disc_cases(settings).values()
     discs = [(case["group"] == "base", ensemble["realizations"]) for case in cases for ensemble in case["ensembles"]]
     return pd.DataFrame(discs).groupby(0)[1].sum().sort_index(ascending=False)
 
 
 def milliseconds(settings):
-    """Processor time of a line and of a disc in the published run with these settings."""
+    """Return the processor time of a line and of a disc in the published run with these settings [ms]."""
     seconds = costs() if settings is PAPER else pd.read_csv(ROOT / publish.DEFAULT_COSTS).set_index("rule")["seconds"]
     lines = len(settings["lines"]["hurst"]) * settings["lines"]["realizations"]
     return 1e3 * seconds["reduce_lines"] / lines, 1e3 * seconds["indent_surfaces"] / discs_of_paper(settings).sum()
 
 
 def reduction_costs():
-    """Cost of a line over the cost of a disc in the default run and at the paper's scale [%]."""
+    """Return the cost of a line over the cost of a disc in the default run and at the paper's scale [%]."""
     return [100 * np.divide(*milliseconds(settings)) for settings in (DEFAULT, PAPER)]
 
 
 def single_surfaces(x):
-    """Ends of the interval of vt/h of a single surface, over the law, at H = 0.1 and 0.85."""
+    """Return the ends of the interval of vt/h of a single surface over the law, at H = 0.1 and 0.85."""
     laws = [penetration_law(hurst) for hurst in (0.1, 0.85)]
     return [end for law in laws for end in law.velocity_interval(x) / law.velocity(x)]
 
 
 def law_errors(*names):
-    """Largest errors of the law over the mean of fresh discs of 257 elements across, rounded up [%]."""
+    """Return the largest errors of the law over the mean of fresh discs of 257 elements across, rounded up [%]."""
     table = publish.largest_errors().query("across == 257")
     return [np.ceil(100 * table[name].abs().max()) for name in names]
 
 
 def depth_error_on_coarse_grid():
-    """Errors of u/h of the law on 129 elements across at X = 0.003, at H = 0.85 and 0.1 [%]."""
+    """Return the errors of u/h of the law on 129 elements across at X = 0.003, at H = 0.85 and 0.1 [%]."""
     table = published("law_errors.csv").query("across == 129 and 0.003 < x < 0.004").set_index("hurst")
     return 100 * table["depth_error"][[0.85, 0.1]]
 
 
-# {page: {sentence: function of what fills its brackets, a text, a number or a list of them}}
+# {page: {sentence: function that returns the text or the numbers for its brackets}}
 QUOTED = {
     "README.md": {
         "At H = 0.4 and 0.1 it is {:.2f} and {:.2f} larger": above_expected,
@@ -328,13 +328,13 @@ QUOTED = {
 
 
 @pytest.mark.parametrize(("page", "sentence"), [(page, text) for page, rows in QUOTED.items() for text in rows])
-def test_numbers_on_pages_are_those_of_the_tables(page, sentence):
+def test_numbers_on_pages_agree_with_the_tables(page, sentence):
     numbers = np.ravel(np.asarray(QUOTED[page][sentence](), dtype=object))
     assert sentence.format(*numbers) in words(page)
 
 
 def test_most_single_discs_lie_in_their_interval():
-    """The interval was calibrated on other discs; nominally 95 %."""
+    """The interval was calibrated on other discs. It should contain 95 % of them."""
     table = publish.largest_errors().query("tested > 0")
     assert set(table["across"]) == {129, 257}
     for name in ("velocity", "depth"):
@@ -342,20 +342,20 @@ def test_most_single_discs_lie_in_their_interval():
 
 
 def test_law_is_within_its_stated_error_on_fresh_discs():
-    """Up to two standard errors of their mean, on the grid of the law."""
+    """The grid is the grid of the law. Errors may exceed the stated ones by two standard errors of their mean."""
     table = published("law_errors.csv").query("across == 257")
     for name in ("velocity", "depth"):
         stated = table["hurst"].map(lambda hurst, name=name: getattr(penetration_law(hurst), f"{name}_error"))
         assert (table[f"{name}_error"].abs() <= stated + 2 * table[f"{name}_standard_error"]).mean() >= 0.95
 
 
-def test_tolerances_on_the_page_of_verdicts():
+def test_tolerances_on_the_page_of_verdicts_agree_with_the_claims():
     for name, tolerance in re.findall(r"`(\w+)`: ([\d.]+)", words("docs/verdicts.md")):
         assert CLAIMS[name]["tolerance"] == float(tolerance)
 
 
-def test_what_pages_conclude_from_the_tables():
-    """Statements in words or rounded numbers, which change only if one of these does."""
+def test_conclusions_on_pages_follow_from_the_tables():
+    """These statements are in words or rounded numbers, and change only if an assertion fails."""
     # Verdicts and the power law.
     assert set(value("zeta_better", column="verdict")) == {"reproduced", "reproduced under a stated convention"}
     assert "not reproduced" in set(value("master_curve_shape", column="verdict"))

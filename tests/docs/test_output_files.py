@@ -1,4 +1,4 @@
-"""docs/output.md describes the files of the command line; those of the workflow are checked in tests/workflow."""
+"""docs/output.md describes the files of the command line. Its rows on files of the workflow: tests/workflow."""
 
 import netCDF4
 import numpy as np
@@ -17,14 +17,14 @@ COMMANDS = {
 }
 
 
-def test_files_of_the_command_line(tmp_path, monkeypatch):
+def test_page_describes_the_files_of_the_command_line(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     np.save("heights.npy", sphere_heights(9))
     rows, curve = documented(read(ROOT / "docs/output.md")), set()
     for command, arguments in COMMANDS.items():
         assert run(f"{command} {arguments} -o {command}.nc") == 0
         (row,) = (row for name, row in rows.items() if name.endswith(f"viscorough {command}"))
-        # "those of the curve", "the coordinates"
+        # a cell in words, such as "those of the curve" or "the coordinates"
         coordinates = {"generate": {"x", "y"}}.get(command, set())
         with netCDF4.Dataset(f"{command}.nc") as made:
             curve = curve or set(made.variables)

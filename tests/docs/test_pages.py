@@ -1,4 +1,4 @@
-"""README and docs/: links lead somewhere, and what is named exists."""
+"""README and docs/: links lead somewhere, and everything that a page names exists."""
 
 import re
 
@@ -27,14 +27,14 @@ def test_links_lead_to_files_and_headings(page):
 
 
 def is_made(path):
-    """Whether a rule or a command of make makes a file of results/, or something in a folder of results/."""
+    """Return True if a rule or a command of make makes a file of results/, or something in a folder of results/."""
     folder, _, name = path.partition("/")
     listed = {"figures": FIGURES, "tables": TABLES, "ensembles": POOLS}.get(folder, {})
     return name.partition(".")[0] in listed or f"results/{path}" in WORKFLOW + MAKEFILES
 
 
 def test_results_page_names_only_files_that_are_made():
-    """In the first column; a name without a folder is in results/ or in the folder named before it."""
+    """The names are in the first column. A name without a folder is in results/ or in the folder named before it."""
     cells = re.findall(r"^\| (`.*?) \|", read(ROOT / "results/README.md"), re.MULTILINE)
     assert len(cells) > 20
     for cell in cells:
@@ -49,7 +49,7 @@ def test_results_page_names_only_files_that_are_made():
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_indices_of_symbols_are_formulas(page):
-    """A symbol in italics followed by an underscore, as *κ*_c, would be shown with the underscore."""
+    """Markdown would show the underscore of a symbol in italics followed by an index, such as *κ*_c."""
     assert not re.findall(r"\w\*_\w", prose(page))
 
 
@@ -69,11 +69,11 @@ def test_help_of_a_command_fits_into_its_block(name):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
-def test_what_is_named_exists(page):
-    """Targets of make and of the workflow, figures and tables that rules make, and files of the project."""
+def test_everything_that_a_page_names_exists(page):
+    """Checked are targets of make and of the workflow, figures and tables that rules make, and files of the project."""
     text = read(page)
     if page.name == "CHANGELOG.md":
-        return  # it also tells what was renamed
+        return  # it also names things that no longer exist
     for targets in re.findall(r"(?:^|`|=\S* |; )make ([a-z][a-z -]*)", text, re.MULTILINE):
         for target in targets.split():
             assert re.search(rf"^{target}:", MAKEFILES, re.MULTILINE), target

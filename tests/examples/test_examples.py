@@ -1,4 +1,4 @@
-"""Every script in examples/ makes its figure, and finds the number that stands here."""
+"""Every script in examples/ makes its figure and finds the number recorded here."""
 
 import runpy
 

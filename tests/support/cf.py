@@ -1,7 +1,7 @@
 """The requirements of the CF conventions that files of this project can break.
 
 The checkers that exist need UDUNITS, a compiled library, and the table of standard names from the network. These files
-use neither standard names nor calendars, so that what can be wrong with them is a page of rules.
+use neither standard names nor calendars, so a page of rules covers all that can be wrong.
 """
 
 import re
@@ -15,7 +15,7 @@ UNIT = re.compile(r"(1|m|mm|um|nm|s|N|N/m|Pa|MPa|byte|Mbyte|element|decade)(-?\d
 
 
 def violations(path):
-    """One line for every requirement that a file does not meet."""
+    """Return one line for every requirement that a file does not meet."""
     with netCDF4.Dataset(path) as file:
         lines = [f"no {name}" for name in ("title", "source", "history") if not getattr(file, name, "")]
         if getattr(file, "Conventions", "") != "CF-1.11":

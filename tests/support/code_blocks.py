@@ -1,4 +1,4 @@
-"""Blocks of code of a page, run in the working directory."""
+"""Run the blocks of code of a page in the working directory."""
 
 import contextlib
 import glob

@@ -1,17 +1,17 @@
-"""The contract of the library for a user's mistake: an error of one line. That of the command line is in its tests."""
+"""The library's contract for a user's mistake: an error of one line. Tests of the command line have their own."""
 
 import contextlib
 import re
 
 import pytest
 
-# Options of commands that messages show as a whole: rio, and viscorough march.
+# Options that messages may show as parts of whole commands: of rio, and of viscorough march.
 _OF_WHOLE_COMMANDS = {"--crs", "--dst-crs", "--medium", "--method"}
 
 
 @contextlib.contextmanager
 def refused(what):
-    """Context in which a ValueError of one line that matches `what`, and names no option, must be raised."""
+    """Require a ValueError of one line that matches `what` and names no option."""
     with pytest.raises(ValueError, match=what) as error:
         yield error
     assert len(str(error.value).splitlines()) == 1

@@ -8,7 +8,7 @@ from viscorough.loading_curve import LoadingCurve
 
 
 def random_curve(levels=7, seed=0, **changes):
-    """A LoadingCurve of random numbers in full double precision, convex as those of growing contacts are."""
+    """Make a LoadingCurve of random numbers in full double precision, convex like a curve of growing contact."""
     random = np.random.default_rng(seed)
     depth, stiffness = (np.cumsum(random.random(levels) + 0.1) * scale for scale in (1e-7, 1e-6))
     before = np.append(0.0, stiffness)[:-1]
@@ -38,11 +38,11 @@ def assert_same_curve(curve, other):
 
 
 def curve_of_levels(depth, force, stiffness, contact_count):
-    """A LoadingCurve of these levels, made by hand."""
+    """Make a LoadingCurve of these levels."""
     levels = (np.asarray(values) for values in (depth, force, stiffness, contact_count))
     return LoadingCurve(*levels, 10**6, "by hand", 1e-9, 0, np.zeros(len(depth)))
 
 
 def curve_of_body(body, depth):
-    """The curve of a body of revolution; ten elements join at each level, so that at_force interpolates smoothly."""
+    """Return the curve of a body of revolution. Ten elements join at each level, so at_force interpolates smoothly."""
     return curve_of_levels(depth, body.force(depth), body.stiffness(depth), 10 * np.arange(1, depth.size + 1))

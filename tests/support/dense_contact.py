@@ -1,6 +1,6 @@
 """Frictionless contact of a few elements by a dense influence matrix and non-negative least squares.
 
-It shares no code with the package, so that it can serve as a check of it; the stand-in for another solver uses it.
+It shares no code with the package, so it is an independent check. The stand-in for another solver uses it, too.
 """
 
 import numpy as np
@@ -8,7 +8,7 @@ from scipy.optimize import brentq, nnls
 
 
 def influence_matrix(rows, columns, aspect=1.0):
-    """Influence matrix K of w = d/(πE*) K p (Love 1929) for a grid of elements of sides dx and dy, with d = √(dx dy).
+    """Return the influence matrix K of w = d/(πE*) K p (Love 1929) for elements of sides dx and dy, d = √(dx dy).
 
     aspect : dy/dx
 
@@ -26,13 +26,13 @@ def influence_matrix(rows, columns, aspect=1.0):
 
 
 def displacement(pressure, contact_modulus, side=1.0):
-    """Displacement of the half-space of modulus E* at the elements of a grid under the pressure on them."""
+    """Return the displacement of a half-space of modulus E* at the elements of a grid under their pressure."""
     matrix = influence_matrix(*pressure.shape)
     return (side / (np.pi * contact_modulus) * matrix @ pressure.ravel()).reshape(pressure.shape)
 
 
 def pressure_at_depth(gap, depth, contact_modulus, side=1.0):
-    """Pressure of a rigid indenter with the given initial gap at a depth; same shape as the gap.
+    """Return the pressure of a rigid indenter with this initial gap at a depth; same shape as the gap.
 
     With K = R Rᵀ, complementarity is the least-squares problem |Rᵀ p − R⁻¹ (u − g)| with p ≥ 0.
     """
@@ -41,7 +41,7 @@ def pressure_at_depth(gap, depth, contact_modulus, side=1.0):
 
 
 def pressure_at_force(gap, force, contact_modulus, side=1.0):
-    """Pressure of a rigid indenter with the given initial gap under a force; same shape as the gap."""
+    """Return the pressure of a rigid indenter with this initial gap under a force; same shape as the gap."""
 
     def excess(depth):
         return pressure_at_depth(gap, depth, contact_modulus, side).sum() * side**2 / force - 1
@@ -52,7 +52,7 @@ def pressure_at_force(gap, force, contact_modulus, side=1.0):
 
 
 def disturbed(pressure, length, contact_modulus, side=1.0):
-    """The pressure, raised on the element with the largest one such that this element is displaced by `length` more."""
+    """Raise the largest pressure by the amount that displaces its element by a further `length`."""
     changed = np.array(pressure)
     changed.flat[pressure.argmax()] += length * np.pi * contact_modulus / (side * influence_matrix(1, 1)[0, 0])
     return changed

@@ -16,7 +16,7 @@ _NAMED = re.compile(r"^`(\w+/[\w./]+)`:\n\n```\S*\n(.*?)^```$", re.MULTILINE | r
 
 @dataclass(frozen=True)
 class Block:
-    """A block of code on a page. language : as it says; text : its lines; line : its number on the page"""
+    """Hold a block of code on a page: its language, its lines, and its line number on the page."""
 
     language: str
     text: str
@@ -31,12 +31,12 @@ MAKEFILES = read(ROOT / "Makefile") + read(ROOT / "peers/targets.mk")
 
 
 def named_files(page):
-    """{path: text} of the blocks that are files of the project: a line with only the path stands before them."""
+    """Return {path: text} of the blocks that show files of the project: a line with only the path precedes them."""
     return dict(_NAMED.findall(read(page)))
 
 
 def blocks(page):
-    """The blocks of a page in order, without those that are files."""
+    """Return the blocks of a page in order, without blocks that show files."""
     files = set(named_files(page).values())
     return [
         Block(match[1], match[2], read(page)[: match.start()].count("\n") + 1)
@@ -46,17 +46,17 @@ def blocks(page):
 
 
 def prose(page):
-    """A page without its blocks of code."""
+    """Return a page without its blocks of code."""
     return _FENCE.sub("", read(page))
 
 
 def links(text):
-    """Targets of the links and pictures in a text that lead to files."""
+    """Return the targets of the links and pictures in a text that lead to files."""
     targets = re.findall(r"\]\(([^)\s]+)\)", text)
     return [target for target in targets if not re.match(r"\w+:", target)]
 
 
 def anchors(page):
-    """The anchors of a page's headings, as GitHub and the site make them."""
+    """Return the anchors of a page's headings, as GitHub and the site make them."""
     headings = re.findall(r"^#+ (.*)$", prose(page), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}

@@ -1,4 +1,4 @@
-"""Faults of files and disks, and the contents of folders, which faults must not change."""
+"""Make faults of files and disks, and read the contents of folders, which faults must not change."""
 
 import os
 import shutil
@@ -14,12 +14,12 @@ DAMAGES = {
 
 
 def no_privileges():
-    """Prefix of a command that makes file permissions apply to it, which they do not for root."""
+    """Return the prefix of a command that applies file permissions to it, which root ignores."""
     return [] if os.geteuid() else namespace("--user")
 
 
 def namespace(*options):
-    """Prefix of a command that runs it in its own namespaces; skips the test if the system has none."""
+    """Return the prefix of a command that runs it in new namespaces; skip the test if the system has none."""
     unshare = ["unshare", *options]
     if not shutil.which("unshare") or subprocess.run([*unshare, "true"], capture_output=True, check=False).returncode:
         pytest.skip("needs user namespaces")
@@ -27,7 +27,7 @@ def namespace(*options):
 
 
 def contents(folder):
-    """{path in the folder: bytes} of all files except logs and benchmarks."""
+    """Return {path in the folder: bytes} of all files except logs and benchmarks."""
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in folder.rglob("*")

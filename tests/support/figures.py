@@ -1,4 +1,4 @@
-"""Tables for the figures, most of them published ones, and what the figures made from them show."""
+"""Tables for the figures, most of them published, and measures of the drawn figures."""
 
 from importlib import import_module
 
@@ -20,13 +20,13 @@ COMBINATIONS = {
 }
 X = abscissa(1e-4, 30, 20)
 ELEMENTS = 33
-MODULES = {  # of the figures of the report, by their files
+MODULES = {  # modules of the figures of the report, by file name
     figure.get("file", name): figure.get("module", name) for name, figure in RESULTS["figures"].items()
 }
 
 
 def case_of(hurst, name):
-    """Name of a case as the workflow gives it."""
+    """Return the name of a case as the workflow gives it."""
     return f"h{round(hurst * 1e4):05d}_{name}"
 
 
@@ -34,22 +34,22 @@ CASES = {case_of(hurst, name): at for hurst in HURST for name, at in COMBINATION
 
 
 def plot(module, *arguments, **options):
-    """The figure that a module of viscorough_study.figures draws from these arguments."""
+    """Draw the figure of a module of viscorough_study.figures from these arguments."""
     return getattr(import_module(f"viscorough_study.figures.{module}"), f"plot_{module}")(*arguments, **options)
 
 
-# ---- what a figure shows
+# ---- contents of a figure
 
 
 def drawn_points(axes):
-    """Every point of the lines, intervals, bands and bars of an axes."""
+    """Return every point of the lines, intervals, bands and bars of an axes."""
     paths = [path for collection in axes.collections for path in collection.get_paths()]
     bars = [patch.get_bbox().p1[None] for patch in axes.patches]
     return np.concatenate([*(line.get_xydata() for line in axes.lines), *(path.vertices for path in paths), *bars])
 
 
 def whole_on_page(figure):
-    """Whether nothing that is drawn reaches beyond the page, once laid out."""
+    """Return True if nothing in the figure reaches beyond the page after its layout."""
     figure.get_layout_engine().execute(figure)
     box, (width, height) = figure.get_tightbbox(FigureCanvasAgg(figure).get_renderer()), figure.get_size_inches()
     return box.x0 > -0.01 and box.y0 > -0.01 and box.x1 < width + 0.01 and box.y1 < height + 0.01
@@ -67,18 +67,18 @@ def published(name):
 
 
 def combinations_of(**values):
-    """Table of all combinations of the values of columns."""
+    """Return the table of all combinations of the values of columns."""
     return pd.MultiIndex.from_product(values.values(), names=values).to_frame(index=False)
 
 
 def without_region(scaling, hurst):
-    """The scaling table with no region (b) for one Hurst exponent, as the workflow writes it."""
+    """Return the scaling table with no region (b) for one Hurst exponent, as the workflow writes it."""
     numbers = [name for name, (_, units) in SCALING_COLUMNS.items() if units and name not in ("hurst", "realizations")]
     return scaling.mask((scaling["hurst"] == hurst).to_numpy()[:, None] & np.isin(scaling.columns, numbers))
 
 
 def curves_of_sizes():
-    """Curves X^(H/(1+H)) for two Hurst exponents on two grids, and less X for the interface."""
+    """Return the curves X^(H/(1+H)) for two Hurst exponents on two grids, and the same less X for the interface."""
     log_x = np.log(10.0) * np.arange(-4, 0.1, 0.1)
     grids = {
         hurst: [
@@ -91,7 +91,7 @@ def curves_of_sizes():
 
 
 def media_table():
-    """Two media, in which the velocity is a power of time."""
+    """Return a table of two media in which the velocity is a power of time."""
     media, time = ("newtonian", "standard_linear_solid"), np.geomspace(1e-3, 1e3, 13)
     table = combinations_of(medium=media, hurst=HURST, time=time)
     power = table["time"] ** table["hurst"]
@@ -99,14 +99,14 @@ def media_table():
 
 
 def measured_kinetics():
-    """Two scans of one group under two forces in two media."""
+    """Return a table of two scans of one group under two forces in two media."""
     scans, media, time = ("polished_1", "polished_2"), ("newtonian", "maxwell"), np.geomspace(1e-3, 1e3, 13)
     table = combinations_of(scan=scans, medium=media, force=(0.1, 1.0), time=time).assign(group="polished")
     return table.assign(depth=1e-6 * table["force"] * table["time"], velocity=1e-6 * table["force"])
 
 
 def interface_curves():
-    """Curves of the published interfaces in series with a punch; the law is 2 % above them."""
+    """Return curves of the published interfaces in series with a punch; the law is 2 % above them."""
     x, curves = np.geomspace(1e-3, 28, 60), []
     for (*labels, hurst), _ in published("interface").groupby(["source", "case_group", "across", "hurst"]):
         law = penetration_law(hurst)
@@ -117,7 +117,7 @@ def interface_curves():
     return pd.concat(curves, ignore_index=True)
 
 
-FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
+FROM_TABLES = {  # arguments of the figures that need only tables
     "collapse": (curves_of_sizes(), published("collapse"), published("infinite_grid")),
     "conventions": (published("scaling"), SHOWN),
     "direct": (published("direct"),),

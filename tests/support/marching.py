@@ -1,4 +1,4 @@
-"""Direct integration with all that it finds: numbers of elements in contact, and the pressures at the last time."""
+"""Direct integration with its complete results: numbers of elements in contact, and pressures at the last time."""
 
 from types import SimpleNamespace
 
@@ -9,13 +9,13 @@ from viscorough.viscous.integration.internal_variables import integrate_steps
 
 
 def stepped(indenter, medium, times, **load):
-    """Motion by implicit steps at these times under a `force` or at a `depth`; with `contact_count` and `pressure`."""
+    """Return the motion by implicit steps under a `force` or at a `depth`, with `contact_count` and `pressure`."""
     motion, pressure = integrate_steps(indenter, medium, Load(times, **load))
     return _with_count(motion, indenter, pressure=pressure)
 
 
 def evented(indenter, medium, times, force, **options):
-    """Motion from contact event to contact event at these times, with `contact_count`."""
+    """Return the motion from contact event to contact event at these times, with `contact_count`."""
     return _with_count(march(indenter, Load(times, force=force), medium, method="events", **options), indenter)
 
 

@@ -20,7 +20,7 @@ MEDIA = SPRINGS_AND_DASHPOTS | {
 
 
 class Wrapped(Medium):
-    """A medium that is known by its creep compliance alone."""
+    """A medium that is given by its creep compliance alone."""
 
     def __init__(self, inner):
         self.inner = inner

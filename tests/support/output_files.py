@@ -1,18 +1,18 @@
-"""The tables of docs/output.md that describe NetCDF files."""
+"""Read the tables of docs/output.md that describe NetCDF files."""
 
 import re
 from typing import NamedTuple
 
 
 class Row(NamedTuple):
-    """What a row says of a file. dimensions, variables : names, in order"""
+    """Describe a file as a row of the table does. dimensions, variables : names, in order"""
 
     dimensions: list
     variables: list
 
 
 def documented(text):
-    """{text of the first column, without marks: Row} of the tables with the columns file, dimensions and variables."""
+    """Return {text of the first column, without marks: Row} of the tables with dimensions and variables."""
     rows = re.findall(r"^\| (`[^|]*) \| ([^|]*) \| ([^|]*) \|$", text, re.MULTILINE)
     return {file.replace("`", ""): Row(_names(dimensions), _names(names)) for file, dimensions, names in rows}
 

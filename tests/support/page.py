@@ -1,4 +1,4 @@
-"""The page of the results, parsed."""
+"""Parse the page of the results."""
 
 import re
 import shutil
@@ -6,12 +6,12 @@ import subprocess
 from html.parser import HTMLParser
 
 VOID = {"meta", "img", "br", "link", "input", "hr"}
-QUOTED = {"var", "i", "code", "cite", "details", "dl"}  # formulas, names and explanations, no findings
+QUOTED = {"var", "i", "code", "cite", "details", "dl"}  # formulas, names and explanations, which state no results
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
 
 def opened(path, *options):
-    """A page after its scripts have run in a browser that does not complain."""
+    """Return a page after its scripts have run in a browser without an error message."""
     options += (
         "--headless",
         "--no-sandbox",
@@ -26,10 +26,10 @@ def opened(path, *options):
 
 
 class Page(HTMLParser):
-    """What a page contains: elements with their attributes, ids, numbers by section, and texts outside of numbers.
+    """Collect the contents of a page.
 
-    elements : [(tag, attributes)]; numbers : [(section, attributes, text)]; texts : {section: text}, without what
-    stands in the elements `QUOTED`; text : all of it without styles and scripts
+    elements : [(tag, attributes)]; numbers : [(section, attributes, text)]; texts : {section: text outside of numbers},
+    without the contents of the elements `QUOTED`; text : the whole text without styles and scripts
     """
 
     def __init__(self, html):
@@ -70,7 +70,7 @@ class Page(HTMLParser):
 
 
 def number_in(text):
-    """The number that a text such as 0.397, 1.2×10⁻⁵ or 1.3 % stands for, and half a unit of its last digit."""
+    """Return the number in a text such as 0.397, 1.2×10⁻⁵ or 1.3 %, and half a unit of its last digit."""
     text = text.replace("−", "-")
     scale = 0.01 if text.endswith(" %") else 1.0
     text = text.removesuffix(" %")

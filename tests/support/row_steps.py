@@ -1,8 +1,8 @@
-"""A row of unilateral springs by the steps in time of `march`: the same step for each spring by itself.
+"""Move a row of unilateral springs by the steps in time of `march`; each spring takes the step by itself.
 
 Every spring with gap g and stiffness w has a deflection y, a force w φ and branches b with φ = G∞ y + Σ G_b w_b + η y'.
-The steps are those of viscorough.viscous.integration.internal_variables. The contact problem is solved by sorting: the
-springs with the smallest distance from the indenter are pressed.
+The steps are the same as in viscorough.viscous.integration.internal_variables. The contact problem is solved by
+sorting: the springs with the smallest distance from the indenter are pressed.
 """
 
 from types import SimpleNamespace
@@ -14,9 +14,9 @@ _ROUNDING = 1e-12
 
 
 def stepped_row(gaps, weights, relaxation, times, *, force=None, depth=None):
-    """Depth and force of the row at these times, from step to step; arrays of shape (times,).
+    """Return depth and force of the row at these times, from step to step; arrays of shape (times,).
 
-    gaps, weights : of the springs, shape (springs,); force or depth : at the times
+    gaps, weights : one value per spring, shape (springs,); force or depth : one value per time
     """
     by_depth, values = force is None, np.asarray(depth if force is None else force, float)
     viscosity, relaxed, moduli, own_times = relaxation
@@ -42,7 +42,7 @@ def stepped_row(gaps, weights, relaxation, times, *, force=None, depth=None):
             deflection = deflection + change
             closed = gaps + deflection - u <= _ROUNDING * (abs(u) + gaps)
             touching = closed & (touching | (pressure > _ROUNDING * stiffness * (abs(u) + gaps)))
-        else:  # a step of the depth away from the surface, or of the force, at which a dashpot does not move
+        else:  # a dashpot does not move in a step of the force, or of the depth away from the surface
             if by_depth and values[k] < u:
                 touching = np.zeros_like(touching)
             u = values[k] if by_depth else u
@@ -55,7 +55,7 @@ def stepped_row(gaps, weights, relaxation, times, *, force=None, depth=None):
 
 
 def _depth(heights, stiffness, force):
-    """The u with Σ stiffness (u − height)₊ = force; the lowest height without a force."""
+    """Return the u with Σ stiffness (u − height)₊ = force; the lowest height without a force."""
     order = np.argsort(heights, kind="stable")
     heights, sums = heights[order], np.cumsum(stiffness[order])
     moments = np.cumsum(stiffness[order] * heights)

@@ -1,11 +1,11 @@
 """Motion of an indenter of a few elements in a viscoelastic half-space, by sums over the whole past.
 
-It shares no code with the package, so that it can serve as a check of it. With the influence matrix S of the surface,
+It shares no code with the package, so it is an independent check. With the influence matrix S of the surface,
 w = S y, every element follows p = ∫ψ(t − s) dy(s). Steps in time make the assumptions of march_medium:
 
 - Without a parallel dashpot y is linear within a step, so that p_n = Σ_m ψ̄_nm (y_m − y_{m−1}), with ψ̄_nm the mean of ψ
   over the lags of step m.
-- With one, p is constant within a step, so that y_n = Σ_m (J(t_n − t_{m−1}) − J(t_n − t_m)) p_m.
+- With a parallel dashpot p is constant within a step, so that y_n = Σ_m (J(t_n − t_{m−1}) − J(t_n − t_m)) p_m.
 
 Either way y_n = y_free + a p_n, and step n is a complementarity problem: p ≥ 0, gap ≥ 0 and p · gap = 0, with the gap
 g + S y − u at the end of the step. It is solved by non-negative least squares.
@@ -19,7 +19,7 @@ from scipy.special import exprel
 
 from support.dense_contact import influence_matrix
 
-_ROUNDING = 1e-12  # of gaps, relative to the initial gap, the depth, and the largest displacement so far
+_ROUNDING = 1e-12  # rounding error of gaps, relative to the initial gap, the depth, and the largest displacement so far
 
 
 @dataclass(frozen=True)
@@ -32,14 +32,14 @@ class SpringsAndDashpots:
     times: tuple = ()
 
     def mean_modulus(self, lag, length):
-        """Mean of ψ from a lag on over a length, and ψ itself for length 0; without η; arrays of any shape."""
+        """Return the mean of ψ without η over an interval that starts at a lag; ψ itself for length 0. Any shape."""
         mean = self.relaxed_modulus + 0 * lag
         for modulus, time in zip(self.moduli, self.times, strict=True):
             mean = mean + modulus * np.exp(-lag / time) * exprel(-length / time)
         return mean
 
     def creep(self, lag, length):
-        """Increase of J from a lag on over a length, of a dashpot with or without a spring; arrays of any shape."""
+        """Return the increase of J over an interval from a lag on, of a dashpot with or without a spring. Any shape."""
         rate = self.relaxed_modulus / self.viscosity
         return np.exp(-lag * rate) * length * exprel(-length * rate) / self.viscosity
 
@@ -56,7 +56,7 @@ class SmallMotion:
 
 
 def half_space(heights, spacing):
-    """Initial gaps and S of the elements of a map, which are its entries that are not nan, for forces on elements.
+    """Return initial gaps and S, for forces on elements, of the elements of a map (its entries that are not nan).
 
     spacing : dx and dy
     """
@@ -67,18 +67,18 @@ def half_space(heights, spacing):
 
 
 def row_of_springs(gaps, stiffnesses):
-    """Initial gaps and S of independent springs."""
+    """Return initial gaps and S of independent springs."""
     return gaps, np.diag(1 / stiffnesses)
 
 
 def small_motion(gap, matrix, medium, times, *, force=None, depth=None):
-    """SmallMotion of elements with these initial gaps and this S, under a force or at a depth.
+    """Return the SmallMotion of elements with these initial gaps and this S, under a force or at a depth.
 
     matrix : S of w = S y, for loads per element; medium : SpringsAndDashpots
 
     A step that presses an element brings it into contact; it leaves when its gap opens. Under no force the indenter
     rests on the surface, and the contact stays only if all its elements still touch. With a parallel dashpot
-    the loads are those just after a step of the force, and under a prescribed depth those just before each time.
+    the loads hold just after a step of the force, and just before each time under a prescribed depth.
     """
     by_depth, load = force is None, depth if force is None else force
     lengths, count = np.diff(times, prepend=times[0]), gap.size
@@ -135,10 +135,10 @@ def small_motion(gap, matrix, medium, times, *, force=None, depth=None):
 
 
 def _pressures(matrix, gap):
-    """p ≥ 0 with gap + S p ≥ 0 and one of them zero at every element.
+    """Return p ≥ 0 with gap + S p ≥ 0, such that p or the gap is zero at every element.
 
     With S = R Rᵀ this is the least-squares problem |Rᵀ p + R⁻¹ gap| with p ≥ 0. Its active set is solved once more.
-    An element whose gap is open without any pressure is never in contact, because all S are positive.
+    An element with an open gap at zero pressure is never in contact, because all S are positive.
     """
     p, near = np.zeros(gap.size), np.flatnonzero(gap < 0)
     if not near.size:
@@ -153,7 +153,7 @@ def _pressures(matrix, gap):
 
 
 def _depth_and_pressures(matrix, free, total):
-    """Depth u and pressures p of the complementarity problem with the gap free + S p − u and Σp = total.
+    """Solve the complementarity problem with the gap free + S p − u and Σp = total for depth u and pressures p.
 
     Σp is a convex function of u, straight between contact events: Newton's method from above ends at the solution.
     """

@@ -1,4 +1,4 @@
-"""Ensembles of known curves, and the evidence and conventions by which claims are judged."""
+"""Ensembles of given curves, and the evidence and conventions by which claims are judged."""
 
 from dataclasses import replace
 from functools import cache
@@ -25,7 +25,7 @@ SHOWN = {"average": "geometric", "rms_convention": "disc", "window_rule": "defau
 LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8, "slope_half_width": 0.25}
 LIMITS |= {"fraction_min": 0.95, "decades_min": 0.5}
 RULES = {"decades_min": 2.0, "end_decades": 0.25}
-GRIDS = [  # κ at u/h = 1 of three Hurst exponents, on two grids with enough elements in contact, and vt/h of one
+GRIDS = [  # κ at u/h = 1 of three Hurst exponents, on two grids with enough elements in contact; vt/h of one of them
     {"hurst": hurst, "quantity": quantity, "across": across, "value": value, "compared": int(across > 33)}
     | three_columns("factor", factor)
     for hurst, quantity, factor in (
@@ -55,9 +55,10 @@ ACROSS, ELEMENTS = 257, 51433
 
 
 def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
-    """Discs with κ = ζ X^α from one element in contact to complete contact; with h of the square, ζ is `square` ζ.
+    """Make discs with κ = ζ X^α from one element in contact to complete contact.
 
-    bent : added to α; scatter : standard deviation of ln ζ over 20 realizations
+    square : factor on ζ in the convention with h of the square; bent : added to α; scatter : standard deviation of ln ζ
+    over 20 realizations
     """
     random = np.random.default_rng([seed, round(hurst * 1e6)])
     alpha = reference.exponent_alpha(hurst) + bent
@@ -69,7 +70,7 @@ def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
 
 
 def pool_of(members, group="base"):
-    """Pool of ensembles, each of one case, without their averages."""
+    """Join ensembles, each of one case, to a pool without averages."""
     parts = []
     for member in members:
         coords = {name: member[name].item() for name in REALIZATION_COORDINATES if name != "group"} | {"group": group}
@@ -80,9 +81,10 @@ def pool_of(members, group="base"):
 
 
 def evidence(zeta=reference.zeta_elastic, **options):
-    """Evidence of four combinations and three Hurst exponents, with lines that equal the first combination.
+    """Make evidence of four combinations and three Hurst exponents, with lines that equal the first combination.
 
-    zeta : function of H; options : of ensemble. A copy that may be changed; the same evidence is made once.
+    zeta : function of H; options : as in `ensemble`. The caller may change the returned copy; the same evidence is made
+    once.
     """
     made = _evidence(zeta, **options)
     return replace(made, discs=made.discs.copy(deep=True), tables={name: t.copy() for name, t in made.tables.items()})
@@ -91,7 +93,7 @@ def evidence(zeta=reference.zeta_elastic, **options):
 @cache
 def _evidence(zeta, **options):
     members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
-    discs, lines = pool_of(members), pool_of(4 * members[::4])  # as many as the paper averages at least
+    discs, lines = pool_of(members), pool_of(4 * members[::4])  # at least as many as the paper averages
     lines = lines.sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
     scaling = scaling_table(discs, lines, **BOOTSTRAP, stiffness_range=[0.03, 0.3], **LIMITS)
     plateaus = pd.DataFrame({"hurst": HURST} | three_columns("decades", (2.4, 2.2, 2.6)))
@@ -109,25 +111,26 @@ def _evidence(zeta, **options):
         **mdr_tables(),
     )
     laws = zeta_laws(evidence.pooled, evidence.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
-    return replace(evidence, tables=evidence.tables | {"zeta_laws": laws})  # which has not pooled the discs yet
+    return replace(evidence, tables=evidence.tables | {"zeta_laws": laws})  # the evidence has not pooled the discs yet
 
 
 def evidence_of(discs, **tables):
-    """Evidence of a pool of discs and these tables."""
+    """Make evidence of a pool of discs and these tables."""
     rules = {"limits": LIMITS, "rules": RULES, "surfaces": ["base"], **BOOTSTRAP}
     return Evidence(discs=discs, tables=tables, numbers=NUMBERS, conventions=SHOWN, across=ACROSS, **rules)
 
 
 def evidence_of_curves(stiffness, count):
-    """Evidence of discs of one Hurst exponent with these κ and elements in contact, shape (realizations, abscissae)."""
+    """Make evidence of discs of one H with these κ and elements in contact, shape (realizations, abscissae)."""
     return evidence_of(pool_of([ensemble_of(X, stiffness, count, elements=ELEMENTS)]))
 
 
 def evidence_with_factors(scatter):
-    """Evidence of 80 discs of each Hurst exponent, κ of which has factors that are the same ones at every H.
+    """Make evidence of 80 discs of each Hurst exponent, with the same random factors on κ at every H.
 
-    scatter : standard deviation of their logarithms, which have the mean 0
-    Where Hurst exponents share the draws of a bootstrap, all their means move by the same factor.
+    scatter : standard deviation of the factors' logarithms, which have the mean 0
+
+    If Hurst exponents shared the draws of a bootstrap, all their means would move by the same factor.
     """
     normal = np.random.default_rng(9).standard_normal(80)
     factors = np.exp(scatter * (normal - normal.mean()) / normal.std(ddof=1)).reshape(4, 20, 1)
@@ -139,9 +142,9 @@ def evidence_with_factors(scatter):
 
 
 def mdr_tables(drift=1.0, ratio=1.0):
-    """Tables of lines against discs, of narrow intervals: λ drifts by a factor, and ratios of all quantities are equal.
+    """Make tables of lines against discs with narrow intervals, in which λ drifts by a factor.
 
-    ratio : of contact fraction and gap; the factor between single stiffnesses, too
+    ratio : ratio of contact fractions and of gaps; also the factor between single stiffnesses
     """
 
     def interval(name, value, half):
@@ -162,15 +165,17 @@ def mdr_tables(drift=1.0, ratio=1.0):
 
 
 def three_regions(x):
-    """κ at X: (a) one element of a million, (b) 1.2 X^0.6, (c) 1."""
+    """Return κ at X of a curve with regions (a), one element of a million, (b), 1.2 X^0.6, and (c), 1."""
     return np.clip(1.2 * x**0.6, 1e-6, 1)
 
 
 def ensemble_of(x, stiffness, count=None, *, conventions=("disc",), **coords):
-    """Ensemble dataset of these curves; unless they are given, κ N of N elements are in contact.
+    """Make an ensemble dataset of these curves.
 
     x : X, shape (abscissae,); stiffness : κ, shape (conventions, realizations, abscissae), the first axes optional
-    count : elements in contact; conventions : of the rms height; coords : hurst, case, elements
+
+    count : elements in contact, by default κ N of N elements; conventions : names of the rms heights; coords : hurst,
+    case, elements
     """
     stiffness = np.array(stiffness, ndmin=3)
     coords = {"hurst": 0.7, "case": "c", "elements": 10**6} | coords
@@ -181,7 +186,10 @@ def ensemble_of(x, stiffness, count=None, *, conventions=("disc",), **coords):
 
 
 def line_curve(gaps, length=1.0, levels=None):
-    """Exact curve of N springs, every event a level, and one level beyond: F/G = 4 Δx Σ(u−g)₊, k/G = 4 Δx number."""
+    """Return the exact curve of N springs: every event is a level, and one level follows.
+
+    F/G = 4 Δx Σ(u−g)₊, k/G = 4 Δx number.
+    """
     gaps = np.sort(np.asarray(gaps, dtype=float))
     spacing = length / gaps.size
     depth = np.append(gaps[1:], 3 * gaps[-1])
@@ -193,6 +201,6 @@ def line_curve(gaps, length=1.0, levels=None):
 
 
 def aggregate(curves, rms, diameter, x, *, hurst, case):
-    """Ensemble dataset of the loading curves of one case; arguments as in on_abscissae."""
+    """Make an ensemble dataset of the loading curves of one case; arguments as in on_abscissae."""
     coords = {"hurst": hurst, "case": case, "elements": curves[0].elements}
     return ensemble_of(np.asarray(x, dtype=float), *on_abscissae(curves, rms, diameter, x), conventions=rms, **coords)

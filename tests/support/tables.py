@@ -1,4 +1,4 @@
-"""Tables that the command line writes."""
+"""Read tables that the command line writes."""
 
 import re
 
@@ -6,7 +6,7 @@ import pandas as pd
 
 
 def read_table(path):
-    """(columns by their names without units, {name: unit}) of a table; columns without a unit have the unit 1."""
+    """Return (columns by names without units, {name: unit}) of a table; columns without a unit have the unit 1."""
     table = pd.read_csv(path, comment="#")
     units = {name: unit or "1" for name, unit in (re.fullmatch(r"(\w+)(?: \((.*)\))?", t).groups() for t in table)}
     return table.set_axis([*units], axis=1), units

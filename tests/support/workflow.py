@@ -1,4 +1,4 @@
-"""Copies of the project, Snakemake runs in them, and their plans."""
+"""Copy the project, run Snakemake in the copies, and read its plans."""
 
 import fcntl
 import importlib.util
@@ -20,24 +20,29 @@ ROOT = Path(__file__).resolve().parents[2]
 TEST = ("--configfile", "config/test.yaml")
 RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="utf-8"))
 TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, table in rule["tables"].items()}
-FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
-HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
+FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their file names
+HANGS = 3000  # seconds after which a run counts as hanging: ten times the longest run on a busy machine
 TARGETS = {"all", "article", "curves", "figures", "tables", "validation", "speed", "stability", "sizes"}
 TARGETS |= {"costs", "measured", *(f"figure_{number}" for number in range(1, 5))}
 
 
 def copy_project(folder):
-    """A copy of the workflow, so that tests can run, edit and break it; it uses the packages of this project."""
+    """Copy the workflow, so that tests can run, edit and break it. The copy uses the packages of this project."""
     for name in ("workflow", "config", "profiles", "resources"):
         shutil.copytree(ROOT / name, folder / name)
     shutil.copytree(ROOT / "docs/results", folder / "docs/results")
-    for name in ("Snakefile", "CITATION.cff", "docs/claims.csv", "docs/rules.png"):  # the last ones for the page
+    for name in (
+        "Snakefile",
+        "CITATION.cff",
+        "docs/claims.csv",
+        "docs/rules.png",
+    ):  # the last two are needed by the page
         shutil.copy(ROOT / name, folder / name)
     return folder
 
 
 def copy_kernels(finished, folder):
-    """Let a project in which nothing has run yet know, from a finished one, that the solvers are compiled."""
+    """Copy the record that the solvers are compiled from a finished project to a new one."""
     (folder / ".snakemake").mkdir()
     shutil.copy(finished / ".snakemake/kernels", folder / ".snakemake")
 
@@ -48,7 +53,7 @@ def copy_sources(folder):
 
 
 def made_once(tmp_path_factory, name, make):
-    """A folder that the first test that needs it makes, in any process of the test session; tests must not change it.
+    """Return a folder that the first test that needs it makes, in any process of the session; tests must not change it.
 
     make : function of the new, empty folder
     """
@@ -67,9 +72,10 @@ def made_once(tmp_path_factory, name, make):
 
 
 def environment(folder, project=None):
-    """The variables of this process, with the packages of a project before the installed ones.
+    """Return the variables of this process, with the packages of a project before the installed ones.
 
     project : by default the copy, if it has packages, otherwise this project
+
     Python may keep compiled sources: otherwise every job of a copy would compile them again.
     """
     project = project or (folder if (folder / "src").is_dir() else ROOT)
@@ -77,9 +83,9 @@ def environment(folder, project=None):
     return kept | {"PYTHONPATH": str(project / "src")}
 
 
-# Every run is a copy of a process that has loaded Snakemake and what the packages of this project import. So are its
-# jobs, most of which take less time than these imports, but for the first one of each script: it shows that the script
-# works in a new process.
+# Every run is a fork of a process that has already loaded Snakemake and the imports of this project's packages. Jobs
+# are forks, too, since most of them take less time than these imports. Only the first job of each script runs in a new
+# process, which shows that the script works there.
 COPIES = multiprocessing.get_context("forkserver")
 PRELOADED = ["snakemake.cli", "snakemake.workflow", "snakemake.report.html_reporter", "smart_open", "nbformat"]
 PRELOADED += ["jsonschema", "netCDF4", "numba", "pandas", "xarray", "scipy.special", "scipy.optimize"]
@@ -88,7 +94,7 @@ COPIES.set_forkserver_preload(PRELOADED)
 
 
 def _enter(variables, folder, output):
-    """Take over the variables, the folder and the output of a process that was asked for this copy."""
+    """Take over the variables, the folder and the output of the process that requested this fork."""
     os.environ.clear()
     os.environ.update(variables)
     sys.path[:0] = os.environ["PYTHONPATH"].split(os.pathsep)
@@ -103,8 +109,9 @@ def _run_snakemake(arguments, variables, folder, output):
     sys.argv = ["snakemake", *arguments]
     python = importlib.import_module("snakemake.script").PythonScript
     in_new_process, scripts = python.execute_script, set()
-    # Snakemake runs each job in a thread. A process can be asked only once for its exit code, and starting one asks all
-    # that have ended: a thread that joined its own at that moment would be told 255.
+    # Snakemake runs each job in a thread. The exit code of a process can be read only once, and starting a process
+    # reads the exit codes of all ended ones. Without the lock, a thread that joins its process at that moment would get
+    # 255.
     one_thread = threading.Lock()
 
     def execute_script(self, path, edit=False):
@@ -136,9 +143,9 @@ def _run_job(path, *surroundings):
 
 
 def snakemake(folder, *arguments, fails=False, cores=2, project=None):
-    """Run Snakemake in a copy of the project; stdout and stderr together.
+    """Run Snakemake in a copy of the project, and return stdout and stderr together.
 
-    cores : None leaves --cores out; project : of `environment`
+    cores : None leaves --cores out; project : as in `environment`
     """
     number = () if cores is None else ("--cores", cores)
     with tempfile.NamedTemporaryFile("r") as output:
@@ -153,7 +160,7 @@ def snakemake(folder, *arguments, fails=False, cores=2, project=None):
 
 
 def jobs(text):
-    """{rule: number of jobs} of a dry run's output, without the target rules."""
+    """Return {rule: number of jobs} of a dry run's output, without the target rules."""
     table = re.search(r"Job stats:\n.*\n-.*\n(?P<rows>(?:\w+ +\d+\n)+)", text)
     if table is None:
         assert "Nothing to be done" in text
@@ -163,7 +170,7 @@ def jobs(text):
 
 
 def plan(folder, *arguments):
-    """{rule: number of jobs} that a run would have."""
+    """Return {rule: number of jobs} that a run would have."""
     return jobs(snakemake(folder, "--dry-run", *arguments))
 
 
@@ -181,7 +188,7 @@ def load_script(name):
 
 
 def merged(base, extra):
-    """Settings overridden by those of a --configfile: mappings are merged, everything else is replaced."""
+    """Return settings overridden by a --configfile: mappings are merged, everything else is replaced."""
     if not (isinstance(base, dict) and isinstance(extra, dict)):
         return extra
     return base | {key: merged(base.get(key), value) for key, value in extra.items()}

@@ -1,4 +1,4 @@
-"""Numbers that public functions are given: of any real type and unit they count as plain floats, others are refused."""
+"""Numbers in arguments of public functions: any real type and unit counts as plain floats, all else is refused."""
 
 import dataclasses
 import inspect
@@ -17,13 +17,13 @@ from viscorough import reference
 from viscorough.viscous.integration.events import march_events
 
 UREG = pint.UnitRegistry()
-# Numbers of the calls are sums of few powers of two, so that single and half precision hold them exactly.
+# Numbers of the calls are sums of few powers of two, so single and half precision hold them exactly.
 HEIGHTS = np.array([[0.0, -0.5, -0.25], [-1.0, -0.125, -2.0], [-0.75, -1.5, -0.5]])
 DISC = viscorough.Indenter(HEIGHTS, 1.0, length_unit="um")
 LINE = viscorough.Indenter(HEIGHTS[0], 1.0, length_unit="um")
 CURVE = viscorough.indent(DISC, until_fraction=1.0)
 SOLID = viscorough.StandardLinearSolid(2.0**16, 2.0**14, 0.5)
-FORCES = [2.0**-24, 2.0**-23]  # N; with moduli of 10 kPa F/G is some µm²
+FORCES = [2.0**-24, 2.0**-23]  # N; with moduli of 10 kPa, F/G is some µm²
 RECORD = viscorough.kinetics(CURVE, FORCES[0], SOLID, np.arange(1.0, 7.0))
 DEPTHS = RECORD.depth.astype(np.float16).tolist()
 POINTS = [0.0, 0.5, 1.0, 2.0, 4.0]
@@ -31,7 +31,7 @@ POINTS = [0.0, 0.5, 1.0, 2.0, 4.0]
 
 @dataclasses.dataclass(frozen=True)
 class Call:
-    """A valid call: arguments that hold numbers, with values and units (None: there is no unit), and all others."""
+    """A valid call: arguments with numbers, as values and units (None: no unit), and all other arguments."""
 
     function: object
     numbers: dict
@@ -276,12 +276,12 @@ CALLS = {
         )
     ],
 }
-# Arguments that hold no numbers and are not needed for the calls.
+# Arguments without numbers that the calls do not need.
 OPTIONAL = {
     *("progress", "options", "precision", "padding", "length_unit", "corners", "amplitudes", "rms_over", "dtype"),
     *("detrend", "fill", "flip", "kind", "scheme", "medium", "method", "load", "estimate_grid_error"),
 }
-# Public names without numbers among their arguments, and functions of files, whose numbers test_heights.py covers.
+# Public names without numbers among their arguments, and functions of files (test_heights.py covers their numbers).
 WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "Medium", "reference", "read_medium"}
 WITHOUT_NUMBERS |= {"load_curve", "save", "plot", "read_heights", "read_line"}
 METHODS = {
@@ -311,7 +311,7 @@ LAWS = {
     "zeta_elastic": {"hurst": 0.5},
     "zeta_viscous": {"hurst": 0.5},
 }
-# Functions in which nan is a number that is not known.
+# Functions in which nan is an unknown number.
 FORMULAS = [getattr(reference, name) for name in ("depth_law", "exponent_alpha", "exponent_beta", "line_spectrum")]
 FORMULAS += [getattr(reference, name) for name in ("rate_law", "velocity_law", "zeta_elastic", "zeta_viscous")]
 ALL = {f"{name}_{i}": each for name, calls in CALLS.items() for i, each in enumerate(calls)} | METHODS
@@ -343,7 +343,7 @@ WRONG = {
 
 
 def assert_same(one, other):
-    """Assert that two results hold the same numbers, up to the rounding of units."""
+    """Require that two results hold the same numbers, up to the rounding of units."""
     if dataclasses.is_dataclass(one):
         assert type(one) is type(other)
         for field in dataclasses.fields(one):
@@ -403,7 +403,7 @@ def test_real_numbers_of_every_type_count_as_floats(each, name):
 
 @pytest.mark.parametrize("wrong", WRONG)
 @pytest.mark.parametrize(("each", "name"), CASES)
-def test_everything_else_is_refused_in_one_line(each, name, wrong):
+def test_other_arguments_are_refused_in_one_line(each, name, wrong):
     value = each.numbers[name][0]
     given = [WRONG[wrong]]
     if isinstance(value, list):
@@ -417,13 +417,14 @@ def test_everything_else_is_refused_in_one_line(each, name, wrong):
 
 
 def is_allowed(each, name, wrong):
-    """Whether a value is not wrong for this argument."""
+    """Return True if the value is allowed for this argument."""
     if wrong in ("huge", "more digits than Python writes"):
         return name == "seed"
-    # Points outside a map and values that are not known; marks of missing points; forces beyond a curve.
+    # Allowed nan: points outside a map, unknown values, marks of missing points, and forces beyond a curve.
     may_be_nan = {"nodata", "heights", "pressure", "gap", "compliance", "low", "high", "time", "scatter", "misfit"}
     if each.function in (*FORMULAS, viscorough.Motion):
-        # A formula of nan is nan. A motion has nan where the curve is not known, and infinite velocities of springpots.
+        # A formula of nan is nan. A motion has nan where the curve is undetermined, and springpots have infinite
+        # velocities.
         return wrong in ("nan", "infinite")
     return wrong in ("nan", "infinite") and (name in may_be_nan or each in (METHODS["at_force"], METHODS["at_depth"]))
 
@@ -446,7 +447,7 @@ def test_quantities_with_a_unit_are_converted(each, name):
 @pytest.mark.parametrize(
     ("each", "name"), [case for case in CASES if case.values[0].numbers[case.values[1]][1] is None]
 )
-def test_numbers_without_a_unit_are_no_quantities(each, name):
+def test_quantities_are_refused_for_numbers_without_a_unit(each, name):
     value = each.numbers[name][0]
     for unit in ("mN", "ms", "um", "percent"):
         with pytest.raises((ValueError, TypeError), match=r"^[^\n]*$"):
@@ -458,7 +459,7 @@ INDENTERS = [name for name, calls in CALLS.items() if {"indenter", "line", "surf
 
 @pytest.mark.parametrize("wrong", ["heights.npy", Path("curve.nc"), HEIGHTS, None, 3.0, DISC, LINE, CURVE], ids=repr)
 @pytest.mark.parametrize("name", INDENTERS)
-def test_a_path_or_an_array_is_no_indenter_and_no_curve(name, wrong):
+def test_paths_and_arrays_are_refused_as_indenters_and_curves(name, wrong):
     each = CALLS[name][0]
     (argument,) = {"indenter", "line", "surface", "curve"} & set(each.others)
     if type(wrong) is type(each.others[argument]) and (name == "complete_contact" or wrong is each.others[argument]):
@@ -472,7 +473,7 @@ def test_a_path_or_an_array_is_no_indenter_and_no_curve(name, wrong):
 @pytest.mark.parametrize(
     "name", [name for name, calls in CALLS.items() if "medium" in calls[0].others | calls[0].numbers]
 )
-def test_what_is_no_medium_is_refused(name, wrong):
+def test_wrong_media_are_refused(name, wrong):
     if name == "IdentifiedMedium":
         return
     with pytest.raises((TypeError, ValueError)) as error:
@@ -482,11 +483,11 @@ def test_what_is_no_medium_is_refused(name, wrong):
 
 @pytest.mark.parametrize("options", [{}, {"precision": "double"}, 1e-3, "single"], ids=repr)
 @pytest.mark.parametrize("name", ["indent", "contact_at", "audit"])
-def test_other_options_than_solver_options_are_refused(name, options):
+def test_wrong_types_of_options_are_refused(name, options):
     with pytest.raises(TypeError, match="SolverOptions"):
         CALLS[name][0].result(options=options)
 
 
-def test_never_is_a_force_that_is_not_reached():
+def test_infinite_force_means_that_no_force_ends_the_curve():
     indent = partial(viscorough.indent, DISC, until_fraction=0.5)
     assert indent(until_force=np.float32(np.inf)) == indent(until_force=float("inf")) == indent()

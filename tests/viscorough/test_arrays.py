@@ -1,4 +1,4 @@
-"""Arrays that objects keep: nobody changes them from outside, and masks are not lost."""
+"""Arrays that objects keep: they cannot be changed from outside, and masks are not lost."""
 
 import numpy as np
 import pytest
@@ -13,14 +13,14 @@ HILL = Indenter([[0.0, 1.0], [0.5, 0.2]], 1.0)
 
 
 @pytest.mark.parametrize("values", [np.arange(6.0)[::2], (1, 2), np.broadcast_to(1.0, 3)], ids=repr)
-def test_values_are_copied(values):
+def test_arrays_are_copied(values):
     kept = read_only(values)
     np.testing.assert_array_equal(kept, values)
     assert not kept.flags.writeable
     assert not np.shares_memory(kept, values)
 
 
-def test_only_what_nobody_can_change_is_not_copied():
+def test_only_immutable_arrays_are_not_copied():
     array = np.arange(3.0)
     view = array[1:]
     view.flags.writeable = False

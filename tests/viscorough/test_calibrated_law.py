@@ -1,4 +1,4 @@
-"""The recommended penetration law: its numbers, its formula and its range, and that they come from tables of fits."""
+"""The recommended penetration law: its numbers, their origin in tables of fits, its formula and its range."""
 
 import numpy as np
 import pandas as pd
@@ -21,7 +21,7 @@ LAW = (0.7, 0.35, 4.0, 2.0, 60.0)  # amplitude, exponent, bend, fall, cutoff
 
 
 def test_interface_has_its_limits():
-    """One element at first, then a power law, and nothing in the end."""
+    """One element touches at first; a power law follows; the interface ends in complete contact."""
     x = np.geomspace(1e-12, 1e4, 400)
     values = interface_velocity(x, *LAW)
     assert values[0] / x[0] + 1 == pytest.approx(1 / one_element_stiffness(257), rel=1e-4)
@@ -29,7 +29,7 @@ def test_interface_has_its_limits():
     assert np.log(far[1] / far[0]) / np.log(10) == pytest.approx(LAW[1], rel=1e-4)
     assert values[-1] < 1e-16 * x[-1] ** 2
     assert (np.diff(x + values) > 0).all()
-    # Where region (a) hardly matters.
+    # At this X region (a) has almost no effect.
     assert interface_velocity(4.0, *LAW) == pytest.approx(0.7 * 4**0.35 / 4 / (1 + 1 / 225) ** 4, rel=1e-3)
 
 
@@ -42,7 +42,7 @@ def test_depth_of_the_interface_is_its_integral(x):
 # ---- the law
 
 
-def test_numbers_are_the_calibrated_ones():
+def test_numbers_agree_with_the_tables_of_the_calibration():
     table, beyond = calibrated_law.calibration(), calibrated_law.interface_calibration()
     assert set(table) == set(calibrated_law.COLUMNS) - {"source"}
     assert table["hurst"].tolist() == beyond["hurst"].tolist() == HURST
@@ -63,7 +63,7 @@ def test_numbers_are_the_calibrated_ones():
         assert law.velocity(1.0) == pytest.approx(1 + interface_velocity(1.0, *(row[name] for name in CONSTANTS)))
 
 
-def test_law_has_both_integrals_and_holds_where_it_must_to_what_it_must():
+def test_law_has_both_integrals_and_the_required_accuracy():
     assert (TABLE["deviation"] <= LARGEST_DEVIATION).all()
     assert (TABLE["x_low"] < 1).all()
     assert (TABLE["x_high"] > 1).all()
@@ -75,7 +75,7 @@ def test_law_has_both_integrals_and_holds_where_it_must_to_what_it_must():
 
 
 def test_power_law_and_law_agree_in_region_b():
-    """The power law is a straight line through geometric means; arithmetic ones are larger by what the table says."""
+    """The power law is a line through geometric means; arithmetic means are larger by `geometric_velocity`."""
     table = TABLE.query("across == 257").set_index("hurst")
     for hurst in HURST:
         law = viscorough.penetration_law(hurst)
@@ -86,7 +86,7 @@ def test_power_law_and_law_agree_in_region_b():
         assert (ratio < 1.04).all()
 
 
-def test_interpolation_between_calibrated_exponents():
+def test_numbers_are_interpolated_between_calibrated_exponents():
     law, low, high = (viscorough.penetration_law(hurst) for hurst in (0.5, 0.4, 0.6))
     for name in ("beta", "zeta", "amplitude", "exponent", "fall", "velocity_error", "depth_error"):
         assert getattr(law, name) == pytest.approx((getattr(low, name) + getattr(high, name)) / 2)
@@ -105,8 +105,8 @@ def test_values_outside_the_calibrated_range_are_refused():
             viscorough.penetration_law(hurst)
 
 
-def test_depth_is_the_published_one():
-    """In region (b), β u/h over vt/h is the claim `depth`, which is measured without the law."""
+def test_depth_agrees_with_the_published_claim():
+    """In region (b), β u/h over vt/h is the claim `depth`, which was measured without the law."""
     claims = pd.read_csv(ROOT / "docs/claims.csv").query("claim == 'depth'")
     for row in claims.itertuples():
         law = viscorough.penetration_law(float(row.case.removeprefix("H = ")))

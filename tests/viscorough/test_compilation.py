@@ -21,7 +21,7 @@ def test_compiled_functions_of_other_packages_are_left_alone():
         assert (getattr(owned.compile, "__func__", None) is numba.core.dispatcher.Dispatcher.compile) == original
 
 
-def test_functions_run_where_numba_is_disabled():
+def test_functions_run_if_numba_is_disabled():
     script = "from viscorough.compilation import njit; assert njit(fastmath=True)(lambda x: x + 1)(1.0) == 2"
     assert python("-c", script, NUMBA_DISABLE_JIT="1").stderr == ""
 
@@ -31,13 +31,13 @@ import numpy as np, viscorough
 line = viscorough.Indenter(np.array([0.0, 1.0, 0.5]), 1.0)
 print(viscorough.reduce(line).force[-1])
 """
-# The only folder that numba then considers lies below a file: nobody can write there, not even root.
+# The only folder that numba considers then is below a file, so nobody can write there, not even root.
 NOWHERE = {"NUMBA_CACHE_LOCATOR_CLASSES": "UserProvidedCacheLocator", "NUMBA_CACHE_DIR": f"{__file__}/cache"}
 NO_ROOM = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))"
 
 
 @pytest.mark.parametrize("before", ["", NO_ROOM], ids=["no folder", "full disk"])
-def test_where_compiled_code_cannot_be_kept_one_line_says_so(before, tmp_path):
+def test_unwritable_cache_is_reported_in_one_line(before, tmp_path):
     done = python("-c", before + SPHERE, **({"NUMBA_CACHE_DIR": str(tmp_path)} if before else NOWHERE))
     assert float(done.stdout) > 0
     assert len(done.stderr.splitlines()) == 1, done.stderr
@@ -46,7 +46,7 @@ def test_where_compiled_code_cannot_be_kept_one_line_says_so(before, tmp_path):
 
 
 class Interrupt(event.Listener):
-    """Interrupts this process whenever numba starts to compile a function."""
+    """Interrupt this process whenever numba starts to compile a function."""
 
     def on_start(self, event):
         os.kill(os.getpid(), signal.SIGINT)
@@ -57,14 +57,14 @@ class Interrupt(event.Listener):
 
 @pytest.fixture
 def interrupts_raise():
-    """SIGINT raises KeyboardInterrupt, also where the tests were started in the background, which ignores it."""
+    """Let SIGINT raise KeyboardInterrupt, also in a background process, which ignores it by default."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
 
 
 def test_interrupt_waits_for_the_compiler(interrupts_raise):
-    function = njit(eval("lambda x: x + 1"))  # without a source file, so that it is not loaded from a cache
+    function = njit(eval("lambda x: x + 1"))  # without a source file, so it is not loaded from a cache
     with pytest.raises(KeyboardInterrupt), event.install_listener("numba:compile", Interrupt()):
         function(1.0)
     assert len(function.signatures) == 1, "compiled to the end"
@@ -72,7 +72,7 @@ def test_interrupt_waits_for_the_compiler(interrupts_raise):
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_who_waits_at_a_terminal_is_told(tmp_path):
+def test_compilation_is_announced_on_terminals(tmp_path):
     (tmp_path / "script.py").write_text(
         "import sys\n"
         "sys.stderr.isatty = lambda: True\n"

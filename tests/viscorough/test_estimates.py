@@ -1,4 +1,4 @@
-"""Estimates by the penetration law: against simulations, for any medium, and where the law does not hold."""
+"""Estimates by the penetration law: against simulations, for any medium, and outside the range of the law."""
 
 import re
 
@@ -16,8 +16,8 @@ LAW = viscorough.penetration_law(0.6)
 
 @pytest.mark.parametrize("hurst", [0.7, 1.0])
 def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
-    """Arithmetic mean over 24 discs of 129 elements across, most of which lie in the interval of a single surface."""
-    times = np.geomspace(5e-3, 3, 6)  # force over viscosity is PER_X, so that X = t
+    """The mean is arithmetic, over 24 discs of 129 elements across. Most discs lie in the interval of one surface."""
+    times = np.geomspace(5e-3, 3, 6)  # force over viscosity is PER_X, so X = t
     times = times[times >= viscorough.penetration_law(hurst).x_low]
     estimated = estimate(hurst, RMS, DIAMETER, PER_X, 1.0, times)
     motions = []
@@ -29,9 +29,9 @@ def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
     for i, name in enumerate(("velocity", "depth")):
         low, high = getattr(estimated, f"{name}_low"), getattr(estimated, f"{name}_high")
         single = np.array(motions)[:, i]
-        assert ((low <= single) & (single <= high)).mean() >= 0.85, name  # nominally 0.95
+        assert ((low <= single) & (single <= high)).mean() >= 0.85, name  # 0.95 expected
     velocity, depth = np.mean(motions, axis=0)
-    # Three standard errors of the mean.
+    # The limit is three standard errors of the mean.
     np.testing.assert_allclose(estimated.velocity, velocity, rtol=0.2)
     np.testing.assert_allclose(estimated.velocity[times > 0.5], velocity[times > 0.5], rtol=0.05)
     np.testing.assert_allclose(estimated.depth, depth, rtol=0.2)
@@ -54,7 +54,7 @@ def test_velocity_is_the_derivative_of_the_depth_in_any_medium(medium):
     assert estimated.velocity[1] == pytest.approx(np.gradient(estimated.depth, times)[1], rel=1e-6)
 
 
-def test_outside_of_its_range_the_law_gives_no_numbers():
+def test_law_gives_no_numbers_outside_its_range():
     estimated = estimate(0.6, RMS, DIAMETER, PER_X, 1.0, [0.9 * LAW.x_low, 1.0, 1.1 * LAW.x_high])
     assert estimated.where.tolist() == ["below", "", "above"]
     for name in ("depth", "depth_low", "depth_high", "velocity", "velocity_low", "velocity_high"):

@@ -1,4 +1,4 @@
-"""Packages that importing the library loads, its public names, and annotations."""
+"""Packages that importing the library loads, its public names, and its annotations."""
 
 import ast
 import json
@@ -18,7 +18,7 @@ STUDY_ONLY = ("matplotlib", "pandas", "snakemake", "viscorough_study", "xarray")
 
 
 def imported(script):
-    """Top-level packages that a script imports, as reported by Python."""
+    """Return the top-level packages that a script imports, as reported by Python."""
     lines = python("-X", "importtime", "-c", script).stderr.splitlines()
     return {line.rsplit("|", 1)[1].strip().split(".")[0] for line in lines if line.startswith("import time:")}
 
@@ -27,8 +27,8 @@ def test_package_imports_no_slow_package():
     assert not imported("import viscorough") & {*STUDY_ONLY, "numpy", "numba", "scipy", "netCDF4", "click"}
 
 
-def test_top_level_names_are_the_same_whatever_was_imported_before():
-    """A module of the same name, which becomes an attribute of the package when imported, would hide a function."""
+def test_top_level_names_do_not_depend_on_earlier_imports():
+    """Importing a module sets an attribute of the package, which would hide a public function of the same name."""
     script = textwrap.dedent("""
         import importlib, json, pkgutil, sys, viscorough
         if sys.argv[1:]:
@@ -50,7 +50,7 @@ def test_functions_that_messages_name_are_public():
     texts = [node.value for each in raised for node in ast.walk(each) if isinstance(node, ast.Constant)]
     named = {word for text in texts for word in re.findall(r"[a-z]+(?:_[a-z]+)+", str(text))} & functions
     assert "contact_at" in named
-    assert named - {"length_unit"} <= PUBLIC  # which is also the name of an argument
+    assert named - {"length_unit"} <= PUBLIC  # length_unit is also the name of an argument
 
 
 def test_unknown_names_are_refused():

@@ -1,4 +1,4 @@
-"""Rigid indenters: heights of any real type, copied and kept; masks; numbers that do not fit."""
+"""Rigid indenters: heights of any real type, copied and kept; masks; heights out of range."""
 
 import numpy as np
 import pytest
@@ -26,7 +26,7 @@ def test_rms_slope_and_element_of_a_plane():
     ("height", "spacing", "slope"), [(1e100, 1e-200, 1e300), (1e100, 1e-300, np.inf), (1e-221, 1.0, 1e-221)]
 )
 def test_rms_slope_is_exact_up_to_the_limits_of_double_precision(height, spacing, slope):
-    """Also where the squares of slopes overflow or vanish."""
+    """The squares of these slopes overflow or vanish."""
     assert Indenter(np.array([[0.0, height]]), spacing).rms_slope == pytest.approx(slope, rel=1e-12)
 
 
@@ -46,9 +46,9 @@ def test_spacings_and_units_out_of_range_are_refused():
 
 
 @pytest.mark.parametrize("dtype", [float, np.float32, int])
-def test_masked_heights_lie_outside_the_indenter(dtype):
+def test_masked_heights_are_outside_the_indenter(dtype):
     heights = np.ma.array([[1, 2], [3, 4]], mask=[[0, 1], [0, 0]], dtype=dtype)
-    heights.data[0, 1] = 2**60  # the fill value must neither become the peak nor be too large
+    heights.data[0, 1] = 2**60  # the fill value must neither become the peak nor be refused as too large
     indenter = Indenter(heights, 1.0, length_unit="um")
     assert indenter.elements == 3
     np.testing.assert_array_equal(indenter.initial_gap, [[3, np.nan], [1, 0]])
@@ -58,7 +58,7 @@ def test_masked_heights_lie_outside_the_indenter(dtype):
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float32])
 def test_gaps_are_computed_in_double_precision(dtype):
-    """1 and 1 + 1e-3 are neighbours of half precision; 2048 - 0.001 is no number of it."""
+    """1 and 1 + 1e-3 are neighbours in half precision, which cannot represent 2048 - 0.001."""
     heights = np.array([[2048, 0.001], [1, 1.001]]).astype(dtype)
     exact = 2048 - heights.astype(float)
     np.testing.assert_array_equal(Indenter(heights, 1.0).initial_gap, exact)
@@ -82,7 +82,7 @@ def test_gaps_are_computed_in_double_precision(dtype):
         (np.ma.array([1.0, 2.0], mask=[0, 1]), "must not be nan on a line"),
     ],
 )
-def test_heights_that_make_no_indenter_are_refused(heights, what):
+def test_invalid_heights_are_refused(heights, what):
     with refused(what):
         Indenter(heights, 1.0)
 
@@ -90,7 +90,7 @@ def test_heights_that_make_no_indenter_are_refused(heights, what):
 # ---- units, comparison and mistaken types
 
 
-def test_lengths_are_converted():
+def test_lengths_with_units_are_converted():
     indenter = Indenter([[0.0, 2.0], [1.0, np.nan]], (500.0, 250.0), length_unit="nm").to("m")
     np.testing.assert_allclose(indenter.heights, [[0, 2e-9], [1e-9, np.nan]], rtol=1e-15)
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((5e-7, 2.5e-7), rel=1e-15)
@@ -113,7 +113,7 @@ def test_indenters_and_curves_are_compared_by_their_numbers():
 
 
 @pytest.mark.parametrize("function", ["indent", "reduce", "prepare"])
-def test_arrays_are_no_indenters(function):
+def test_arrays_differ_from_indenters(function):
     with pytest.raises(TypeError, match=f"{function}: ndarray; an Indenter is needed, as viscorough.Indenter"):
         getattr(viscorough, function)(np.zeros((3, 3)))
     with pytest.raises(TypeError, match="ndarray is no result; an Indenter"):

@@ -1,4 +1,4 @@
-"""Random waves of lines: known answers of the generator, the formula in numpy, statistics of many waves."""
+"""Random waves of lines: published outputs of the generator, the formula in numpy, statistics of many waves."""
 
 import numpy as np
 from scipy import stats
@@ -11,8 +11,8 @@ KEY = key_of(np.random.SeedSequence(7))
 MANY = 2**18
 
 
-def test_known_answers():
-    """Of philox2x32 with ten rounds, from Random123's tests (tests/kat_vectors): counter (two words), key, answer."""
+def test_generator_gives_the_published_answers():
+    """The answers for philox2x32 with ten rounds are Random123's (tests/kat_vectors): counter, key, answer."""
     for counter, key, answer in (
         ((0, 0), 0, (0xFF1DAE59, 0x6CD10DF2)),
         ((0xFFFFFFFF, 0xFFFFFFFF), 0xFFFFFFFF, (0x2C3F628B, 0xAB4FD7AD)),
@@ -32,13 +32,13 @@ def test_waves_depend_on_their_number_and_key_alone():
     assert len(np.intersect1d(together, other)) == 0
 
 
-def test_realizations_of_the_study_have_keys_of_their_own():
+def test_realizations_of_the_study_have_different_keys():
     seeds = (realization_seed(2013, *line_key(0.5), number) for number in range(1000))
     assert len({tuple(key_of(seed)) for seed in seeds}) == 1000
 
 
 def test_coefficients_are_gaussian():
-    """Real and imaginary parts of many waves; a false alarm has a chance of 1e-4 or less at each line."""
+    """The test takes real and imaginary parts of many waves. Each line has a false alarm with a chance of 1e-4."""
     drawn = waves(1, KEY, np.ones(MANY), fixed=False)
     real, imag = drawn.real, drawn.imag
     normal = np.concatenate([real, imag])
@@ -49,8 +49,8 @@ def test_coefficients_are_gaussian():
         assert abs(np.mean(x * y)) < 5 * np.sqrt(np.var(x) * np.var(y) / x.size)
 
 
-def test_shortest_wave_has_the_mean_power_of_others():
-    """A cosine of modulus √2 A times a normal variate; A exactly, of random sign, if amplitudes are fixed."""
+def test_shortest_wave_has_the_same_mean_power_as_the_others():
+    """This wave is a cosine of modulus √2 A times a normal variate; with fixed amplitudes, A with a random sign."""
     keys = [key_of(np.random.SeedSequence(seed)) for seed in range(2000)]
     drawn = np.array([shortest_wave(8, key, 3.0, fixed=False) for key in keys])
     assert stats.kstest(drawn / (3 * np.sqrt(2)), "norm").pvalue > 1e-4

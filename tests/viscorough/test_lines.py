@@ -9,7 +9,7 @@ from viscorough.mdr import reduce, reduce_heights
 
 
 def by_numpy(points, hurst, seed, *, fixed):
-    """Heights of rms 1, in double precision."""
+    """Compute heights of rms 1 in double precision."""
     key = line_waves.key_of(np.random.SeedSequence(seed))
     wavenumber = np.arange(points // 2 + 1.0)
     amplitude = np.maximum(wavenumber, 1) ** -(hurst + 0.5)
@@ -22,11 +22,11 @@ def by_numpy(points, hurst, seed, *, fixed):
 
 
 @pytest.mark.parametrize("amplitudes", ["random", "fixed"])
-# the smallest, odd ones, twice a prime, the square of a prime, and several blocks of waves
+# The lengths are the smallest, odd numbers, twice a prime, the square of a prime, and several blocks of waves.
 @pytest.mark.parametrize(
     "points", [2, 3, 4, 6, 257, 1000, 2 * 1009, 101**2, 2**15, 2 * 3 * 7 * 11 * 13, 50_001, 2 * 99_991]
 )
-def test_lines_of_any_length_are_numpys(points, amplitudes):
+def test_lines_of_any_length_agree_with_numpy(points, amplitudes):
     exact = by_numpy(points, 0.6, 4, fixed=amplitudes == "fixed")
     for dtype, atol in ((np.float32, 4e-6), (np.float64, 1e-12)):
         heights = SelfAffineLines(0.6, points, amplitudes=amplitudes, dtype=dtype).heights(4)

@@ -1,4 +1,4 @@
-"""The loading curve between its levels: exact where it can be, confined by convexity elsewhere."""
+"""Interpolation between the levels of a loading curve: exact for some curves, bounded by convexity for all."""
 
 from types import SimpleNamespace
 
@@ -10,7 +10,7 @@ from viscorough import reference
 
 
 def springs(gaps, depths):
-    """The curve of independent springs of stiffness 1 with these gaps: convex, straight between contacts."""
+    """Return the curve of independent springs of stiffness 1 with these gaps: convex, straight between contacts."""
     loads = np.maximum(np.asarray(depths)[:, None] - gaps, 0)
     count = np.count_nonzero(np.asarray(depths)[:, None] > gaps, axis=1)
     return curve_of_levels(depths, loads.sum(axis=1), count, count)
@@ -29,7 +29,7 @@ def test_power_law_is_exact_between_two_levels(exponent):
 
 
 def test_one_joining_element_makes_two_tangents():
-    """Three springs, contacts at depths 1 and 3; levels anywhere, at most one contact event between two of them."""
+    """Three springs touch at depths 0, 1 and 3. At most one contact event lies between two levels."""
     gaps = np.array([0.0, 1.0, 3.0])
     curve = springs(gaps, [0.6, 1.1, 2.5, 3.7])
     depth = np.array([0.0, 0.1, 0.99, 1.01, 2.0, 2.99, 3.01, 3.7])
@@ -39,8 +39,8 @@ def test_one_joining_element_makes_two_tangents():
     np.testing.assert_array_equal(stiffness, [1, 1, 1, 2, 2, 2, 3, 3])
 
 
-def test_levels_many_decades_apart_are_exact_where_no_element_joins():
-    """Both tangents are the same line, but the one at the upper level cancels near the lower one."""
+def test_levels_decades_apart_are_exact_if_no_element_joins():
+    """Both tangents are the same line, but the tangent at the upper level loses all digits near the lower level."""
     gaps = np.array([0.0, 1e-16])
     for last in np.random.default_rng(1).uniform(0.5, 1.0, 100):
         curve = springs(gaps, [3e-16, last])
@@ -51,8 +51,8 @@ def test_levels_many_decades_apart_are_exact_where_no_element_joins():
         np.testing.assert_array_equal(stiffness, 2)
 
 
-def test_stiffness_at_a_level_is_that_of_the_level():
-    """A contact event is a level: the stiffness jumps there, and the curve stores the one beyond it."""
+def test_stiffness_at_a_level_is_the_stored_one():
+    """A contact event is a level. The stiffness jumps there, and the curve stores the stiffness beyond it."""
     gaps = np.array([0.0, 1.0, 3.0, 3.5])
     levels = springs(gaps, [1.0, 3.0, 3.5, 4.0])
     curve = curve_of_levels(levels.depth, levels.force, [2, 3, 4, 4], [2, 3, 4, 4])
@@ -63,7 +63,7 @@ def test_stiffness_at_a_level_is_that_of_the_level():
 
 @pytest.mark.parametrize("seed", range(6))
 def test_convexity_confines_coarse_levels(seed):
-    """The interpolant lies between chord and tangents and rises, however coarse the levels."""
+    """On levels of any distance, the interpolant rises and lies between chord and tangents."""
     random = np.random.default_rng(seed)
     gaps = np.sort(random.random(300) ** 3)
     gaps -= gaps[0]
@@ -86,7 +86,7 @@ def test_convexity_confines_coarse_levels(seed):
 
 
 def test_interpolation_of_a_smooth_curve_is_of_fourth_order():
-    """No power law, F = u² + u³: halving the levels' spacing in ln u gains 2⁴."""
+    """F = u² + u³ is no power law. Halving the spacing of the levels in ln u reduces the error by 2⁴."""
     force = np.polynomial.Polynomial([0, 0, 1, 1])
     body = SimpleNamespace(force=force, stiffness=force.deriv())
     depth, errors = np.geomspace(1e-2, 10, 3001), []
@@ -99,8 +99,8 @@ def test_interpolation_of_a_smooth_curve_is_of_fourth_order():
     assert errors[-1] < 1e-5
 
 
-def test_outside_the_levels():
-    """Beyond the last level the result is nan; below the first, too, unless the curve is a line through the origin."""
+def test_forces_outside_the_levels_give_nan():
+    """Beyond the last level the result is nan; also below the first, unless the curve is a line through the origin."""
     straight = springs(np.array([0.0, 0.5]), [0.2])
     depth, stiffness = straight.at_force(np.array([0.0, 0.1, 0.2, 0.2000001, -0.1, np.nan]))
     np.testing.assert_allclose(depth, [0, 0.1, 0.2, np.nan, np.nan, np.nan], rtol=1e-15)
@@ -126,7 +126,7 @@ def test_force_at_a_depth_is_exact_for_a_power_law(exponent):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_force_at_a_depth_inverts_depth_at_a_force(seed):
-    """On coarse levels, where the interpolant follows tangents and chords, and at the levels themselves."""
+    """On coarse levels the interpolant follows tangents and chords; the levels themselves are included."""
     random = np.random.default_rng(seed)
     gaps = np.sort(random.random(300) ** 3)
     curve = springs(gaps - gaps[0], np.sort(random.uniform(0.01, 1.2, 4)))
@@ -137,7 +137,7 @@ def test_force_at_a_depth_inverts_depth_at_a_force(seed):
     np.testing.assert_allclose(stiffness[-4:], curve.stiffness, rtol=1e-14)
 
 
-def test_depths_outside_the_levels():
+def test_depths_outside_the_levels_give_nan():
     straight = springs(np.array([0.0, 0.5]), [0.2])
     force, stiffness = straight.at_depth(np.array([[0.0, 0.1, 0.2], [0.2000001, -0.1, np.nan]]))
     np.testing.assert_allclose(force, [[0, 0.1, 0.2], [np.nan] * 3], rtol=1e-15)
@@ -146,7 +146,7 @@ def test_depths_outside_the_levels():
     np.testing.assert_array_equal(curve.at_depth([0.0, 0.05, 0.1])[0], [0.0, np.nan, curve.force[0]])
 
 
-def test_normalised_and_contact_fraction():
+def test_curve_has_normalised_axes_and_contact_fraction():
     curve = springs(np.array([0.0, 0.5]), [0.2, 0.8])
     x, kappa = curve.normalised(rms=0.1, diameter=5.0)
     np.testing.assert_allclose(x, curve.force / 2.0, rtol=1e-15)

@@ -1,4 +1,4 @@
-"""MDR of lines against sums over their sorted gaps, and lines of maps against the spectra of these."""
+"""MDR of lines against sums over their sorted gaps, and lines of maps against the spectra of the maps."""
 
 import numpy as np
 import pytest
@@ -13,12 +13,12 @@ from viscorough.surfaces import cut_disc, self_affine_line, self_affine_square
 
 
 def assert_exact(curve, line):
-    """Against F/G and the number of points in contact at every depth, by adding up every point."""
+    """Compare with F/G and the number of points in contact at every depth, from sums over all points."""
     pressed = curve.depth[:, None] - line.initial_gap.astype(float)
     count, force = (pressed > 0).sum(axis=1), 4 * line.spacing * np.clip(pressed, 0, None).sum(axis=1)
     np.testing.assert_array_equal(curve.contact_count, count)
     np.testing.assert_allclose(curve.stiffness, 4 * line.spacing * count, rtol=1e-15)
-    # F is the difference of two sums that may cancel to a bin's width: 1e-16 x 64 x a safety of 100
+    # F is the difference of two sums that may cancel to the width of a bin: 1e-16 x 64 x a safety of 100.
     np.testing.assert_allclose(curve.force, force, rtol=1e-12)
     assert np.all(np.diff(curve.depth) > 0)
     assert curve.depth[0] > 0
@@ -33,8 +33,8 @@ def assert_exact(curve, line):
 )
 @settings(max_examples=80, deadline=None)
 @example(np.array([0.0, -0.0], dtype=np.float32))
-def test_any_line(heights):
-    """Ties, plateaus, spikes, one point, zeros of either sign."""
+def test_any_line_is_reduced_exactly(heights):
+    """The lines have ties, plateaus, spikes, one point, and zeros of either sign."""
     line = Indenter(heights, 0.5)
     curve = reduce(line)
     assert curve.depth.size >= 2
@@ -58,18 +58,18 @@ def test_curve_stops_at_fraction_or_force():
     assert_exact(beyond, line)
 
 
-def test_a_curve_ends_at_the_level_that_has_exactly_the_fraction_or_force():
+def test_curve_ends_at_the_level_with_exactly_the_fraction_or_force():
     line = Indenter(-np.arange(8.0), 0.5)
     full = reduce(line)
     for level in range(2, full.depth.size):
         fraction, force = full.contact_fraction[level], full.force[level]
-        first = np.argmax(full.contact_fraction == fraction)  # the count also stays the same between levels
+        first = np.argmax(full.contact_fraction == fraction)  # the count can be the same at several levels
         limits = {"until_fraction": fraction} | ({"until_force": 1e9} if fraction < 1 else {})
         np.testing.assert_array_equal(reduce(line, **limits).force, full.force[: max(first, 1) + 1])
         np.testing.assert_array_equal(reduce(line, until_force=force).force, full.force[: level + 1])
 
 
-def test_bad_options():
+def test_invalid_options_are_refused():
     for options, message in (
         ({"until_fraction": 0}, "reduce: until_fraction must lie in"),
         ({"until_force": 0}, "reduce: until_force must be positive"),
@@ -92,15 +92,15 @@ def test_heights_without_bins_are_refused(place, value):
 
 
 def octave_means(heights):
-    """Power spectrum of a line, averaged over octaves from two waves per length on."""
+    """Return the power spectrum of a line, averaged over octaves, from two waves per length on."""
     power = np.abs(np.fft.rfft(heights)) ** 2
     edges = 2 ** np.arange(1, int(np.log2(power.size)) + 1)
     return np.array([power[a:b].sum() for a, b in zip(edges, 2 * edges, strict=True)])
 
 
 @pytest.mark.parametrize(("hurst", "outline"), [(0.2, "disc"), (0.9, "square"), (0.9, "disc")])
-def test_line_of_a_map_has_its_spectrum_whatever_its_edges(hurst, outline):
-    """That of the whole periodic square has it exactly; without the window short waves at H = 0.9 are 50 times off."""
+def test_line_of_a_map_has_its_spectrum(hurst, outline):
+    """The line of the whole periodic square has the exact spectrum. Without a window short waves are 50 times off."""
     n, lines, exact = 256, [], []
     for seed in range(12):
         square = self_affine_square(hurst, n, seed=seed)
@@ -117,7 +117,7 @@ def test_line_of_a_map_has_its_rms_height_unit_and_length(scale):
     line = line_of_map(Indenter(map_, scale, row_spacing=scale / 2, length_unit="um"), 3)
     assert line.heights.std() == pytest.approx(np.nanstd(map_), rel=1e-12)
     assert (line.length_unit, line.spacing) == ("um", scale)
-    assert line.heights.shape == (70,)  # 70 columns are longer than 46 rows half as far apart
+    assert line.heights.shape == (70,)  # 70 columns are longer than 46 rows, which are half as far apart
     other = line_of_map(Indenter(map_, 1.0, row_spacing=0.5), 3)
     np.testing.assert_array_equal(line.heights, other.heights)
     assert line_of_map(Indenter(map_.T, 1.0), [3, 4]).heights.shape == (70,)

@@ -19,12 +19,12 @@ from viscorough.contact.ranking import elements_of
 from viscorough.contact.solver import ContactSolver
 from viscorough.viscous.integration.elements import elements_of_map
 
-# What any contact requires, however small.
+# The memory that any contact requires.
 CONSTANT = 6e6
 
 
 def test_surfaces_too_large_for_any_memory_are_refused():
-    """Sizes for which no machine has the memory."""
+    """No machine has enough memory for these sizes."""
     with pytest.raises(
         MemoryError, match=r"a surface of 160008 x 160008 points takes .* bytes of memory, .* available"
     ):
@@ -34,7 +34,7 @@ def test_surfaces_too_large_for_any_memory_are_refused():
 
 
 def demand(compute, monkeypatch):
-    """Bytes that a computation requires."""
+    """Return the bytes that a computation requires."""
     with monkeypatch.context() as patch:
         patch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=0))
         with pytest.raises(MemoryError) as error:
@@ -54,7 +54,7 @@ DISC, STRIP = np.hypot(ROW - 60, COLUMN - 60) < 60, np.ones((1, 30_000), bool)
 
 @pytest.fixture(scope="module")
 def compiled():
-    """Kernels of both precisions, loaded once in a process; those of coarse grids are not needed by smaller maps."""
+    """Load kernels of both precisions once in the process; smaller maps need no kernels of coarse grids."""
     for tolerance in (1e-3, 1e-5):
         indent(Indenter(np.random.default_rng(2).random((151, 151)), 1.0), tolerance=tolerance, until_fraction=0.6)
 
@@ -68,9 +68,9 @@ def rough(present):
     [np.ones((150, 150), bool), np.ones((500, 500), bool), DISC, STRIP, abs(ROW - COLUMN) < 2],
     ids=["square", "large square", "disc on a large map", "strip", "diagonal"],
 )
-def test_memory_required_for_complete_contact_follows_what_its_arrays_take(present, monkeypatch):
+def test_memory_required_for_complete_contact_follows_its_arrays(present, monkeypatch):
     elements = elements_of(rough(present))[0]
-    joined_surface(elements)  # compiles
+    joined_surface(elements)  # compiles the kernels
     tracemalloc.start()
     joined_surface(elements)
     peak = tracemalloc.get_traced_memory()[1]
@@ -95,7 +95,7 @@ def test_complete_contact_too_large_for_the_memory_is_refused(monkeypatch):
         pytest.param(abs(ROW - COLUMN) < 2, 1e-3, id="diagonal"),
     ],
 )
-def test_memory_required_for_a_contact_follows_what_its_arrays_take(present, tolerance, monkeypatch, compiled):
+def test_memory_required_for_a_contact_follows_its_arrays(present, tolerance, monkeypatch, compiled):
     press = partial(indent, rough(present), tolerance=tolerance, until_fraction=0.6)
     tracemalloc.start()
     press()
@@ -105,16 +105,16 @@ def test_memory_required_for_a_contact_follows_what_its_arrays_take(present, tol
 
 
 def test_memory_required_for_a_contact_has_buffers_for_every_thread(monkeypatch):
-    """Blocks of columns, twice 64 complex numbers of single precision by the padded length, and of padded rows."""
+    """Buffers are blocks of columns, 2 x 64 single-precision complex numbers by the padded length, and padded rows."""
     indenter = Indenter(np.zeros((1024, 1024)), 1.0)
     single, many = (demand(partial(indent, indenter, threads=threads), monkeypatch) for threads in (1, 9))
     columns, rows = 2 * 64 * 8 * 2048, 2 * 128 * 4 * 2048
     assert 8 * (columns + rows) < many - single < 1.3 * 8 * (columns + rows)
-    # No more of them than there are blocks.
+    # There are no more buffers than blocks.
     assert demand(partial(indent, indenter, threads=1024), monkeypatch) < 2 * many
 
 
-# Prints the largest memory that the generation of lines takes, in bytes, for every data type and number of points.
+# Prints the largest memory in bytes that the generation of lines takes, for each data type and number of points.
 PEAKS_OF_LINES = r"""
 import json, re, sys
 from pathlib import Path
@@ -136,11 +136,11 @@ print(json.dumps(peaks))
 
 
 @pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the peak of a process is read from /proc")
-def test_memory_required_for_a_line_follows_what_its_transform_takes(monkeypatch):
-    """The transform of a length with a large prime factor takes up to eight times the memory of others.
+def test_memory_required_for_a_line_follows_its_transform(monkeypatch):
+    """A length with a large prime factor takes up to eight times the memory of others.
 
-    In a process of its own: what other tests freed would be used again in this one. The C library returns arrays above
-    a size to the system as soon as they are freed, if that size is given.
+    The test runs in a new process, because memory that other tests freed would be used again in this one. With this
+    setting, the C library returns arrays above a size to the system as soon as they are freed.
     """
     for dtype, points, peak in json.loads(python("-c", PEAKS_OF_LINES, MALLOC_MMAP_THRESHOLD_="131072").stdout):
         required = demand(partial(self_affine_line, 0.5, points, seed=1, dtype=dtype), monkeypatch)

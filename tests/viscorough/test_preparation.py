@@ -1,4 +1,4 @@
-"""Measured maps made ready for contact, and doubts about those that are not."""
+"""Preparation of measured maps for contact, and warnings about maps that need it."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def indenter(heights, **options):
 
 def test_nodata_crop_and_flip():
     heights = ROUGH.astype("f4")
-    heights[3, 4], heights[20, 30], heights[0, 0] = 1e-3 - 9999, 1e38, 77  # the first one is rounded
+    heights[3, 4], heights[20, 30], heights[0, 0] = 1e-3 - 9999, 1e38, 77  # the first of them is rounded
     options = {"nodata": (1e-3 - 9999, 1e38), "crop": ((2, 40), (3, 25)), "flip": True}
     surface = prepare(indenter(heights, length_unit="nm"), **options)
     expected = heights[3:25, 2:40].copy()
@@ -57,7 +57,7 @@ def test_detrended_heights_have_no_mean_and_no_tilt(form):
 
 @pytest.mark.parametrize("radius", [18.0, 1e4, -30.0])
 def test_detrend_sphere_is_exact_for_spheres(radius):
-    """Caps up to a polar angle of 54°; a negative radius stands for a hollow."""
+    """The caps have polar angles up to 54°; a negative radius gives a hollow."""
     sphere = np.sign(radius) * np.sqrt(radius**2 - X**2 - Y**2)
     residual = prepare(indenter(sphere + 0.2 * X + 5), detrend="sphere").heights
     np.testing.assert_allclose(residual, 0, atol=1e-9 * abs(radius))
@@ -66,7 +66,7 @@ def test_detrend_sphere_is_exact_for_spheres(radius):
 
 
 def test_harmonic_fill_is_exact_for_harmonic_heights():
-    """x² − y² and planes are harmonic for the five-point equation on any rectangles; the outside stays nan."""
+    """x² − y² and planes are harmonic for the five-point equation on any rectangles; points outside stay nan."""
     heights = PLANE + X**2 - Y**2
     holes = heights.copy()
     holes[4:15, 6:30], holes[20, 20], holes[25:28, 33:36] = np.nan, np.nan, np.nan

@@ -17,8 +17,8 @@ BODIES = [(0.7, 1), (0.3, 1.5), (0.4, 2), (0.2, 3)]  # coefficient, exponent
 
 
 @pytest.mark.parametrize(("coefficient", "exponent"), BODIES)
-def test_power_law_body_is_that_of_sneddon(coefficient, exponent):
-    """u = a ∫₀ᵃ z'(r)/√(a² − r²) dr and F/G = 8 ∫₀ᵃ r² z'(r)/√(a² − r²) dr for any profile z(r), with r = a sin t."""
+def test_power_law_body_follows_sneddon(coefficient, exponent):
+    """For any profile z(r), u = a ∫₀ᵃ z'(r)/√(a² − r²) dr and F/G = 8 ∫₀ᵃ r² z'(r)/√(a² − r²) dr, with r = a sin t."""
     body, depth = reference.PowerLawBody(coefficient, exponent), 0.35
     radius = body.contact_radius(depth)
 
@@ -34,7 +34,7 @@ def test_power_law_body_is_that_of_sneddon(coefficient, exponent):
 def test_power_law_body_is_consistent(coefficient, exponent):
     body = reference.PowerLawBody(coefficient, exponent)
     depth = np.geomspace(1e-6, 1e3, 10)
-    slope = (1 + 1 / exponent) * body.force(depth) / depth  # of a power law
+    slope = (1 + 1 / exponent) * body.force(depth) / depth  # a power law
     np.testing.assert_allclose(body.stiffness(depth), slope, rtol=1e-13)
     np.testing.assert_allclose(body.depth(body.force(depth)), depth, rtol=1e-13)
     np.testing.assert_allclose(body.mdr_profile(body.contact_radius(depth)), depth, rtol=1e-13)
@@ -47,7 +47,7 @@ def test_power_law_body_is_consistent(coefficient, exponent):
     np.testing.assert_allclose(line.heights, -body.mdr_profile(centres), rtol=1e-14)
 
 
-def test_sphere_is_hertz_and_cone_is_love():
+def test_sphere_follows_hertz_and_cone_follows_love():
     depth, radius, slope = np.geomspace(1e-3, 10, 5), 2.5, 0.3
     sphere, cone = reference.sphere(radius), reference.cone(slope)
     np.testing.assert_allclose(sphere.force(depth), 16 / 3 * np.sqrt(radius) * depth**1.5, rtol=1e-14)
@@ -57,9 +57,9 @@ def test_sphere_is_hertz_and_cone_is_love():
 
 
 def test_depth_of_flat_ellipse_follows_from_its_pressure():
-    """Depth at the centre, u = (1/4πG)∫p/r dA in polar coordinates, p = F/(2πab)·(1−x²/a²−y²/b²)^(−1/2)."""
+    """The depth at the centre is u = (1/4πG)∫p/r dA in polar coordinates, p = F/(2πab)·(1−x²/a²−y²/b²)^(−1/2)."""
     for a, b in [(1.0, 1.0), (3.0, 2.0), (5.0, 0.4)]:
-        # the integrand is periodic and smooth, so the rectangle rule is exact to rounding
+        # The integrand is periodic and smooth, so the rectangle rule is exact to rounding.
         angle = 2 * np.pi * np.arange(400) / 400
         edge = a * b / np.hypot(b * np.cos(angle), a * np.sin(angle))
         depth_per_force = edge.mean() * 2 * np.pi * (np.pi / 2) / (2 * np.pi * a * b) / (4 * np.pi)
@@ -69,7 +69,7 @@ def test_depth_of_flat_ellipse_follows_from_its_pressure():
 
 @pytest.mark.parametrize("hurst", [0.1, 0.9])
 def test_eq_1_with_eq_3_has_no_gamma(hurst):
-    """Eq. 1 in time, with dF/du of Eq. 3 as F/v, against the laws without Γ; with Γ they miss by 5 to 13 %.
+    """Integrate Eq. 1, with dF/du of Eq. 3 as F/v, and compare the laws without Γ; with Γ they miss by 5 to 13 %.
 
     With y = u/h and X = Ft/(4ηhL) as time, Eq. 1 is dy/dX = 1/κ with κ of Eq. 3, found by quadrature.
     """
@@ -89,12 +89,12 @@ LAWS = yaml.safe_load((PAPER / "laws.yaml").read_text(encoding="utf-8"))
 
 
 def printed(law, **values):
-    """The law as the paper prints it (resources/paper/laws.yaml), at the given values."""
+    """Evaluate a law as the paper prints it (resources/paper/laws.yaml) at the given values."""
     return eval(LAWS[law]["formula"], {"pi": np.pi, "gamma": gamma_function, **values})
 
 
 @pytest.mark.parametrize("name", [name for name, law in LAWS.items() if "function" in law])
-def test_functions_are_the_printed_laws(name):
+def test_functions_agree_with_the_printed_laws(name):
     law = LAWS[name]
     values = {"X": 3e-4, "zeta": 1.3, "alpha": 0.62, "H": 0.7, "q": 5.0, "C2D": 0.2}
     options = {"gamma": True} if law.get("gamma") else {}

@@ -1,4 +1,4 @@
-"""Results as values: equal to themselves, unequal to arrays, and read-only however they were copied."""
+"""Results as values: equal to results with the same numbers, unequal to arrays, and read-only after any copy."""
 
 import copy
 import dataclasses
@@ -25,7 +25,7 @@ MOTION = viscorough.kinetics(CURVE, FORCE, SOLID, TIMES)
 
 
 def results():
-    """A new result of every kind."""
+    """Make a new result of every kind."""
     yield DISC.to("um")
     yield viscorough.indent(DISC, until_fraction=0.5)
     yield viscorough.contact_at(DISC, depth=1e-9)
@@ -52,7 +52,7 @@ PAIRS = [pytest.param(*pair, id=type(pair[0]).__name__) for pair in zip(results(
 
 
 def arrays_in(result):
-    """All arrays of a result, also of results within it."""
+    """Return all arrays of a result, also of results within it."""
     values = result if isinstance(result, tuple) else [getattr(result, f.name) for f in dataclasses.fields(result)]
     for value in values:
         if isinstance(value, np.ndarray):
@@ -62,7 +62,7 @@ def arrays_in(result):
 
 
 @pytest.mark.parametrize(("one", "same"), PAIRS)
-def test_a_result_equals_itself_and_one_of_equal_numbers(one, same):
+def test_results_with_equal_numbers_are_equal(one, same):
     assert (one == one) is True
     assert (one == same) is True
     assert (one != same) is False
@@ -72,7 +72,7 @@ def test_a_result_equals_itself_and_one_of_equal_numbers(one, same):
         assert (one != other) is True
 
 
-def test_results_of_other_numbers_differ():
+def test_results_with_different_numbers_differ():
     load = viscorough.Load([0.0, 1.0], force=[1.0, 1.0])
     assert load != viscorough.Load([0.0, 1.0], force=[1.0, 2.0])
     assert load != viscorough.Load([0.0, 1.0], depth=[1.0, 1.0])
@@ -136,7 +136,7 @@ def test_a_load_has_an_integral_and_further_samples():
     assert depth.in_units_of("um") == depth
 
 
-def test_times_that_are_equal_to_rounding_share_a_sample():
+def test_times_equal_up_to_rounding_share_a_sample():
     load = viscorough.Load([0.0, 0.3, 0.3, 1.0], depth=[0.0, 3.0, 1.0, 1.0])
     for time in (np.nextafter(0.3, 0), 0.3, np.nextafter(0.3, 1)):
         more, place = load.with_times([0.1, np.nextafter(0.1, 1), time, np.nextafter(1, 2)])
@@ -160,7 +160,7 @@ def test_a_load_is_a_force_or_a_depth():
 
 @pytest.mark.parametrize("tolerance", [1.0, np.inf, np.nan, 0.0, 1e-13, 1j])
 @pytest.mark.parametrize("scheme", ["explicit", "heun", "implicit"])
-def test_tolerances_of_steps_are_those_of_contacts(scheme, tolerance):
+def test_steps_accept_the_same_tolerances_as_contacts(scheme, tolerance):
     with refused("time steps: tolerance"):
         march_steps(DISC, [1e-16], scheme=scheme, tolerance=tolerance)
 
@@ -181,7 +181,7 @@ SAVED = [pytest.param(one, id=type(one).__name__) for one in results() if isinst
 
 
 def test_texts_of_results_are_short():
-    """Those in notebooks: no arrays of numbers."""
+    """Texts in notebooks contain no arrays of numbers, either."""
     heights = viscorough.self_affine_disc(0.7, 65, rms=1.0, seed=1)
     curve = viscorough.indent(heights, until_fraction=0.2)
     contact = viscorough.contact_at(heights, depth=0.1)
@@ -196,7 +196,7 @@ def test_texts_of_results_are_short():
         assert "array(" not in repr(result)
 
 
-def test_text_of_options_has_what_differs_from_the_default():
+def test_text_of_options_shows_values_other_than_the_default():
     assert repr(viscorough.SolverOptions()) == "SolverOptions()"
     changed = viscorough.SolverOptions(precision="double", padding=False)
     assert eval(repr(changed), {"SolverOptions": viscorough.SolverOptions}) == changed
@@ -224,7 +224,7 @@ def test_results_are_saved_drawn_and_converted(result, tmp_path):
 
 
 @pytest.mark.parametrize("name", [name for name in viscorough.__all__ if name != "reference"])
-def test_signatures_name_types_as_the_documentation_does(name):
+def test_signatures_name_types_as_in_the_documentation(name):
     """The unions of numpy.typing would fill a screen."""
     item = getattr(viscorough, name)
     for function in [item, *(vars(item).values() if isinstance(item, type) else ())]:

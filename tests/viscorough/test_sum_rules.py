@@ -33,7 +33,7 @@ INDENTERS = {
 
 
 @pytest.mark.parametrize("indenter", INDENTERS.values(), ids=INDENTERS)
-def test_integrals_are_exact_where_every_event_is_a_level(indenter):
+def test_integrals_are_exact_if_every_event_is_a_level(indenter):
     result = audit(indenter, tolerance=1e-10)
     assert result.agrees
     assert result.rules.largest_deviation < 1e-11
@@ -41,7 +41,7 @@ def test_integrals_are_exact_where_every_event_is_a_level(indenter):
 
 
 @pytest.mark.parametrize("aspect", [1.0, 2.5])
-def test_solution_on_the_grid_is_that_of_the_dense_matrix(aspect):
+def test_solution_on_the_grid_agrees_with_the_dense_matrix(aspect):
     heights = with_hole(cut_disc(self_affine_square(0.3, 33, seed=1), 33)[:, :25])
     indenter = Indenter(heights, 0.1, 0.1 * aspect)
     row, column = np.nonzero(~np.isnan(heights))
@@ -50,7 +50,7 @@ def test_solution_on_the_grid_is_that_of_the_dense_matrix(aspect):
     gap = np.nanmax(heights) - heights[row, column]
     tangent, load = np.linalg.solve(matrix, np.ones(gap.size)), np.linalg.solve(matrix, gap)
     mean_gap = tangent @ gap / tangent.sum()
-    energy = (load - mean_gap * tangent) @ matrix @ (load - mean_gap * tangent) / 2  # of the pressures
+    energy = (load - mean_gap * tangent) @ matrix @ (load - mean_gap * tangent) / 2  # energy of the pressures
     end = complete_contact(indenter)
     exact = [mean_gap, energy, tangent.sum(), (load / tangent).max()]
     np.testing.assert_allclose([end.mean_gap, end.energy, end.stiffness, end.depth], exact, rtol=1e-10)
@@ -59,7 +59,7 @@ def test_solution_on_the_grid_is_that_of_the_dense_matrix(aspect):
 @pytest.mark.parametrize(
     ("hurst", "across", "tolerance", "levels"), [(0.2, 65, 1e-3, 600), (0.6, 49, 1e-3, 600), (0.6, 49, 2e-4, 1000)]
 )
-def test_audit_on_the_grid_adds_levels_until_both_integrals_are_known(hurst, across, tolerance, levels):
+def test_audit_on_the_grid_adds_levels_until_both_integrals_converge(hurst, across, tolerance, levels):
     disc = self_affine_disc(hurst, across, seed=1)
     result = audit(disc, tolerance=tolerance)
     assert result.agrees
@@ -70,8 +70,8 @@ def test_audit_on_the_grid_adds_levels_until_both_integrals_are_known(hurst, acr
 
 
 @pytest.mark.parametrize("body", [sphere, cone])
-def test_audit_of_a_body_finds_interpolation_as_accurate_as_promised(body):
-    """Many elements touch between two levels of smooth bodies, so that most levels are placed by the bound alone."""
+def test_audit_of_a_body_confirms_the_accuracy_of_interpolation(body):
+    """On smooth bodies many elements touch between two levels, so the error bound alone places most levels."""
     result = audit(body(1.0).indenter(65), tolerance=1e-3)
     assert result.agrees
     assert 0.1 < result.interpolation_error / result.curve.tolerance < 1
@@ -97,16 +97,16 @@ def test_wrong_curve_has_wrong_integrals(change):
     assert max(rules.largest_deviation, rules.error) > 2e-5
 
 
-def test_error_that_levels_do_not_reduce_is_no_agreement():
-    """Without padding, the images of the indenter change stiffness and depth alike, and only the exact values tell."""
+def test_audit_disagrees_if_levels_do_not_reduce_the_error():
+    """Without padding, the images of the indenter change stiffness and depth alike. Only the exact values reveal it."""
     options = SolverOptions(dense_contacts=0, dense_interactions=0, padding=False)
     result = audit(self_affine_disc(0.6, 33, seed=1), tolerance=3e-3, options=options)
     assert not result.agrees
     assert "do not agree" in str(result)
 
 
-def test_depths_between_levels_must_be_as_accurate_as_the_curve_promises():
-    """To the tolerance of the curve, not to that of the integrals; but not below 1e-5, the finest of `indent`."""
+def test_audit_requires_the_curve_tolerance_between_levels():
+    """The required accuracy is the tolerance of the curve, but at least 1e-5, the finest tolerance of `indent`."""
     whole = audit(INDENTERS["sphere"], tolerance=1e-3)
     for tolerance, promised in ((1e-2, 1e-2), (1e-5, 1e-5), (1e-9, 1e-5)):
         result = replace(whole, curve=replace(whole.curve, tolerance=tolerance))
@@ -118,14 +118,14 @@ def test_depths_between_levels_must_be_as_accurate_as_the_curve_promises():
 
 
 def test_complete_contact_of_a_line_is_exact():
-    """U/G = 2 Δx Σ (g − ⟨g⟩)²: heights 0, −1, −5 have gaps of 0, 1, 5, their mean 2."""
+    """U/G = 2 Δx Σ (g − ⟨g⟩)²: heights 0, −1, −5 have the gaps 0, 1, 5 with the mean 2."""
     end = complete_contact(Indenter(np.array([0.0, -1.0, -5.0]), 0.5))
     assert (end.mean_gap, end.stiffness, end.depth) == (2.0, 6.0, 5.0)
     assert end.energy == pytest.approx(14.0, rel=1e-15)
     assert end.force == 18.0
 
 
-def test_line_of_independent_springs():
+def test_integrals_of_independent_springs_are_exact():
     line = self_affine_line(0.7, 3000, seed=3, dtype=np.float64)
     curve, end = reduce(line), complete_contact(line)
     np.testing.assert_allclose([curve.stiffness[-1], curve.depth[-1]], [end.stiffness, end.depth], rtol=0.016)

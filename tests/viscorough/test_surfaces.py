@@ -1,7 +1,7 @@
 """Generated surfaces against the theory of Gaussian processes with a power-law spectrum.
 
-Spectra are computed with numpy's transform of whole periods, which is unbiased: the power of every wave is its
-expectation times an exponential variate.
+Spectra are computed with numpy's transform of whole periods. It is unbiased: the power of every wave is its expectation
+times an exponential variate.
 """
 
 from functools import partial
@@ -16,17 +16,17 @@ from viscorough_study.run.seeds import realization_seed
 
 
 def waves_of_square(points):
-    """Which bins of np.fft.rfft2 are independent complex waves, and their wavenumber."""
+    """Return the bins of np.fft.rfft2 that are independent complex waves, and their wavenumbers."""
     y = np.fft.fftfreq(points, 1 / points)[:, None]
     x = np.arange(points // 2 + 1.0)
     k = np.hypot(y, x)
-    # of x = 0 one half mirrors the other; the shortest waves along an axis are real
+    # At x = 0 one half of the bins mirrors the other. The shortest waves along an axis are real.
     chosen = (k > 0) & (k <= points / 2) & (x < points / 2) & (y > -points / 2) & ((x > 0) | (y > 0))
     return chosen, k[chosen]
 
 
 def spectrum_of_square(hurst, **options):
-    """Wavenumber and power of every wave of a square with fixed amplitudes."""
+    """Return wavenumber and power of every wave of a square with fixed amplitudes."""
     chosen, k = waves_of_square(64)
     square = self_affine_square(hurst, 64, amplitudes="fixed", seed=1, **options)
     return k, np.abs(np.fft.rfft2(square)[chosen]) ** 2
@@ -46,20 +46,20 @@ def test_fixed_amplitudes_are_the_spectrum(hurst):
 
 
 def test_random_amplitudes_are_complex_gaussian():
-    """Power is exponential and the phase uniform; waves are as independent as numpy's random numbers."""
+    """Power is exponential and the phase uniform. Waves are as independent as numpy's random numbers."""
     chosen, k = waves_of_square(128)
     wave = np.fft.rfft2(self_affine_square(0.3, 128, seed=4))[chosen]
     power = np.abs(wave * k**1.3) ** 2
     power /= power.mean()
     phase = np.angle(wave) / (2 * np.pi) + 0.5
-    # chance of a false alarm 1e-4 each; estimating the mean makes the first one smaller still
+    # The chance of a false alarm is 1e-4 in each case; estimating the mean makes it smaller still in the first.
     assert stats.kstest(power, "expon").pvalue > 1e-4
     assert stats.kstest(phase, "uniform").pvalue > 1e-4
 
 
 @pytest.mark.parametrize("level", [0.0, 0.25, 1.0])
-def test_roll_off(level):
-    """Fixed amplitudes: the spectrum itself. Waves of the roll-off wavelength belong to the power law."""
+def test_spectrum_is_flat_below_the_roll_off(level):
+    """Fixed amplitudes give the spectrum itself. Waves of the roll-off wavelength belong to the power law."""
     square = spectrum_of_square(0.8, roll_off_wavelength=6.4, roll_off_level=level)
     line = spectrum_of_line(0.8, roll_off_wavelength=0.1, roll_off_level=level)
     for (k, power), exponent in ((square, -3.6), (line, -2.6)):
@@ -69,7 +69,7 @@ def test_roll_off(level):
 
 
 @pytest.mark.parametrize("points", [32, 33])
-def test_corners(points):
+def test_spectrum_may_include_the_corners(points):
     x = np.abs(np.fft.fftfreq(points, 1 / points))
     beyond = np.hypot(x[:, None], x) > points / 2
     power = np.abs(np.fft.fft2(self_affine_square(0.5, points, seed=1))) ** 2
@@ -81,7 +81,7 @@ def test_corners(points):
 
 
 @pytest.mark.parametrize("n", [1, 4, 5, 33])
-def test_cut_disc(n):
+def test_disc_is_cut_from_the_square(n):
     square = np.arange(40.0**2).reshape(40, 40)
     disc = cut_disc(square, n)
     from_centre = np.square(np.arange(n) - (n - 1) / 2)
@@ -92,7 +92,7 @@ def test_cut_disc(n):
 
 
 @pytest.mark.parametrize("period", [1.0, 1.3])
-def test_rms_conventions(period):
+def test_rms_height_follows_each_convention(period):
     options = {"rms": 3e-6, "diameter": 0.02, "period": period, "seed": 7}
     over_disc = self_affine_disc(0.6, 65, rms_over="disc", **options)
     over_square = self_affine_disc(0.6, 65, rms_over="square", **options)
@@ -119,7 +119,7 @@ def test_realizations_depend_on_their_key_alone(generate):
     np.testing.assert_array_equal(generate(seed=5).heights, generate(seed=np.random.SeedSequence(5)).heights)
 
 
-def test_bad_options():
+def test_invalid_options_are_refused():
     disc, line = (self_affine_disc, 33), (self_affine_line, 33)
     for generators, options, message in (
         ((disc, line), {"hurst": 1.1}, "hurst: must be from 0 to 1"),

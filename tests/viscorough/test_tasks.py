@@ -1,8 +1,8 @@
-"""What a stranger asks for first, on the command line, compared with numbers converted to SI by hand.
+"""First tasks of a new user, on the command line, compared with numbers converted to SI by hand.
 
-A scan in nanometres of a ball of radius 0.1 mm, points 500 nm apart: from the scan to the force-depth curve, to the
-contact under a force, to the penetration of rubber over time, to a figure, and from a measured depth to the rubber.
-Expected numbers are Hertz's, which the grid meets to 2 %.
+The scan of a ball of radius 0.1 mm is in nanometres, with points 500 nm apart. The tasks lead from the scan to the
+force-depth curve, to the contact under a force, to the penetration of rubber over time, to a figure, and from a
+measured depth to the rubber. The expected numbers follow from Hertz; the grid meets them to 2 %.
 """
 
 import numpy as np
@@ -30,7 +30,7 @@ relaxation_time: 200 ms
 
 
 def depth_in_rubber(time):
-    """Lee and Radok, u^(3/2) = 3 F J/(16 R^(1/2)), in m."""
+    """Return the depth by Lee and Radok, u^(3/2) = 3 F J/(16 R^(1/2)), in m."""
     return (3 * FORCE * RUBBER.creep_compliance(time) / (16 * RADIUS**0.5)) ** (2 / 3)
 
 
@@ -43,7 +43,7 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_on_the_command_line(here, capsys):
+def test_tasks_give_the_numbers_of_hertz(here, capsys):
     scan = "scan.txt --spacing 500 --unit nm"
     for output in ("curve.csv", "curve.nc"):
         assert run(f"indent {scan} --until-force '50 uN' --young '2 MPa' -o {output}") == 0
@@ -76,7 +76,7 @@ def test_on_the_command_line(here, capsys):
     np.testing.assert_allclose(medium.creep_compliance(times[1:]), RUBBER.creep_compliance(times[1:]), rtol=0.01)
 
 
-def test_results_that_nobody_can_mean_are_warned_of(here):
+def test_implausible_results_give_a_warning(here):
     surface = viscorough.read_heights("scan.txt", 500, unit="nm")
     with pytest.warns(AccuracyWarning, match=r"contact_at: the depth u, 3e\+08 nm, is larger than the map is wide, 2"):
         viscorough.contact_at(surface, depth="0.3 m")

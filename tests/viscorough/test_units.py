@@ -29,7 +29,7 @@ DANGEROUS = ["9**9**9**9", "m**99999999", "__import__('os')", "a" * 10_000, "(" 
 
 
 @pytest.mark.parametrize("text", NO_LENGTHS + PICTURES + DANGEROUS)
-def test_what_is_no_unit_of_length_is_refused_at_once(text):
+def test_unknown_units_of_length_are_refused(text):
     with refused("unit") as error:
         units.length_unit(text)
     assert len(str(error.value)) < 200
@@ -49,14 +49,14 @@ def test_quantities_are_converted(text, unit, number):
 
 
 @pytest.mark.parametrize("text", ["", "mN", "5 5 x", "1,5", "5 m_m"])
-def test_what_is_no_quantity_is_refused(text):
+def test_texts_that_are_no_quantity_are_refused(text):
     with refused("number|unit"):
         units.quantity(text)
     with pytest.raises(ValueError, match="cannot be converted to N"):
         units.quantity("5 mm").to("N")
 
 
-def test_common_units_do_without_pint():
+def test_common_units_do_not_need_pint():
     program = "import sys; from viscorough import units; units.metres('µm'); units.quantity('5'); print(sys.modules)"
     modules = python("-c", program).stdout
     assert "viscorough.units" in modules

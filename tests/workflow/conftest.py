@@ -1,4 +1,4 @@
-"""Projects in which the workflow is run, made once for all processes of a test session; every test gets a copy."""
+"""Projects to run the workflow in, made once for all processes of a test session; every test gets a copy."""
 
 import shutil
 
@@ -9,7 +9,7 @@ from support.workflow import TEST, copy_project, made_once, snakemake
 
 @pytest.fixture(scope="session")
 def finished_once(tmp_path_factory):
-    """A project after one full run of the small settings, whose output is run.log. Tests must not change it."""
+    """Make a project with one full run of the small settings, whose output is run.log. Tests must not change it."""
 
     def make(folder):
         copy_project(folder)
@@ -20,11 +20,11 @@ def finished_once(tmp_path_factory):
 
 @pytest.fixture
 def finished(finished_once, tmp_path):
-    """A copy of that project, which the test may change."""
+    """Copy the finished project, so that the test may change the copy."""
     return shutil.copytree(finished_once, tmp_path / "finished")
 
 
 @pytest.fixture(scope="session")
 def unmade(tmp_path_factory):
-    """A project in which nothing has been made. Tests must not make anything."""
+    """Make a project without results. Tests must not make any in it."""
     return copy_project(tmp_path_factory.mktemp("unmade"))

@@ -1,4 +1,4 @@
-"""What docs/ says about the files of a run, and how to extend the workflow."""
+"""docs/ describes the files of a run, and its page on extensions works."""
 
 import fnmatch
 import re
@@ -12,7 +12,7 @@ from support.workflow import TEST, copy_sources, snakemake
 
 
 def test_every_netcdf_file_is_described(finished):
-    """Its dimensions and variables, by the row of docs/output.md whose pattern it matches; tables by their columns."""
+    """The row of docs/output.md whose pattern matches a file gives its dimensions and variables, or its columns."""
     text = read(ROOT / "docs/output.md")
     rows, results = documented(text), finished / "results"
     lines, discs = rows["curves/lines/*/*.nc"], rows["curves/discs/*/*.nc"]
@@ -37,7 +37,7 @@ def test_every_netcdf_file_is_described(finished):
 
 
 def test_extension_works_as_described(finished):
-    """A table and a figure of one's own, as the files and the entries in docs/extending.md."""
+    """The test adds the table and the figure of docs/extending.md, with its files and entries."""
     copy_sources(finished)
     page = ROOT / "docs/extending.md"
     files = named_files(page)

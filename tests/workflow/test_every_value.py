@@ -15,7 +15,7 @@ def scan(name, **preparation):
     return entry | {"preparation": preparation}
 
 
-# Together with config/test.yaml, these settings have every value.
+# Together with config/test.yaml, these settings use every value.
 RUNS = {
     "ensemble": {
         "figures": {"average": "arithmetic", "rms_convention": "ensemble", "window_rule": "kappa", "gamma": "with"},
@@ -70,7 +70,7 @@ def resolved(rule):
 
 
 def values_allowed(rule, key=""):
-    """(key, value) of everything that settings with a list of values, or true and false, may be."""
+    """Yield (key, value) for every allowed value of settings with a list of values, or with true and false."""
     rule = resolved(rule)
     yield from ((key, value) for value in rule.get("enum", [False, True] if rule.get("type") == "boolean" else []))
     for name, inner in rule.get("properties", {}).items():
@@ -80,7 +80,7 @@ def values_allowed(rule, key=""):
 
 
 def values_used(rule, settings, key=""):
-    """(key, value) of such settings in these."""
+    """Yield (key, value) of these settings in a file of settings."""
     rule = resolved(rule)
     if "enum" in rule or rule.get("type") == "boolean":
         yield key, settings
@@ -91,7 +91,7 @@ def values_used(rule, settings, key=""):
         yield from values_used(rule["items"], entry, f"{key}[]")
 
 
-def test_no_value_is_left_out():
+def test_runs_use_every_value():
     small = merged(read_settings("config"), read_settings("test"))
     runs = [small, *(merged(small, changed) for changed in RUNS.values())]
     assert set(values_allowed(SCHEMA)) == {value for run in runs for value in values_used(SCHEMA, run)}
@@ -99,7 +99,7 @@ def test_no_value_is_left_out():
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_values_run_to_the_end(finished, name):
+def test_runs_with_every_value_end(finished, name):
     heights = self_affine_disc(0.6, 25, rms=0.5, diameter=250.0, seed=1).heights
     np.save(finished / "scan.npy", heights)
     snakemake(finished, *TEST, settings_file(finished, name, **RUNS[name]))

@@ -16,7 +16,7 @@ TARGET = "results/ensembles/lines.nc"
 CURVES = "results/curves/lines/h04000/0000-0001.nc"
 
 
-def test_damaged_input_of_a_rule_is_named_and_can_be_made_again(finished):
+def test_error_names_a_damaged_input_that_can_be_made_again(finished):
     curves = finished / CURVES
     whole = curves.read_bytes()
     damaged = DAMAGES["second half zeros"](whole)
@@ -31,8 +31,8 @@ def test_damaged_input_of_a_rule_is_named_and_can_be_made_again(finished):
     assert (finished / TARGET).exists()
 
 
-def test_curve_with_impossible_numbers_is_named(finished):
-    """In a whole file of NetCDF, whose force decreases with the depth."""
+def test_error_names_a_curve_with_impossible_numbers(finished):
+    """The file is complete NetCDF, but its force decreases with the depth."""
     with netCDF4.Dataset(finished / CURVES, "a") as file:
         file["force"][:] = file["force"][:][:, ::-1]
     output = snakemake(finished, *TEST, "--forcerun", "aggregate_curves", "--", TARGET, fails=True)
@@ -41,7 +41,7 @@ def test_curve_with_impossible_numbers_is_named(finished):
 
 @pytest.mark.parametrize("kind", ["lines", "discs"])
 def test_batch_outside_of_the_settings_is_refused(unmade, kind):
-    """It would hold fewer realizations than its name says."""
+    """Such a batch would hold fewer realizations than its name says."""
     output = snakemake(unmade, *TEST, "--dry-run", "--", f"results/curves/{kind}/h04000/0000-0005.nc", fails=True)
     message = "Error: batch 0000-0005 of h04000 is not one of the settings; allowed: 0000-0001"
     assert output.splitlines()[-1].startswith(message)
@@ -76,12 +76,12 @@ def test_wrong_settings_are_one_line_that_names_the_file(unmade, tmp_path, conte
     assert lines[0].startswith(f"Error in the settings: {path}{message}")
 
 
-def test_setting_on_the_command_line_is_named(unmade):
+def test_error_names_a_wrong_setting_on_the_command_line(unmade):
     output = snakemake(unmade, "--dry-run", "--config", "seed=-1", fails=True)
     assert output.splitlines()[-1].startswith("Error in the settings: --config: seed is -1; allowed: type integer")
 
 
-def test_module_settings_are_named(tmp_path):
+def test_error_names_wrong_settings_of_a_module(tmp_path):
     (tmp_path / "Snakefile").write_text(
         f'module viscorough:\n    snakefile: "{ROOT}/workflow/Snakefile"\n    config: {{"seed": -1}}\n\n'
         "use rule * from viscorough as rough_*\n"
@@ -91,7 +91,7 @@ def test_module_settings_are_named(tmp_path):
 
 
 def in_read_only(folder, command):
-    """Result of a command in a folder that cannot be written; root needs a read-only mount."""
+    """Run a command in a folder that cannot be written; root needs a read-only mount."""
     folder.chmod(0o555)
     if os.access(folder, os.W_OK):
         quoted = shlex.quote(str(folder))
@@ -103,7 +103,7 @@ def in_read_only(folder, command):
     return subprocess.run(command, cwd=folder, env=variables, capture_output=True, text=True, check=False)
 
 
-def test_folder_that_cannot_be_written_is_one_line(tmp_path):
+def test_folder_that_cannot_be_written_is_reported_in_one_line(tmp_path):
     folder, line = copy_project(tmp_path / "copy"), [sys.executable, "-m", "snakemake", "--cores", "1", "--dry-run"]
     done = in_read_only(folder, line)
     assert done.returncode == 1

@@ -1,4 +1,4 @@
-"""Files that go together: profiles, lock files, those for archives and catalogs, and what builds the environment."""
+"""Files that must agree: profiles, lock files, files for archives and catalogs, and the making of the environment."""
 
 import os
 import re
@@ -13,8 +13,8 @@ import yaml
 from support.workflow import RESULTS, ROOT, TEST, copy_project, jobs, plan, snakemake
 
 
-def test_slurm_profile(tmp_path, finished_once):
-    """Timed jobs have their node to themselves; jobs are those of a local run, without the executor."""
+def test_slurm_profile_gives_timed_jobs_a_node(tmp_path, finished_once):
+    """Timed jobs have a node to themselves. The jobs equal those of a local run, except for the executor."""
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
     timed = {name for name, rule in RESULTS["tables"].items() if "alone" in rule}
     assert timed == set(profile["set-threads"])
@@ -26,8 +26,8 @@ def test_slurm_profile(tmp_path, finished_once):
     assert plan(folder, *TEST, "--profile", "local", "--", "all") == jobs((finished_once / "run.log").read_text())
 
 
-def test_lock_files_go_together():
-    """They are installed into one environment, so no package may be in two of them; and none may hold an address."""
+def test_lock_files_agree_with_each_other():
+    """All are installed into one environment, so no package may be in two files. No file may hold an address."""
     texts = {path.name: path.read_text() for path in ROOT.glob("requirements*.lock")}
     packages = {name: set(re.findall(r"^([\w.-]+)==", text, re.MULTILINE)) for name, text in texts.items()}
     assert set(packages) == {"requirements.lock", "requirements-dev.lock", "requirements-slurm.lock"}
@@ -42,8 +42,8 @@ def test_lock_files_go_together():
         assert names <= packages["requirements.lock"] | further, extra
 
 
-def test_missing_venv_is_one_line_and_leaves_nothing(tmp_path):
-    """As on Debian without python3-venv."""
+def test_missing_venv_is_one_line_and_leaves_no_files(tmp_path):
+    """Debian without python3-venv behaves so."""
     shutil.copy(ROOT / "Makefile", tmp_path)
     shutil.copytree(ROOT / "peers", tmp_path / "peers")
     (tmp_path / "requirements.lock").touch()
@@ -59,7 +59,7 @@ def test_missing_venv_is_one_line_and_leaves_nothing(tmp_path):
 
 
 def python_of_version(folder, version, lines=""):
-    """Write a program that is this Python but states another version, and knows no venv; lines : run first"""
+    """Write a program that is this Python but states another version, and has no venv; lines : run first"""
     numbers = tuple(map(int, version.split(".")))
     python = folder / "python"
     python.write_text(
@@ -74,7 +74,7 @@ def python_of_version(folder, version, lines=""):
     ("version", "refused"), [("3.10.9", True), ("3.11.0", False), ("3.14.1", False), ("3.15.0", True)]
 )
 def test_interpreters_outside_the_tested_range_are_refused(tmp_path, version, refused):
-    """The interpreter is this one, which states another version."""
+    """The interpreter is this Python, which states another version."""
     shutil.copy(ROOT / "Makefile", tmp_path)
     shutil.copytree(ROOT / "peers", tmp_path / "peers")
     (tmp_path / "requirements.lock").touch()
@@ -101,7 +101,7 @@ def test_missing_compiler_is_reported_before_anything_is_installed(tmp_path, ver
 
 @pytest.fixture
 def built(tmp_path):
-    """A folder with a Makefile and an environment that is up to date."""
+    """Make a folder with a Makefile and an environment that is up to date."""
     shutil.copy(ROOT / "Makefile", tmp_path)
     shutil.copytree(ROOT / "peers", tmp_path / "peers")
     (tmp_path / ".venv/bin").mkdir(parents=True)
@@ -124,7 +124,7 @@ def test_only_tests_and_lint_install_their_packages(built):
 
 
 def test_moved_environment_is_built_again(built):
-    """Its programs name the folder in which it was built."""
+    """Programs of the environment contain the path of the folder in which it was built."""
     assert "venv" not in make_environment(built).stdout
     moved = built.rename(built.with_name(f"{built.name}-moved"))
     assert "python3 -m venv --clear .venv\n" in make_environment(moved).stdout
@@ -145,8 +145,8 @@ def test_citation_agrees_with_package_and_changelog():
     assert f"## {project['version']} ({citation['date-released']})\n" in (ROOT / "CHANGELOG.md").read_text()
 
 
-def test_the_container_has_what_its_commands_need(tmp_path):
-    """The files that Containerfile copies suffice for plans of its commands."""
+def test_container_has_the_files_that_its_commands_need(tmp_path):
+    """The files that Containerfile copies suffice to plan its commands."""
     commands = re.findall(r"^(COPY|RUN|CMD) (.*)", (ROOT / "Containerfile").read_text(), re.MULTILINE)
     for sources, target in (text.rsplit(maxsplit=1) for kind, text in commands if kind == "COPY"):
         for source in map(ROOT.joinpath, sources.split()):

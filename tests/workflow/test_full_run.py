@@ -1,4 +1,4 @@
-"""What one full run of the small settings leaves behind."""
+"""Results of one full run of the small settings."""
 
 import re
 from pathlib import Path
@@ -28,7 +28,7 @@ def test_every_figure_and_table_is_made(finished_once):
 
 
 def test_files_follow_the_cf_conventions(finished_once):
-    """One of every kind: curves of discs and lines, pools, examples, tables."""
+    """The test checks a file of every kind: curves of discs and lines, pools, examples, tables."""
     files = [path for path in (finished_once / "results").rglob("*.nc") if "curves" not in path.parts]
     files += [finished_once / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000", "lines/h04000")]
     assert len(files) == 4 + 1 + len(ALL) + 2
@@ -36,7 +36,7 @@ def test_files_follow_the_cf_conventions(finished_once):
         assert violations(path) == [], path
 
 
-def test_small_scale_says_that_its_verdicts_mean_nothing(finished_once):
+def test_small_scale_states_that_its_verdicts_mean_nothing(finished_once):
     with xr.open_dataset(finished_once / "results/tables/claims.nc") as claims:
         assert (claims.trial, claims.elements_across, claims.realizations) == (1, 33, 4)
         assert "the verdicts mean nothing" in claims.scale
@@ -83,7 +83,7 @@ def test_timed_jobs_ran_alone(finished_once):
     assert most > 1, "else it would not show that timed jobs run alone"
 
 
-def test_ensembles_on_their_own_grids(finished_once):
+def test_sizes_have_discs_and_lines_on_their_grids(finished_once):
     sizes = pd.read_csv(finished_once / "results/tables/sizes.csv")
     discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]
     assert set(sizes.loc[sizes["case_group"] == "controls", "elements"]) == set(discs["elements"])
@@ -100,7 +100,7 @@ def test_scaling_table_has_every_ensemble(finished_once):
         for source, group in (("discs", "base"), ("discs", "longer_period"), ("lines", "base"))
         for hurst in (0.4, 0.9)
     }
-    # Both combinations are pooled; only discs of the base group have lines to compare with.
+    # Both combinations are pooled. Only discs of the base group have lines to compare with.
     assert set(table.loc[table["case_group"] == "base"].query("source == 'discs'")["realizations"]) == {4}
     with_lambda = table.dropna(subset=["lambda"])
     assert set(with_lambda["source"]) == {"discs"}
@@ -118,8 +118,8 @@ def test_combinations_are_in_real_units(finished_once):
         assert "spawn_key" in curves.attrs["settings"]
 
 
-def test_report(finished):
-    """Without a number of cores, as --unlock and --summary; with other settings it is refused in one line."""
+def test_report_is_made_with_the_settings_of_the_results(finished):
+    """The report needs no number of cores, like --unlock and --summary. Other settings are refused in one line."""
     output = snakemake(finished, "--report", "report.html", cores=None, fails=True)
     assert output.splitlines()[-1].startswith("Error: results were not made with these settings and sources; run the")
     assert "Traceback" not in output
@@ -130,7 +130,7 @@ def test_report(finished):
         assert text in page
 
 
-def test_a_failed_comparison_stops_the_workflow_and_is_named(finished, tmp_path):
+def test_failed_validation_stops_the_workflow(finished, tmp_path):
     copy_kernels(finished, tmp_path)
     strict = tmp_path / "strict.yaml"
     strict.write_text("validation: {limits: {area: 1.0e-4}}\n")

@@ -1,4 +1,4 @@
-"""Runs that are interrupted or killed, through make as its users do, and go on when the same command is typed again."""
+"""Runs that are interrupted or killed continue when the user repeats the same make command."""
 
 import os
 import shutil
@@ -23,7 +23,7 @@ GOES_ON = "The last run in this folder was killed: its lock is removed, its resu
 
 @pytest.fixture
 def folder(tmp_path):
-    """A project whose `make reproduce` makes one small ensemble."""
+    """Make a project whose `make reproduce` makes one small ensemble."""
     folder = copy_project(tmp_path)
     shutil.copytree(ROOT / "peers", folder / "peers")
     (folder / "Makefile").write_text((ROOT / "Makefile").read_text().replace(" all\n", f" {POOL}\n"))
@@ -42,17 +42,17 @@ def make(folder):
         stderr=subprocess.STDOUT,
         text=True,
         start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # the tests may run where it is ignored
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # tests may run where it is ignored
     )
 
 
 def batches(folder):
-    """{batch: time when its curves were made}"""
+    """Return {batch: time when its curves were made}."""
     return {path.stem: path.stat().st_mtime_ns for path in (folder / "results/curves/lines/h09000").glob("*.nc")}
 
 
 def make_until(folder, signal_number):
-    """Output of a run that gets a signal while it makes a batch, after it has made another one.
+    """Return the output of a run that gets a signal while it makes a batch, after it has made another batch.
 
     Snakemake takes the batches in any order.
     """
@@ -71,7 +71,7 @@ def make_until(folder, signal_number):
     return output
 
 
-def test_a_run_that_was_interrupted_and_then_killed_goes_on(folder):
+def test_run_continues_after_an_interrupt_and_a_kill(folder):
     locks = folder / ".snakemake/locks"
     first = make_until(folder, signal.SIGINT)
     assert "Traceback" not in first

@@ -1,4 +1,4 @@
-"""Measured surfaces of the settings, through the workflow beside the generated ones."""
+"""Measured surfaces named in the settings pass through the workflow together with the generated ones."""
 
 import shutil
 
@@ -20,7 +20,7 @@ MADE |= {"tabulate_rule_costs", "make_page"}
 
 
 def write_scans(folder):
-    """Three small maps in micrometres; returns the file of settings that names them."""
+    """Write three small maps in micrometres, and return the file of settings that names them."""
     (folder / "scans").mkdir()
     for seed, name in enumerate("abc"):
         heights = self_affine_disc(0.6, 25, rms=0.5, diameter=250.0, seed=seed).heights
@@ -34,7 +34,7 @@ def write_scans(folder):
 
 @pytest.fixture(scope="module")
 def folder(finished_once, tmp_path_factory):
-    """The finished project with three measured surfaces."""
+    """Make the finished project with three measured surfaces."""
     project = shutil.copytree(finished_once, tmp_path_factory.mktemp("measured") / "project")
     write_scans(project)
     output = snakemake(project, *TEST, "scans.yaml")
@@ -47,7 +47,7 @@ def test_scans_are_evaluated_in_metres(folder):
     assert set(scans.index) == SCANS
     np.testing.assert_allclose(scans["spacing"], 1e-5)
     np.testing.assert_allclose(scans["rms"], 0.5e-6, rtol=0.2)
-    np.testing.assert_allclose(scans["diameter"], 250e-6, rtol=0.06)  # a coarse disc
+    np.testing.assert_allclose(scans["diameter"], 250e-6, rtol=0.06)  # coarse grid
     for path in (folder / "results").rglob("*measured*.nc"):
         assert violations(path) == [], path
 
@@ -55,17 +55,17 @@ def test_scans_are_evaluated_in_metres(folder):
 def test_power_laws_have_the_numbers_of_scans(folder):
     fits = pd.read_csv(folder / "results/tables/measured_fits.csv")
     assert fits.groupby("case_group")["realizations"].first().to_dict() == {"ground": 2, "polished": 1}
-    assert fits[fits["case_group"] == "polished"]["beta_low"].isna().all()  # one scan has no interval
+    assert fits[fits["case_group"] == "polished"]["beta_low"].isna().all()  # the interval needs more than one scan
 
 
-def test_kinetics_under_the_forces_in_every_medium(folder):
+def test_kinetics_have_all_forces_in_every_medium(folder):
     kinetics = pd.read_csv(folder / "results/tables/measured_kinetics.csv")
     assert set(kinetics["scan"]) == {"ground_a", "ground_b"}
     assert set(kinetics["force"]) == {1e-4, 1e-3}
     assert set(kinetics["medium"]) == {"newtonian", "springpot"}
     rows = kinetics.query("scan == 'ground_a' and medium == 'newtonian'")
     depths = rows.groupby((rows["force"] * rows["time"]).round(15))["depth"]
-    np.testing.assert_allclose(depths.max(), depths.min(), rtol=1e-9)  # one depth for one impulse
+    np.testing.assert_allclose(depths.max(), depths.min(), rtol=1e-9)  # the depth depends only on the impulse
     assert (depths.size() == 2).sum() > 5
 
 
@@ -80,7 +80,7 @@ def test_contacts_have_the_numbers_of_the_command_line(folder, monkeypatch):
         np.testing.assert_allclose(contacts[:2][name], table[name], rtol=1e-12, err_msg=name)
 
 
-def test_the_page_has_a_section(folder):
+def test_page_has_a_section_on_measured_surfaces(folder):
     page = Page((folder / "results/index.html").read_text(encoding="utf-8"))
     assert "measured" in page.ids
     assert "scans/a.npy" in page.text
@@ -89,7 +89,7 @@ def test_the_page_has_a_section(folder):
     assert (folder / "results/figures/measured.png").stat().st_size > 10_000
 
 
-def test_a_scan_is_indented_again_if_its_content_changes(folder):
+def test_scan_is_indented_again_if_its_content_changes(folder):
     heights = np.load(folder / "scans/b.npy")
     np.save(folder / "scans/b.npy", 1.1 * heights)
     planned = plan(folder, *TEST, "scans.yaml")

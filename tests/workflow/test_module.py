@@ -1,4 +1,4 @@
-"""The workflow as a module of another one, and beside a library that was installed without the study."""
+"""The workflow as a module of another workflow, and next to a library that was installed without the study."""
 
 import os
 import shutil
@@ -33,8 +33,8 @@ use rule * from viscorough as rough_*
 """
 
 
-def test_another_workflow_makes_a_figure_with_settings_of_its_own(finished_once, tmp_path):
-    """Settings that it does not give are the default ones; files lie in its folder."""
+def test_another_workflow_makes_a_figure_with_its_settings(finished_once, tmp_path):
+    """Settings that the other workflow does not give have their defaults; files are in its folder."""
     copy_kernels(finished_once, tmp_path)
     (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=ROOT / "workflow/Snakefile"))
     planned = jobs(snakemake(tmp_path, "--dry-run", "--", "rough_figure_4"))
@@ -65,8 +65,8 @@ def test_module_leaves_the_default_target_to_rules_before_it(tmp_path):
     assert jobs(snakemake(tmp_path, "--dry-run")) == {"mine": 1}
 
 
-def test_costs_are_those_of_the_run_under_any_prefix(finished, tmp_path):
-    """Benchmark files that other settings or targets have left behind do not count."""
+def test_costs_count_only_the_run_under_any_prefix(finished, tmp_path):
+    """Benchmark files left behind by other settings or targets do not count."""
     expected = pd.read_csv(finished / "results/tables/rule_costs.csv").set_index("rule")["jobs"]
     benchmarks = finished / "results/benchmarks"
     others = ("make_article.tsv", "evaluate_measured.tsv", "earlier.tsv", "indent_surfaces/discs/h07000/0000-0001.tsv")
@@ -96,8 +96,8 @@ def test_module_of_the_documentation_is_planned(tmp_path):
     assert set(planned) <= {"rough_generate_examples", "rough_plot_surfaces", "rough_figure_1"}
 
 
-def test_the_study_comes_from_the_checkout_of_the_workflow(tmp_path):
-    """In a process that finds the library elsewhere, and no study, rules and jobs take both from the checkout."""
+def test_study_comes_from_the_checkout_of_the_workflow(tmp_path):
+    """In a process that finds the library elsewhere and no study, rules and jobs take both from the checkout."""
     (tmp_path / "site").mkdir()
     (tmp_path / "site/viscorough").symlink_to(ROOT / "src/viscorough")
     (tmp_path / "Snakefile").write_text(
@@ -120,14 +120,14 @@ main(["--dry-run", "--quiet"])
 
 @pytest.fixture
 def checkout(tmp_path):
-    """A copy of the project and its sources."""
+    """Copy the project and its sources."""
     copy_project(tmp_path / "copy")
     copy_sources(tmp_path / "copy")
     return tmp_path / "copy"
 
 
 def test_packages_of_another_checkout_are_refused(checkout):
-    """As with `cp -a`, whose .venv holds the path of the first checkout."""
+    """After `cp -a`, .venv holds the path of the first checkout."""
     output = snakemake(checkout, "--dry-run", project=ROOT, fails=True)
     message = f"Error: this Snakemake uses viscorough of {ROOT}/src, not of this checkout, {checkout}/src; "
     assert output.splitlines()[-1].startswith(message)
@@ -149,7 +149,7 @@ def test_workflow_without_sources_needs_packages_of_its_version(tmp_path):
 
 
 def test_interpreter_whose_path_has_a_space_is_refused(unmade, tmp_path):
-    """Snakemake does not quote it, so that every job would fail."""
+    """Snakemake does not quote the path, so every job would fail."""
     interpreter = tmp_path / "my folder/python"
     interpreter.parent.mkdir()
     interpreter.symlink_to(sys.executable)

@@ -1,4 +1,4 @@
-"""The page of the results: complete in itself, and every number on it stands in a table."""
+"""The page of the results is one complete file, and every number on it is in a table."""
 
 import base64
 import re
@@ -49,7 +49,7 @@ def test_every_image_is_embedded_and_described(finished_once, page):
 
 
 def test_code_on_the_page_runs(html, tmp_path, monkeypatch):
-    """Lines for Python and for the command line, on the heights that they name."""
+    """The blocks are Python or command lines, on the heights that they name."""
     monkeypatch.chdir(tmp_path)
     np.save("heights.npy", self_affine_disc(0.7, 33, rms=1e-7, diameter=33e-6, seed=1).heights)
     blocks = [unescape(text) for text in re.findall(r"<pre><code>(.*?)</code></pre>", html, re.DOTALL)]
@@ -66,7 +66,7 @@ def test_code_on_the_page_runs(html, tmp_path, monkeypatch):
 
 
 def test_commands_on_page_and_in_article_exist(html):
-    """The article shows no block of code, which a test would have to run."""
+    """The article shows no block of code that a test would have to run."""
     article = (ROOT / "workflow/article/article.typ.jinja").read_text(encoding="utf-8")
     assert "```" not in article
     commands = re.findall(r"<code>(make [\w -]+)</code>", html) + re.findall(r"`(make [\w -]+)`", article)
@@ -75,7 +75,7 @@ def test_commands_on_page_and_in_article_exist(html):
         run_shell(command)
 
 
-def test_nothing_comes_from_elsewhere(html, page):
+def test_page_loads_nothing_from_elsewhere(html, page):
     assert len(html.encode()) < LARGEST
     assert not {"link", "iframe", "base"} & {tag for tag, _ in page.elements}
     assert [set(attributes) for attributes in page.attributes("script")] == [{"id", "type"}, set()]
@@ -89,7 +89,7 @@ def test_nothing_comes_from_elsewhere(html, page):
     assert all(source.startswith("data:") for source in sources)
 
 
-def test_every_number_stands_in_a_table(page, tables):
+def test_every_number_is_in_a_table(page, tables):
     assert len(page.numbers) > 100
     for _, place, text in page.numbers:
         number, half_a_digit = number_in(text)
@@ -114,26 +114,26 @@ def test_tooltip_of_every_number_names_a_rule_and_a_source_file(page):
         assert (ROOT / source).is_file()
 
 
-def test_the_answer_states_no_other_numbers(page):
-    """But those of equations, the error that is asked about, the factor in the findings, and numbers of cases."""
+def test_answer_states_no_numbers_outside_the_tables(page):
+    """Other numbers are equation numbers, the requested error, the factor in the findings, and numbers of cases."""
     assert sum(section == "answer" for section, *_ in page.numbers) > 20
     text = re.sub(r"Eqs?\. \d+(, \d+)*( and \d+)?|To 1 % error|1/Γ\(2 − α\)", "", page.texts["answer"])
     text = re.sub(r"\(\d+ of \d+ cases(, \d+ undecided)?\)", "", text)
     assert re.findall(r"\d[^ ]*( %)?", text) == []
 
 
-def test_settings_are_no_dumps_and_a_trial_run_says_that_it_is_one(page):
+def test_page_marks_a_trial_run_and_shows_no_raw_values(page):
     assert "trial scale: its verdicts mean nothing." in page.text
     assert not re.search(r"\{['\"]|spawn_key|None|nan\b|dtype|<[a-z]", page.text.replace("nan marks points", ""))
 
 
-def test_the_time_is_that_in_which_jobs_ran_beside_the_papers(finished_once, page):
+def test_page_compares_the_time_of_the_jobs_with_the_papers(finished_once, page):
     costs = pd.read_csv(finished_once / "results/tables/rule_costs.csv")
     assert costs["longest_s"].max() < costs["share_s"].sum() < costs["seconds"].sum()
     assert f"The paper: several weeks. Here: {duration_text(costs['share_s'].sum())} on this machine" in page.text
 
 
-def test_every_claim_unfolds_and_shows_a_verdict_that_the_full_scale_does_not_share(page, tables):
+def test_every_claim_unfolds_and_shows_verdicts_that_differ_at_full_scale(page, tables):
     claims = [attributes for attributes in page.attributes("details") if attributes.get("class") == "claim"]
     verdicts, published = overall(tables["claims"]), overall(pd.read_csv(ROOT / "docs/claims.csv"))
     assert len(claims) == len(verdicts) > 30
@@ -141,7 +141,7 @@ def test_every_claim_unfolds_and_shows_a_verdict_that_the_full_scale_does_not_sh
     assert page.text.count("At full scale") == page.text.count("in make paper: ") == differ > 0
 
 
-def test_it_can_be_used_with_the_keyboard(page):
+def test_page_can_be_used_with_the_keyboard(page):
     tags = [tag for tag, _ in page.elements]
     assert tags.index("a") < tags.index("nav")  # the link that skips the contents
     scrolled = [attributes for _, attributes in page.elements if attributes.get("class") == "scroll"]
@@ -153,8 +153,8 @@ def test_it_can_be_used_with_the_keyboard(page):
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
-def test_a_narrow_screen_needs_no_horizontal_scrolling(html, tmp_path):
-    """In a frame, since the windows of Chromium are at least 500 pixels wide."""
+def test_narrow_screen_needs_no_horizontal_scrolling(html, tmp_path):
+    """The page is in a frame, since the windows of Chromium are at least 500 pixels wide."""
     (tmp_path / "page.html").write_text(html, encoding="utf-8")
     width = "document.title = this.contentDocument.documentElement.scrollWidth"
     path, size = tmp_path / "frame.html", 'width="400" height="900"'
@@ -162,8 +162,8 @@ def test_a_narrow_screen_needs_no_horizontal_scrolling(html, tmp_path):
     assert "<title>400</title>" in opened(path, "--hide-scrollbars", "--allow-file-access-from-files")
 
 
-def test_the_article_is_made_of_the_results(finished):
-    """Its rule is not part of the default target; what it quotes beside the run is published."""
+def test_article_is_made_from_the_results(finished):
+    """The rule is not part of the default target. Numbers that the article quotes from other runs are published."""
     planned = jobs(snakemake(finished, *TEST, "--", "article"))
     assert planned == {"make_article": 1}
     pdf = (finished / "results/article.pdf").read_bytes()

@@ -1,4 +1,4 @@
-"""What a changed setting or a changed source reruns, and what it leaves."""
+"""Which jobs rerun after a change of a setting or of a source."""
 
 import base64
 import re
@@ -20,14 +20,14 @@ from support.workflow import (
 )
 from viscorough_study.ensembles.surface_files import read_surfaces
 
-LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
+LAST = {"tabulate_rule_costs", "make_page"}  # these rules run again after any change
 BOUNDARY_ELEMENTS = {"indent_surfaces", "compare_direct", "compare_reduction", "validate", "measure_methods"}
 BOUNDARY_ELEMENTS |= {"map_failures", "compare_level_placement"}
 
 
 @pytest.fixture(scope="module")
 def with_dependents(unmade):
-    """Function that adds to a set of rules all that need their results, directly or not."""
+    """Return a function that adds to a set of rules all rules that need their results, directly or not."""
     graph = snakemake(unmade, *TEST, "--rulegraph")
     names = dict(re.findall(r'(\d+)\[label = "(\w+)"', graph))
     edges = {(names[rule], names[then]) for rule, then in re.findall(r"(\d+) -> (\d+)", graph)}
@@ -42,7 +42,7 @@ def with_dependents(unmade):
 
 @pytest.fixture
 def editable(finished):
-    """The finished project with its own copy of the packages."""
+    """Make the finished project with a separate copy of the packages."""
     copy_sources(finished)
     return finished
 
@@ -72,21 +72,21 @@ OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_
     ],
     ids=["few steps", "scaling", "figures", "ensemble", "surface"],
 )
-def test_a_changed_setting_reruns_what_uses_it(finished_once, tmp_path, with_dependents, changed, directly):
+def test_changed_setting_reruns_only_the_rules_that_use_it(finished_once, tmp_path, with_dependents, changed, directly):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
     assert set(planned) == with_dependents(directly) | LAST
-    if "surface" in changed:  # not of the variant that has its own period; one batch each of grids and their control
+    if "surface" in changed:  # the variant has its own period; grids and their control have one batch each
         assert planned["generate_discs"] == planned["indent_surfaces"] == 2 + 2
 
 
-def test_changed_lines_rerun_nothing_of_discs_alone(finished_once, tmp_path, with_dependents):
+def test_changed_lines_rerun_no_rule_that_uses_only_discs(finished_once, tmp_path, with_dependents):
     planned = set(plan(finished_once, *TEST, settings_file(tmp_path, "changed", lines={"points": 2048})))
     of_discs = {"compare_zeta_laws", "compare_grids", "measure_plateaus"}
-    of_discs |= {"fit_sizes", "plot_sizes", "fit_collapse", "plot_collapse"}  # whose lines have points of their own
+    of_discs |= {"fit_sizes", "plot_sizes", "fit_collapse", "plot_collapse"}  # their lines have other numbers of points
     assert planned == with_dependents({"reduce_lines"}) - of_discs | LAST
 
 
-def test_a_further_exponent_reruns_only_what_depends_on_it(finished_once, tmp_path):
+def test_further_exponent_reruns_only_its_dependents(finished_once, tmp_path):
     more = settings_file(tmp_path, "more", discs={"hurst": [0.4, 0.6, 0.9]}, lines={"hurst": [0.4, 0.6, 0.9]})
     text = snakemake(finished_once, "--dry-run", *TEST, more)
     cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
@@ -101,19 +101,19 @@ TENTH = {"combinations": [*KNOWN, KNOWN[0] | {"number": 10}]}
 
 
 @pytest.mark.parametrize("discs", [{"realizations": 4}, TENTH])  # a second batch of both Hurst exponents
-def test_what_is_added_keeps_the_curves_that_are_there(finished_once, tmp_path, discs):
+def test_additions_keep_existing_curves(finished_once, tmp_path, discs):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "more", discs=discs))
     assert planned["generate_discs"] == planned["indent_surfaces"] == 2
     assert "reduce_lines" not in planned
 
 
-def test_another_seed_reruns_the_curves_of_all_random_surfaces(finished_once, tmp_path):
+def test_new_seed_reruns_the_curves_of_all_random_surfaces(finished_once, tmp_path):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "seed", seed=5), "--", "curves")
     assert planned == dict.fromkeys(("generate_discs", "indent_surfaces", "reduce_lines"), 4)
 
 
-def test_surfaces_that_must_be_made_again_do_not_hide_what_depends_on_them(finished_once, tmp_path):
-    """Kept ones after a change of the seed, and ones that a killed run marked as incomplete when they were there."""
+def test_outdated_surfaces_rerun_their_dependents(finished_once, tmp_path):
+    """Surfaces may be kept and then outdated by a new seed, or marked as incomplete by a killed run."""
     project, surfaces = copy_project(tmp_path), "results/surfaces/discs/h09000/0000-0001.nc"
     copy_kernels(finished_once, project)
     planned = plan(project, *TEST)
@@ -125,8 +125,8 @@ def test_surfaces_that_must_be_made_again_do_not_hide_what_depends_on_them(finis
     assert plan(project, *TEST) == planned
 
 
-def test_kept_surfaces_are_those_that_curves_are_made_from(finished):
-    """Surfaces that are asked for are made again, and kept; curves only where what they are made from changes."""
+def test_kept_surfaces_belong_to_the_curves(finished):
+    """Surfaces are made again, and kept, on request. Curves are made again only if their input changes."""
     surfaces = "results/surfaces/discs/h04000/0000-0001.nc"
     assert not (finished / surfaces).exists()
     snakemake(finished, *TEST, "--", surfaces)
@@ -135,11 +135,11 @@ def test_kept_surfaces_are_those_that_curves_are_made_from(finished):
         assert curves["rms_disc"].values.tolist() == kept
     assert plan(finished, *TEST) == {}
     planned = plan(finished, *TEST, settings_file(finished, "accurate", discs={"tolerance": 5e-3}))
-    assert (planned["generate_discs"], planned["indent_surfaces"]) == (3, 4)  # one file of discs is there
+    assert (planned["generate_discs"], planned["indent_surfaces"]) == (3, 4)  # one file of discs exists
 
 
 def test_comments_rerun_nothing(editable):
-    """In every module of both packages, in every script and in the rules; nor do the times of the files count."""
+    """Comments are added to every module of both packages, every script and the rules. Times of files do not count."""
     files = [path for folder in ("src", "workflow/scripts") for path in (editable / folder).rglob("*.py")]
     assert len(files) > 80
     for path in [*files, *(editable / "workflow/rules").glob("*.smk")]:
@@ -150,7 +150,7 @@ def test_comments_rerun_nothing(editable):
 @pytest.mark.parametrize(
     ("files", "directly"),
     [
-        (["src/viscorough/contact/halfspace/column_fft.py"], BOUNDARY_ELEMENTS | {"generate_discs"}),  # were temporary
+        (["src/viscorough/contact/halfspace/column_fft.py"], BOUNDARY_ELEMENTS | {"generate_discs"}),  # temporary files
         (["workflow/scripts/check_validation.py"], {"check_validation"}),
         (
             [f"src/viscorough_study/{module}.py" for module in ("comparisons/direct_integration", "figures/exponent")],
@@ -159,11 +159,11 @@ def test_comments_rerun_nothing(editable):
     ],
     ids=["column convolution", "script", "table and figure"],
 )
-def test_a_changed_source_reruns_what_uses_it(editable, with_dependents, files, directly):
+def test_changed_source_reruns_only_the_rules_that_use_it(editable, with_dependents, files, directly):
     for file in files:
         add_line(editable / file, "CHANGED = True")
     assert set(plan(editable, *TEST)) == with_dependents(directly) | LAST
 
 
-def test_forcing_one_rule(finished_once):
+def test_forced_rule_reruns_with_its_dependents_only(finished_once):
     assert plan(finished_once, *TEST, "--forcerun", "plot_exponent") == dict.fromkeys(("plot_exponent", *LAST), 1)

@@ -1,4 +1,4 @@
-"""One line of progress, from what Snakemake prints; what goes wrong is shown, and the exit code kept."""
+"""One line of progress from Snakemake's output; errors are shown, and the exit code is kept."""
 
 import contextlib
 import io
@@ -51,7 +51,7 @@ class Terminal(io.StringIO):
 
 @pytest.fixture
 def run(tmp_path, monkeypatch):
-    """Runs a Python script, in place of Snakemake, with its progress; the exit code."""
+    """Run a Python script instead of Snakemake, with its progress, and return the exit code."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / run_with_progress.PUBLISHED_COSTS).parent.mkdir(parents=True)
     (tmp_path / run_with_progress.PUBLISHED_COSTS).write_text("rule,jobs,share_s\nindent,3,30\nplot,1,1\n")
@@ -59,7 +59,7 @@ def run(tmp_path, monkeypatch):
     return lambda script: run_with_progress.run([sys.executable, "-c", script])
 
 
-def test_what_runs_how_many_of_how_many_and_their_share_of_the_time(monkeypatch):
+def test_progress_shows_the_job_the_number_of_jobs_and_their_share_of_time(monkeypatch):
     monkeypatch.setattr("sys.stderr", Terminal())
     progress = Progress(pd.Series({"indent": 10.0, "plot": 1.0}))
     for line in STARTED.splitlines():
@@ -77,7 +77,7 @@ def test_without_a_terminal_messages_and_one_line_are_shown(run, tmp_path, capfd
     assert (tmp_path / "results/run.log").read_text() == printed + "\n"
 
 
-def test_a_terminal_has_one_line_that_is_drawn_again(run, monkeypatch):
+def test_progress_on_a_terminal_is_one_redrawn_line(run, monkeypatch):
     monkeypatch.setattr("sys.stderr", shown := Terminal())
     assert run(f"print({STARTED + FINISHED + 'Job 5: Curves of lines'!r})") == 0
     *lines, last = shown.getvalue().split("\r")
@@ -86,7 +86,7 @@ def test_a_terminal_has_one_line_that_is_drawn_again(run, monkeypatch):
     assert last.strip() == ""
 
 
-def test_the_run_goes_on_where_nobody_reads_its_progress(run, tmp_path, monkeypatch):
+def test_run_continues_if_the_progress_stream_is_closed(run, tmp_path, monkeypatch):
     reader, writer = os.pipe()
     os.close(reader)
     with contextlib.suppress(OSError), open(writer, "w", buffering=1) as broken:
@@ -96,7 +96,7 @@ def test_the_run_goes_on_where_nobody_reads_its_progress(run, tmp_path, monkeypa
     assert (tmp_path / "made").exists()
 
 
-def test_the_error_of_a_job_is_shown_with_its_log_and_the_code_kept(run, tmp_path, capfd):
+def test_error_of_a_job_is_shown_with_its_log_and_exit_code(run, tmp_path, capfd):
     lines = ("INFO 3 of 9", "ERROR ValueError: no contact", "ERROR Traceback (most recent")
     (tmp_path / "indent.log").write_text("".join(f"2026-01-01 10:00:00 {line}\n" for line in lines))
     assert run(f"print({STARTED + FAILED + FAILED!r}); raise SystemExit(3)") == 3
@@ -107,14 +107,14 @@ def test_the_error_of_a_job_is_shown_with_its_log_and_the_code_kept(run, tmp_pat
     assert "before it wrote its log (log: indent.log)" in capfd.readouterr().err
 
 
-def test_what_ends_snakemake_itself_is_shown(run, capfd):
+def test_errors_of_snakemake_itself_are_shown(run, capfd):
     assert run("print('Building DAG of jobs...'); exit('Error in the settings: lines: 3')") == 1
     assert capfd.readouterr().err == "Error in the settings: lines: 3\n"
     assert run(r"import os; print('one\ntwo', flush=True); os.kill(os.getpid(), 9)") == 128 + 9
     assert capfd.readouterr().err.splitlines() == ["one", "two", "Full output: results/run.log"]
 
 
-def test_the_end_is_three_lines(tmp_path):
+def test_summary_is_three_lines(tmp_path):
     (tmp_path / "tables").mkdir()
     rows = [("a", "reproduced"), ("a", "undecided"), ("b", "reproduced"), ("c", "reproduced")]
     pd.DataFrame(rows, columns=["claim", "verdict"]).assign(kind="physics").to_csv(tmp_path / "tables/claims.csv")
@@ -128,7 +128,7 @@ def test_the_end_is_three_lines(tmp_path):
         ]
 
 
-def test_interrupted_runs_say_that_the_same_command_continues(run, capfd, monkeypatch):
+def test_interrupted_run_states_that_the_same_command_continues(run, capfd, monkeypatch):
     def interrupt(number, handler):
         if number == signal.SIGTERM:
             handler(number, None)

@@ -1,4 +1,4 @@
-"""Targets beside the default one, and the plans of every scale."""
+"""Targets other than the default, and the plans of every scale."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from support.workflow import TEST, jobs, plan, snakemake
     ("name", "indent_surfaces", "reduce_lines"),
     [("config", 4 * (2 + 1) + 3, 22), ("paper", 4 * (8 + 8) + 4, 102), ("test", 2 * (1 + 1) + 2, 2 * 2 + 1)],
 )
-def test_plans_of_every_scale(unmade, name, indent_surfaces, reduce_lines):
+def test_every_scale_has_a_plan(unmade, name, indent_surfaces, reduce_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
     assert (planned.pop("indent_surfaces"), planned.pop("reduce_lines")) == (indent_surfaces, reduce_lines)
     assert planned.pop("generate_discs") == indent_surfaces
@@ -19,10 +19,10 @@ def test_plans_of_every_scale(unmade, name, indent_surfaces, reduce_lines):
     assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (110 if name == "config" else 300)
 
 
-def test_one_figure_needs_only_its_own(unmade):
+def test_figure_plans_only_the_jobs_it_needs(unmade):
     assert plan(unmade, *TEST, "--", "figure_1") == {"generate_examples": 1, "plot_surfaces": 1}
     assert plan(unmade, *TEST, "--", "plot_surfaces") == {"generate_examples": 1, "plot_surfaces": 1}
 
 
-def test_targets_beside_the_default_one_are_made_with_it(finished):
+def test_other_targets_are_made_together_with_the_default(finished):
     assert jobs(snakemake(finished, *TEST, "--", "speed", "stability", "sizes")) == {}

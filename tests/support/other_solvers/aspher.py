@@ -13,7 +13,7 @@ class ContactSolver:
         self.last = None
 
     def solve(self, gap, p_nominal, tol=1e-8, *, precond="none", p_init=None):
-        """`p_nominal` is the mean pressure over the whole grid, `tol` a share of the range of the gaps.
+        """Solve one grid; `p_nominal` is the mean pressure over the grid, `tol` a share of the range of the gaps.
 
         `p_init` is the solution of the level before, from the second level on.
         """
@@ -30,7 +30,7 @@ class ContactSolver:
 def solve_nested(
     grid_size, gap, p_nominal, *, domain_size, E_star, coarsest, tol, backend, precision, active_set=False
 ):
-    """The solution on the finest of the grids, whose numbers of points along a side are coarsest * 2^k."""
+    """Return the solution on the finest of the grids, whose numbers of points along a side are coarsest * 2^k."""
     assert (grid_size % coarsest, (grid_size // coarsest).bit_count()) == (0, 1)
     assert (backend, precision, active_set) in {("fft", "float_then_double", False), ("h2", "float", True)}
     start = np.ones(gap.size)

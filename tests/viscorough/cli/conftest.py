@@ -16,14 +16,14 @@ _OF_PYTHON -= {"shear_modulus"}
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
-    """An empty folder, in which the commands run."""
+    """Run the commands in an empty folder."""
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
 @pytest.fixture
 def complaint(here, capsys):
-    """Function that returns the one line on stderr that refuses a line of arguments.
+    """Return a function that requires a line of arguments to be refused, and returns the line on stderr.
 
     The exit code is 2, no file of the folder is made or changed, and the line names options, not arguments of Python.
     """

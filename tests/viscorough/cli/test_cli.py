@@ -14,7 +14,7 @@ from viscorough.io import netcdf
 
 
 def run_indent_as(function):
-    """The exit code of the command line with one command, `indent`, which calls a function."""
+    """Run the command line with one command, `indent`, which calls a function; return the exit code."""
     commands = click.Group()
     commands.command("indent")(function)
     return cli.main(["indent"], commands)
@@ -49,8 +49,8 @@ def test_warnings_are_written_once_and_on_one_line(capsys):
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
 
 
-def test_disagreement_of_an_audit_is_a_warning(here, capsys, monkeypatch):
-    """What --audit prints is shown in docs/own_surface.md."""
+def test_audit_that_disagrees_is_a_warning(here, capsys, monkeypatch):
+    """docs/own_surface.md shows the output of --audit."""
     np.save("heights.npy", 0.1 * sphere_heights(9))
     monkeypatch.setattr(sum_rules.Audit, "agrees", False)
     assert run("indent heights.npy --spacing 1 --unit um --audit -o out.nc") == 0
@@ -60,7 +60,7 @@ def test_disagreement_of_an_audit_is_a_warning(here, capsys, monkeypatch):
     assert printed.out.endswith(f"49 of 49 elements in contact\n{attributes['audit']}\n")
 
 
-def test_the_bare_command_lists_the_commands(capsys):
+def test_command_without_arguments_lists_the_commands(capsys):
     listings = []
     for arguments in ([], ["-h"], ["--help"]):
         assert cli.main(arguments) == 0
@@ -78,7 +78,7 @@ def test_the_bare_command_lists_the_commands(capsys):
     [("viscorough in", ["plain,indent"]), ("viscorough contact --tol", ["plain,--tolerance"]), ("viscorough x", [])],
 )
 def test_shells_complete_commands_and_options(capsys, monkeypatch, words, completions):
-    """As bash asks for them, with the script that the help names."""
+    """The script named by the help asks for completions as bash does."""
     monkeypatch.setenv("_VISCOROUGH_COMPLETE", "bash_complete")
     monkeypatch.setenv("COMP_WORDS", words)
     monkeypatch.setenv("COMP_CWORD", str(len(words.split()) - 1))
@@ -86,7 +86,7 @@ def test_shells_complete_commands_and_options(capsys, monkeypatch, words, comple
     assert capsys.readouterr().out.split() == completions
 
 
-def test_the_script_for_completion_is_printed(capsys, monkeypatch):
+def test_completion_script_is_printed(capsys, monkeypatch):
     monkeypatch.setenv("_VISCOROUGH_COMPLETE", "zsh_source")
     assert cli.main([]) == 0
     assert "#compdef viscorough" in capsys.readouterr().out
@@ -100,7 +100,7 @@ def test_errors_in_the_code_are_not_hidden():
 # ---- real processes
 
 
-def test_help_and_mistakes_do_not_wait_for_slow_imports():
+def test_help_and_errors_need_no_slow_imports():
     script = textwrap.dedent("""
         import sys
         from viscorough.cli import main

@@ -13,7 +13,7 @@ from viscorough.io import netcdf
 
 @pytest.fixture
 def here(here):
-    """A folder with heights.npy, a rough disc, and um.nc, the same in micrometres."""
+    """Make a folder with heights.npy, a rough disc, and um.nc, the same disc in micrometres."""
     heights = self_affine_disc(0.7, 25, rms=0.3, diameter=25, seed=2).heights
     np.save("heights.npy", heights)
     Indenter(heights, 1.0, length_unit="um").save("um.nc")
@@ -21,7 +21,7 @@ def here(here):
 
 
 def contact(options, heights="heights.npy"):
-    """The values in the file that a command line with these options writes."""
+    """Return the values in the file that a command line with these options writes."""
     assert run(f"contact {heights} --spacing 1 -o out.nc {options}") == 0
     return values("out.nc")
 
@@ -31,8 +31,8 @@ SCALARS += ("mean_pressure", "largest_pressure", "residual")
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-7])
-def test_files_hold_what_python_gives(here, tolerance):
-    """Which solves the contact problem (tests/viscorough/contact/test_one_contact.py)."""
+def test_file_has_the_results_of_python(here, tolerance):
+    """tests/viscorough/contact/test_one_contact.py tests that Python solves the contact problem."""
     written, heights = contact(f"--force 30 --tolerance {tolerance}"), np.load("heights.npy")
     wanted = contact_at(Indenter(heights, 1.0), force=30, tolerance=tolerance)
     wanted.save("saved.nc")
@@ -48,7 +48,7 @@ def test_files_hold_what_python_gives(here, tolerance):
             np.testing.assert_allclose(of[name], getattr(wanted, name), rtol=1e-6, atol=1e-6)
 
 
-def test_several_forces_have_a_dimension(here, capsys):
+def test_several_forces_add_a_dimension(here, capsys):
     several = contact("--force 1,30")
     assert several["pressure"].shape == (2, 25, 25)
     np.testing.assert_array_equal(several["force"], [1, 30])
@@ -58,7 +58,7 @@ def test_several_forces_have_a_dimension(here, capsys):
     assert np.isfinite(several["patch_area"]).sum(axis=1).tolist() == several["patches"].tolist()
 
 
-def test_closing_lines_say_what_was_found_in_the_unit_that_is_known(here, capsys):
+def test_closing_line_states_results_in_the_unit_of_the_file(here, capsys):
     written = contact("--depth 0.5 --unit um")
     line = capsys.readouterr().out
     assert re.match(r"out.nc: depth 0.5 um, F/G \S+ um2, contact fraction 0.*patches$", line)
@@ -74,7 +74,7 @@ def test_closing_lines_say_what_was_found_in_the_unit_that_is_known(here, capsys
     assert " depth 0.5 um " in capsys.readouterr().out
 
 
-def test_forces_with_a_modulus_are_newtons_where_the_unit_is_known(here):
+def test_forces_with_a_modulus_are_newtons_if_the_file_has_a_unit(here):
     """30 µm² · 2 GPa = 0.06 N."""
     shear = "--shear-modulus '2 GPa' --force 0.06", "--shear-modulus 2e9 --force '60 mN'"
     for given in (*shear, "--young '6 GPa' --force '6e4 uN'", "--young 4.5e9 --poisson 0.5 --force 0.045"):
@@ -84,7 +84,7 @@ def test_forces_with_a_modulus_are_newtons_where_the_unit_is_known(here):
     assert units == {"depth": "um", "force": "um2", "pressure": "1"}
 
 
-def test_moduli_are_in_consistent_units_where_no_unit_is_known(here):
+def test_moduli_are_in_consistent_units_if_the_file_has_no_unit(here):
     force = contact("--force 60 --young 1.5 --poisson 0.25")["force"]
     assert force == pytest.approx(60 / (1.5 / (4 * (1 - 0.25**2))), rel=1e-12)
     in_python = contact_at(Indenter(np.load("heights.npy"), 1.0), force=60, young_modulus=1.5, poisson=0.25)
@@ -108,10 +108,10 @@ def test_files_have_force_stiffness_and_pressure_in_si_units(here):
 
 
 @pytest.mark.parametrize("radius", [40.0, 40.5, 60.0])
-def test_hertz_in_si_units(here, radius):
-    """A ball of radius 0.1 mm on E = 2 MPa: depth, corrected area and largest pressure to 0.5 %.
+def test_ball_follows_hertz_in_si_units(here, radius):
+    """Check depth, corrected area and largest pressure of a ball of radius 0.1 mm on E = 2 MPa to 0.5 %.
 
-    radius : of the contact in elements, which are 0.25 um wide. F = 4/3 E* a^3/R, u = a^2/R, p = 2 E* a/(pi R).
+    radius : contact radius in elements, which are 0.25 um wide. F = 4/3 E* a^3/R, u = a^2/R, p = 2 E* a/(pi R).
     """
     points, ball, reduced_modulus = 2 * int(1.15 * radius) + 1, 100.0, 2 / 0.75  # um, MPa
     position, a = 0.25 * (np.arange(points) - points // 2), 0.25 * radius
@@ -125,7 +125,7 @@ def test_hertz_in_si_units(here, radius):
     assert [units[name] for name in expected] == ["um", "um2", "MPa", "N"]
 
 
-def test_curves_stand_at_forces_and_end_at_one(here):
+def test_curves_have_levels_at_forces_and_end_at_a_force(here):
     command = "indent um.nc --spacing 1 -o out.nc --shear-modulus '1 MPa'"
     assert run(f"{command} --forces '1 uN,30 uN'") == 0
     np.testing.assert_allclose(values("out.nc")["force"], [1, 30], rtol=1e-12)
@@ -143,8 +143,8 @@ def test_kinetics_need_an_incompressible_half_space(complaint):
     assert run(kinetics) == 0
 
 
-def test_numbers_beyond_single_precision_are_kept(here):
-    """Heights of 1e100: the same contact as that of heights of 1, scaled."""
+def test_heights_beyond_single_precision_are_computed(here):
+    """Heights of 1e100 give the same contact as heights of 1, scaled."""
     np.save("huge.npy", 1e100 * np.load("heights.npy"))
     usual, huge = contact("--depth 0.5"), contact("--depth 0.5e100", heights="huge.npy")
     for name in ("pressure", "gap", "force"):

@@ -1,4 +1,4 @@
-"""`viscorough estimate`: the table on standard output, files, units, and what is refused."""
+"""`viscorough estimate`: the table on standard output, files, units, and refusals."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.usefixtures("here")
 
 
 def command(output="", **changes):
-    """A command line with some of the options changed; None: left out."""
+    """Return a command line with some of the options changed; None: left out."""
     options = {name: value for name, value in (OPTIONS | changes).items() if value is not None}
     return " ".join(["estimate", *(f"--{name} '{value}'" for name, value in options.items()), output])
 
@@ -44,7 +44,7 @@ def test_units_of_results_are_stated(capsys):
     assert float(row.split()[2]) == pytest.approx(WANTED.depth[0], rel=1e-3)
 
 
-def test_files_hold_every_number(capsys):
+def test_file_has_all_numbers_of_the_table(capsys):
     for name in ("estimate.nc", "estimate.csv"):
         assert run(command(f"-o {name}")) == 0
         assert capsys.readouterr().out == f"{name}: 2 times, 2 in the range of the law\n"

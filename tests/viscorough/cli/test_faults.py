@@ -1,6 +1,6 @@
-"""Faults of files under the command line: damaged compiled code, places and streams that cannot be written.
+"""Faults of files under the command line: damaged compiled code, folders and streams that cannot be written.
 
-Full disks are tested where files are written, in tests/viscorough/io/test_netcdf.py.
+Full disks are tested together with the writing of files, in tests/viscorough/io/test_netcdf.py.
 """
 
 import contextlib
@@ -30,7 +30,7 @@ KINETICS = "kinetics curve.nc --force 1 --viscosity 1 -o out.nc"
 
 @pytest.fixture(autouse=True)
 def here(here):
-    """Folder with heights.npy, curve.nc and an older out.nc, which must not be changed."""
+    """Make a folder with heights.npy, curve.nc and an older out.nc, which must not be changed."""
     np.save("heights.npy", sphere_heights(9))
     for name in ("curve.nc", "out.nc"):
         random_curve(length_unit="1").save(name)
@@ -48,7 +48,7 @@ def test_incomplete_compiled_code_is_compiled_again(here, caplog, monkeypatch, s
         if damage:
             (file,) = here.glob(f"cache/**/*.{suffix}")
             file.write_bytes(damage(file.read_bytes()))
-        for warned in (bool(damage), False):  # what was compiled again is kept
+        for warned in (bool(damage), False):  # the code is compiled once and then kept
             caplog.clear()
             assert runpy.run_path("ours.py")["double"](2.0) == 4
             messages = [record.getMessage() for record in caplog.records if record.levelno >= logging.WARNING]
@@ -59,7 +59,7 @@ def test_incomplete_compiled_code_is_compiled_again(here, caplog, monkeypatch, s
 # ---- places that cannot be written
 
 
-def test_folder_that_may_not_be_written(here):
+def test_folder_without_permission_to_write_is_one_line(here):
     before = contents(here)
     here.chmod(0o555)
     try:
@@ -75,7 +75,7 @@ def test_folder_that_may_not_be_written(here):
 
 
 def shell(line, **environment):
-    """(exit code, stderr, stdout) of a line of a shell that runs `viscorough`."""
+    """Return (exit code, stderr, stdout) of a shell line that runs `viscorough`."""
     line = line.replace("viscorough", str(VISCOROUGH))
     options = {"capture_output": True, "text": True, "timeout": 60, "check": False, "env": os.environ | environment}
     done = subprocess.run(["bash", "-o", "pipefail", "-c", line], **options)
@@ -88,12 +88,12 @@ FULL = "standard output cannot be written (No space left on device)\n"
 
 
 @pytest.mark.parametrize("redirection", [">&- 2>&- <&-", "| true", ">/dev/full 2>/dev/full", ">/dev/full"])
-def test_complete_output_is_success_whoever_reads_the_closing_line(redirection):
+def test_complete_output_is_success_with_a_closed_output_stream(redirection):
     assert shell(f"viscorough {KINETICS} {redirection}")[:2] == (0, "")
     assert "time" in netcdf.read("out.nc").variables, "not the older one"
 
 
-def test_names_that_the_encoding_of_standard_output_lacks(here):
+def test_names_outside_the_encoding_of_standard_output_are_printed(here):
     shutil.copy("heights.npy", "ψ.npy")
     code, error, output = shell("viscorough indent ψ.npy --spacing 1 -o ω.nc", PYTHONIOENCODING="latin-1")
     assert (code, error) == (0, "")
@@ -101,7 +101,7 @@ def test_names_that_the_encoding_of_standard_output_lacks(here):
     assert netcdf.read("ω.nc").attributes["heights"] == "ψ.npy"
 
 
-def test_names_of_files_that_are_no_text(here):
+def test_names_of_files_that_are_not_valid_text_are_printed(here):
     name = os.fsdecode(b"caf\xe9")
     shutil.copy("heights.npy", f"{name}.npy")
     shutil.copy("curve.nc", f"{name}.nc")
@@ -112,7 +112,7 @@ def test_names_of_files_that_are_no_text(here):
     assert error.startswith(r"viscorough kinetics: caf\udce9.nc: not readable (")
 
 
-def test_help_for_a_reader_who_has_read_enough():
+def test_help_ends_quietly_if_the_reader_closes_the_pipe():
     assert shell("viscorough indent --help | true")[:2] == (0, "")
     code, error, _ = shell("viscorough indent --help >/dev/full")
     assert code == 2
@@ -121,7 +121,7 @@ def test_help_for_a_reader_who_has_read_enough():
 
 
 @pytest.mark.parametrize("redirection", ["2>/dev/full", "2>&-", "2>&1 | true"])
-def test_mistakes_that_nobody_reads_keep_their_exit_code(redirection):
+def test_errors_on_a_closed_stream_keep_their_exit_code(redirection):
     assert shell(f"viscorough indent {redirection}")[0] == 2
 
 
@@ -135,7 +135,7 @@ INTERRUPTED = "import os, signal; os.kill(os.getpid(), signal.SIGINT)"
     ("command", "module"), [([VISCOROUGH], "click"), ([sys.executable, "-m", "viscorough"], "numpy")]
 )
 def test_interrupt_during_the_imports_is_quiet(here, tmp_path_factory, command, module):
-    """The first import of the command line, and one of a command."""
+    """The interrupt comes during the first import of the command line, and during the first import of a command."""
     folder = tmp_path_factory.mktemp("interrupted")
     (folder / f"{module}.py").write_text(INTERRUPTED)
     environment = os.environ | {"PYTHONPATH": str(folder)}
@@ -146,7 +146,7 @@ def test_interrupt_during_the_imports_is_quiet(here, tmp_path_factory, command, 
 
 
 def interrupts_arrive():
-    """A process started in the background would ignore them."""
+    """Let SIGINT raise KeyboardInterrupt; processes started in the background would ignore it."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
@@ -165,7 +165,7 @@ def test_warnings_that_are_errors_are_one_line(here, heights, code, line):
 
 
 def test_file_that_cannot_be_opened_in_time_is_one_line(capsys, monkeypatch):
-    """Damage can make the HDF5 library run without end."""
+    """The HDF5 library can run without end on a damaged file."""
     codes = []
     monkeypatch.setattr(os, "_exit", codes.append)
     monkeypatch.setattr(files, "LONGEST", 0.05)

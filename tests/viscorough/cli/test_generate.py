@@ -1,4 +1,4 @@
-"""`viscorough generate`: what other commands read back, and what is refused."""
+"""`viscorough generate`: files that other commands read back, and refusals."""
 
 import numpy as np
 import pytest

@@ -11,7 +11,7 @@ from viscorough.io import netcdf
 
 @pytest.fixture
 def disc(here):
-    """A disc in the file disc.nc."""
+    """Make a disc in the file disc.nc."""
     self_affine_disc(0.8, 65, rms=0.02, length_unit="um", seed=1).save("disc.nc")
     return read_heights("disc.nc")
 
@@ -38,7 +38,7 @@ def test_kinetics_states_the_grid_error_of_its_curve(disc, capsys):
 
 
 @pytest.mark.parametrize("error", ["20%", "20 %", "0.2"])
-def test_error_states_what_was_chosen(disc, capsys, error):
+def test_requested_error_states_the_chosen_points(disc, capsys, error):
     assert run(f"indent disc.nc --error '{error}' -o curve.nc") == 0
     expected, written = indent(disc, error=0.2), load_curve("curve.nc")
     assert written == expected
@@ -46,7 +46,7 @@ def test_error_states_what_was_chosen(disc, capsys, error):
 
 
 def test_table_has_grid_errors_and_areas_of_the_chosen_points(disc):
-    """An element of every n-th point is n² times as large."""
+    """With every n-th point, the area of an element is n² times as large."""
     self_affine_disc(0.9, 129, rms=0.02, length_unit="um", seed=2).save("other.nc")
     assert run("indent disc.nc other.nc --error 20% -o table.csv") == 0
     table, _ = read_table("table.csv")

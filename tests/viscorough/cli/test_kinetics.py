@@ -40,7 +40,7 @@ def curve():
 
 @pytest.fixture
 def here(curve, here):
-    """A folder with a curve without a unit, the same in micrometres, and media and force histories."""
+    """Make a folder with a curve without a unit, the same in micrometres, and media and force histories."""
     curve.save("curve.nc")
     dataclasses.replace(curve, length_unit="um").save("um.nc")
     (here / "table.csv").write_text("t,J\n0,0.2\n1,0.5\n10,0.9\n")
@@ -60,7 +60,7 @@ def here(curve, here):
     ],
 )
 @pytest.mark.parametrize("kind", MEDIA)
-def test_file_holds_what_python_gives(here, curve, kind, load, force):
+def test_file_has_the_results_of_python(here, curve, kind, load, force):
     text, medium = MEDIA[kind]
     (here / "medium.yaml").write_text(text)
     assert run(f"{KINETICS} {load} --medium medium.yaml") == 0
@@ -93,7 +93,7 @@ def test_depth_histories_load_hold_unload_and_lift(here, curve, capsys, kind, ti
 
 
 def test_depth_histories_have_units(here, curve):
-    """Depths in a heading in nm; the force is in N."""
+    """The heading gives depths in nm; the force is in N."""
     (here / "depth.csv").write_text("t [ms],u [nm]\n0,0\n1,200\n2,50\n")
     (here / "medium.yaml").write_text("{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e3}")
     assert run("kinetics um.nc -o kin.nc --depth-history depth.csv --medium medium.yaml") == 0
@@ -134,8 +134,8 @@ def test_files_may_hold_youngs_moduli(here, curve, kind):
         ("--force 1e-12 --medium table.yaml --times 1", (1.0, MEDIA["creep_table"][1], [1.0])),
     ],
 )
-def test_units_are_converted_where_the_unit_of_length_is_known(here, curve, options, expected):
-    """1 Pa is 1e-12 N/um²: 3 mN on 2 kPa s is as 3e-3 on 2e-9 in N and um; compliances are in 1/Pa."""
+def test_units_are_converted_if_the_curve_has_a_unit_of_length(here, curve, options, expected):
+    """1 Pa is 1e-12 N/um², so 3 mN on 2 kPa s equals 3e-3 on 2e-9 in N and um. Compliances are in 1/Pa."""
     (here / "mega.yaml").write_text("{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e6}")
     assert run(f"kinetics um.nc -o kin.nc {options}") == 0
     np.testing.assert_allclose(values("kin.nc")["depth"], kinetics(curve, *expected).depth, rtol=1e-12)
@@ -149,8 +149,8 @@ def test_times_may_be_given_by_their_number(here):
     assert values("kin.nc")["time"].tolist() == [0, 0.5, 1, 1.5, 2, 2.5, 3]
 
 
-def test_missing_values_are_warned_of(here, capsys, complaint):
-    """A ramp passes through depths before the first level, at which the curve is not determined."""
+def test_missing_values_give_a_warning(here, capsys, complaint):
+    """A ramp passes through depths before the first level, where the curve is not determined."""
     late = indent(Indenter(sphere_heights(17), 1.0), depths=[0.15, 0.6])
     late.save("late.nc")
     (here / "force.csv").write_text("0,0\n0.1,0.1\n1,1\n2,1\n")
@@ -167,7 +167,7 @@ def test_missing_values_are_warned_of(here, capsys, complaint):
 
 
 def medium_text(kind, **changed):
-    """A file of that kind of medium with some of its entries changed, as texts of YAML; None: left out."""
+    """Return a file of that kind of medium with some entries changed, as YAML text; None: left out."""
     entries = {key: str(value) for key, value in yaml.safe_load(MEDIA[kind][0]).items()} | changed
     return "\n".join(f"{key}: {value}" for key, value in entries.items() if value is not None)
 

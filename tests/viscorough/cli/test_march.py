@@ -1,4 +1,4 @@
-"""`viscorough march`: agreement with kinetics, force histories, media, units, and what is refused."""
+"""`viscorough march`: agreement with kinetics, force histories, media, units, and refusals."""
 
 from contextlib import nullcontext
 
@@ -39,7 +39,7 @@ PULSE = "--medium medium.yaml --force-history pulse.csv"
     ],
 )
 def test_marching_agrees_with_kinetics(here, motion, method, tolerance):
-    """The history is a ramp, a step down, a rest and a pulse; the contact recedes under the other pulse."""
+    """The history is a ramp, a step down, a rest and a pulse. The contact recedes under the other pulse."""
     (here / "force.csv").write_text("time,force\n1,0\n2,1e0\n4,1\n5,0.5\n5,0\n9,0\n9.5,6\n10,0\n")
     assert run(f"{MARCH} --method {method} {motion}") == 0
     assert run("indent heights.npy --spacing 1 --tolerance 1e-9 --until-fraction 1 -o curve.nc") == 0
@@ -54,14 +54,14 @@ def test_marching_agrees_with_kinetics(here, motion, method, tolerance):
         np.testing.assert_allclose(marched["velocity"][last], expected["velocity"], rtol=10 * tolerance)
 
 
-def test_steps_show_their_progress(monkeypatch):
+def test_march_shows_its_progress(monkeypatch):
     shares = []
     monkeypatch.setattr(messages, "progress_bar", lambda label, wanted: nullcontext(shares.append))
     assert run(f"{MARCH} --method implicit --times 1,2") == 0
     assert shares[-2:] == pytest.approx([1 - 1 / len(shares), 1])
 
 
-def test_marching_goes_on_where_contact_recedes(complaint):
+def test_march_continues_while_contact_recedes(complaint):
     assert "the contact recedes; --method events allows contact that grows" in complaint(
         f"{MARCH} --method events {PULSE}"
     )
@@ -74,8 +74,8 @@ def test_marching_goes_on_where_contact_recedes(complaint):
 
 
 @pytest.mark.parametrize("method", ["events", "implicit"])
-def test_viscosities_are_in_pascal_seconds_where_the_unit_is_known(method):
-    """The same surface in metres and in micrometres."""
+def test_viscosities_are_in_pascal_seconds_if_the_file_has_a_unit(method):
+    """The surface is the same in metres and in micrometres."""
     np.save("metres.npy", 1e-6 * HEIGHTS)
     common = f"--method {method} --times 0.1,0.2 --force '1 N' --viscosity '2e12 Pa s'"
     assert run(f"march heights.npy --spacing 1 --unit um {common} -o um.nc") == 0

@@ -1,6 +1,6 @@
-"""Mistakes in the options of each command: one line that says what, where and what is allowed.
+"""Errors in the options of each command: one line names the option, the error and the allowed values.
 
-What readers of files and solvers refuse is tested with them; here are the checks of the command line itself.
+Refusals of readers and solvers are tested together with them. These tests cover the checks of the command line.
 """
 
 import os
@@ -21,7 +21,7 @@ GENERATE = "generate --hurst 0.7 --rms 1 --diameter 34 --seed 5 -o made.nc"
 EXCLUDE = "exclude each other; one of them is allowed"
 QUANTITY = "is not a number above 0 and finite, plain or with a unit"
 INCREASING, NO_UNIT = "each larger than the one before", "needs a plain number, since the unit of length is not known"
-# Opening a pipe would wait for somebody to write into it.
+# Opening a pipe would wait until another process writes into it.
 OF_PIPES = ["kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "plot pipe.nc -o out.png"]
 OF_PIPES += [f"{command} -o out.nc" for command in ("indent pipe.nc", "indent pipe.npy", "reduce pipe.npy")]
 OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe{suffix}" for suffix in (".csv", ".npy")]

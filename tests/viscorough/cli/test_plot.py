@@ -1,4 +1,4 @@
-"""`viscorough plot`: a figure of every kind of file, and what is refused."""
+"""`viscorough plot`: a figure of every kind of file, and refusals."""
 
 import sys
 
@@ -30,7 +30,7 @@ FILES = {
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """Folder with a file of every kind that can be drawn."""
+    """Make a folder with a file of every kind that can be drawn."""
     folder = tmp_path_factory.mktemp("made")
     np.save(folder / "heights.npy", sphere_heights(9))
     (folder / "force.csv").write_text("0,1\n1,2\n2,2\n")
@@ -49,7 +49,7 @@ def here(made, here):
 
 @pytest.mark.parametrize("file", FILES)
 def test_every_kind_of_file_is_drawn_and_follows_the_cf_conventions(made, here, capsys, file):
-    """NetCDF files say nothing of time and place."""
+    """NetCDF files state neither time nor place of their making."""
     if file.endswith(".nc"):
         assert violations(file) == []
         attributes = netcdf.read(file).attributes
@@ -82,7 +82,7 @@ def axes_of(file):
 
 
 def test_axes_have_symbols_and_units(here):
-    """The force of a motion in a medium is that at each time, and no F/G of a loading curve."""
+    """In a medium, the force of a motion is a function of time, unlike F/G of a loading curve."""
     assert run("indent disc.nc --spacing 1 -o um_curve.nc") == 0
     texts = axes_of("um_curve.nc")
     assert texts[:2] == ["depth $u$ (µm)", "force $F/G$ (µm²)"]
@@ -123,15 +123,15 @@ def test_axes_are_in_si_units_with_a_modulus(here):
     assert "F/G" not in line
 
 
-def test_without_matplotlib_one_line_says_what_to_install(monkeypatch, complaint):
+def test_missing_matplotlib_is_one_line_that_names_the_extra(monkeypatch, complaint):
     monkeypatch.delattr(viscorough, "plotting")
-    monkeypatch.setitem(sys.modules, "viscorough.plotting", None)  # as if it could not be imported
+    monkeypatch.setitem(sys.modules, "viscorough.plotting", None)  # as if the import failed
     line = complaint("plot curve.nc -o figure.png")
     assert line == 'viscorough plot: matplotlib is not installed; pip install "viscorough[plot]" installs it\n'
 
 
 def test_lengths_are_drawn_in_readable_units():
-    """Positions up to 0.1 mm and heights of nanometres, both in m."""
+    """Positions reach 0.1 mm, and heights are nanometres; both are stored in m."""
     surface = viscorough.Indenter(5e-9 * np.eye(5), 5e-5, 1e-5, length_unit="m")
     axes, colours = viscorough.plot(surface).axes
     assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("$x$ (µm)", "$y$ (µm)", "height $z$ (nm)")
@@ -141,7 +141,7 @@ def test_lengths_are_drawn_in_readable_units():
 
 
 def test_results_are_drawn_from_python(here):
-    """Every panel has a title; the colours of pressures end at a percentile that is named."""
+    """Every panel has a title. The colours of pressures end at a percentile that the figure names."""
     indenter = viscorough.Indenter(sphere_heights(17), 1.0, length_unit="um")
     curve, contact = viscorough.indent(indenter), viscorough.contact_at(indenter, depth=0.3, shear_modulus="2 MPa")
     motion = viscorough.kinetics(curve, "1 uN", "1 kPa s")

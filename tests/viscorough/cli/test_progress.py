@@ -1,4 +1,4 @@
-"""Progress on standard error: after a while, on terminals or where it is asked for, and erased at the end."""
+"""Progress on standard error: after a delay, on terminals or on request, and erased at the end."""
 
 import time
 
@@ -8,7 +8,7 @@ from viscorough.cli import messages
 
 
 def shown(capsys, wanted):
-    """What is shown in the middle and at the end of work that reports twice, longer apart than the delay."""
+    """Return the output in the middle and at the end of work that reports twice, further apart than the delay."""
     with messages.progress_bar("viscorough indent", wanted) as report:
         report(0.25)
         time.sleep(0.25)
@@ -22,7 +22,7 @@ def short_delay(monkeypatch):
     monkeypatch.setattr(messages, "_DELAY", 0.1)
 
 
-def test_after_a_while_share_and_time_left_are_shown_and_erased_at_the_end(capsys):
+def test_progress_shows_share_and_time_left_and_is_erased(capsys):
     middle, end = shown(capsys, True)
     assert "viscorough indent:  50 % |" in middle
     assert " elapsed, about " in middle
@@ -32,7 +32,7 @@ def test_after_a_while_share_and_time_left_are_shown_and_erased_at_the_end(capsy
 
 
 @pytest.mark.parametrize(("wanted", "closed"), [(None, False), (False, False), (None, True), (True, True)])
-def test_without_a_terminal_or_an_open_stream_nothing_is_shown(capsys, monkeypatch, wanted, closed):
+def test_no_progress_without_a_terminal_or_an_open_stream(capsys, monkeypatch, wanted, closed):
     if closed:
         monkeypatch.setattr("sys.stderr", None)
     assert shown(capsys, wanted) == ("", "")

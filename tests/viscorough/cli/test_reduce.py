@@ -19,7 +19,7 @@ def here(here):
     return here
 
 
-def test_line_of_a_file():
+def test_reduce_reads_a_line_from_a_file():
     assert run("reduce line.npy --spacing '250 nm' --unit um --until-fraction 0.5 -o curve.nc") == 0
     curve = load_curve("curve.nc")
     assert curve.length_unit == "um"
@@ -28,7 +28,7 @@ def test_line_of_a_file():
 
 
 @pytest.mark.parametrize("delimiter", [" ", ";"])
-def test_profile_of_a_text(delimiter):
+def test_reduce_reads_a_profile_from_a_text(delimiter):
     np.savetxt("line.txt", np.transpose([0.25 * np.arange(512), LINE.heights]), delimiter=delimiter)
     assert run("reduce line.txt --unit um -o curve.nc") == 0
     curve = load_curve("curve.nc")
@@ -36,13 +36,13 @@ def test_profile_of_a_text(delimiter):
     np.testing.assert_allclose(curve.force, mdr.reduce(LINE).force, rtol=1e-6)
 
 
-def test_two_distances_state_a_map_in_a_text():
+def test_text_with_two_spacings_is_a_map():
     np.savetxt("map.txt", np.random.default_rng(1).normal(size=(2, 9)))
     assert run("reduce map.txt --spacing 1,1 --realizations 3 -o curves.nc") == 0
     assert len(unstack_curves(netcdf.read("curves.nc"))) == 3
 
 
-def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
+def test_map_gives_many_lines_and_a_warning(capsys):
     assert run("reduce map.npy --spacing 1 --realizations 3 --seed 7 -o curves.nc") == 0
     warning = capsys.readouterr().err
     content = netcdf.read("curves.nc")

@@ -21,7 +21,7 @@ def surface(seed):
 
 @pytest.fixture
 def here(here):
-    """A folder with scans/a.nc in um, b.nc in nm, and c.nc and d.csv, which are no maps."""
+    """Make a folder with scans/a.nc in um, b.nc in nm, and c.nc and d.csv, which are no maps."""
     (here / "scans").mkdir()
     surface(1).save("scans/a.nc")
     surface(2).to("nm").save("scans/b.nc")
@@ -31,7 +31,7 @@ def here(here):
 
 
 def contact(names="a.nc b.nc c.nc", options="", output="table.csv"):
-    """The exit code of viscorough contact for these files."""
+    """Return the exit code of viscorough contact for these files."""
     files = " ".join(f"scans/{name}" for name in names.split())
     return run(f"contact {files} {OPTIONS} {options} -o {output}")
 
@@ -72,7 +72,7 @@ def test_the_table_depends_neither_on_jobs_nor_on_the_order_of_files(here):
     assert (here / "one.csv").read_bytes() == (here / "two.csv").read_bytes()
 
 
-def test_only_what_has_changed_is_evaluated_again(here, capsys):
+def test_only_changed_files_are_evaluated_again(here, capsys):
     contact("a.nc b.nc", "--jobs 1")
     table = here / "table.csv"
     for row in (0, 2):
@@ -90,7 +90,7 @@ def test_only_what_has_changed_is_evaluated_again(here, capsys):
     assert ",777," not in table.read_text()
 
 
-def test_an_interrupted_run_leaves_no_table_and_is_continued(here, capsys, monkeypatch):
+def test_interrupted_run_leaves_no_table_and_continues(here, capsys, monkeypatch):
     whole = scans._in_processes
 
     def interrupted(remaining, jobs):
@@ -112,8 +112,8 @@ def test_an_interrupted_run_leaves_no_table_and_is_continued(here, capsys, monke
     assert not unfinished.exists()
 
 
-def test_a_process_that_dies_costs_only_its_own_file(here):
-    """The others are evaluated again, each alone."""
+def test_process_that_dies_loses_only_its_own_file(here):
+    """The other files are evaluated again, each alone."""
     evaluated = []
     for points in (5, 7, 9):
         np.save(f"{points}.npy", np.arange(points**2, dtype=float).reshape(points, points))
@@ -125,8 +125,8 @@ def test_a_process_that_dies_costs_only_its_own_file(here):
     assert [results[name].rows for name in "79"] == [[{"depth": 49.0}], [{"depth": 81.0}]]
 
 
-def test_a_single_file_is_a_table_of_its_loads(here, capsys):
-    """A mistake is answered with one line and no table, as by other commands."""
+def test_single_file_gives_a_table_of_its_loads(here, capsys):
+    """An error is reported with one line and no table, as by other commands."""
     assert contact("a.nc") == 0
     table, _ = read_table("table.csv")
     line = capsys.readouterr().out
@@ -164,7 +164,7 @@ def test_curves_of_a_folder_have_a_row_for_each_level(here):
         (f"contact scans/a.nc scans/b.nc {OPTIONS} -o out.xlsx", "unknown kind of file"),
     ],
 )
-def test_mistakes_in_the_options_are_no_errors_of_files(complaint, line, what):
+def test_wrong_options_are_not_reported_as_errors_of_files(complaint, line, what):
     assert what in complaint(line)
 
 

@@ -1,4 +1,4 @@
-"""Reading and preparing surfaces from the command line: right numbers or one line, never wrong numbers in silence."""
+"""Reading and preparing surfaces from the command line: right numbers or one error line."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.usefixtures("here")
 
 
 def curve_of(capsys, arguments, *warnings):
-    """The loading curve that indent makes, after a check of what it wrote to stderr; and its file's attributes."""
+    """Return the loading curve and the attributes of the file that indent makes, after a check of its stderr."""
     assert run(f"indent {arguments} -o curve.nc") == 0
     lines, attributes = capsys.readouterr().err.splitlines(), netcdf.read("curve.nc").attributes
     assert len(lines) == len(warnings)
@@ -31,14 +31,14 @@ def curve_of(capsys, arguments, *warnings):
     return load_curve("curve.nc"), attributes
 
 
-def test_a_doubt_is_told_with_what_removes_it(capsys):
+def test_warning_about_a_surface_names_its_remedy(capsys):
     np.save("tilted.npy", ROUGH + 3 * X - 2 * Y)
     tilted = "tilted.npy: the map is tilted: a plane through it rises by 48"
     _, attributes = curve_of(capsys, f"tilted.npy {SPACING} {DEPTHS}", tilted, "slope")
     assert "--detrend plane removes it" in attributes["warnings"]
 
 
-def test_points_in_two_units(capsys):
+def test_points_with_columns_in_two_units_are_converted(capsys):
     x, y = np.broadcast_arrays(X, Y)
     np.savetxt("points.xyz", np.transpose([1e-3 * x.ravel(), 1e-3 * y.ravel(), ROUGH.ravel()]))
     curve, attributes = curve_of(capsys, f"points.xyz --unit um --lateral-unit mm {DEPTHS}")

@@ -1,4 +1,4 @@
-"""Loading curves end at the depth of complete contact, which two linear problems give without a contact problem."""
+"""Loading curves end at the depth of complete contact, which follows from two linear problems."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,7 @@ INDENTERS = {
 @pytest.mark.parametrize("tolerance", [0.1, 1e-2, 1e-4])
 @pytest.mark.parametrize("indenter", INDENTERS.values(), ids=INDENTERS)
 def test_whole_curve_ends_where_contact_becomes_complete(indenter, tolerance):
-    """Elements whose overlap stays within the tolerance do not let the path run on."""
+    """Elements that overlap within the tolerance do not let the path continue."""
     curve, end = indent(indenter, tolerance=tolerance, until_fraction=1.0), complete_contact(indenter)
     assert curve.contact_fraction[-1] == 1.0
     np.testing.assert_allclose(curve.depth[-1], end.depth, rtol=0.01 * tolerance)
@@ -57,13 +57,13 @@ def test_curve_until_almost_all_elements_touch_does_not_pass_complete_contact(na
 
 
 def test_long_first_steps_do_not_pass_complete_contact():
-    """With a start fraction, the path first takes steps of up to four times the depth."""
+    """With a start fraction, the first steps of the path are up to four times the depth."""
     curve = indent(pit(41), tolerance=0.1, start_fraction=1 - 1e-4, until_fraction=1.0)
     np.testing.assert_allclose(curve.depth[-1], complete_contact(pit(41)).depth, rtol=1e-3)
 
 
 @pytest.mark.parametrize("dense", [0, 10**9])
-def test_end_does_not_depend_on_the_way_of_solving(dense):
+def test_end_does_not_depend_on_the_solver(dense):
     indenter = self_affine_disc(0.7, 25, seed=3)
     options = SolverOptions(dense_contacts=dense, dense_interactions=dense)
     curve = indent(indenter, tolerance=1e-3, until_fraction=1.0, options=options)
@@ -79,7 +79,7 @@ def test_force_beyond_complete_contact_ends_the_curve_there():
 
 @pytest.mark.parametrize("end", [{"until_fraction": 0.5}, {"until_fraction": 0.9}, {"until_force": 20.0}])
 @pytest.mark.parametrize("tolerance", [0.1, 1e-3])
-def test_complete_contact_is_not_computed_for_curves_that_end_far_before_it(tolerance, end, monkeypatch):
+def test_complete_contact_is_not_computed_for_curves_that_end_well_below_it(tolerance, end, monkeypatch):
     monkeypatch.delattr(ContactSolver, "complete_contact")
     for hurst in (0.2, 0.8):
         indent(self_affine_disc(hurst, 65, seed=2), tolerance=tolerance, **end)

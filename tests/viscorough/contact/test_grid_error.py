@@ -1,4 +1,4 @@
-"""Errors of the grid against Hertz, against their definition and against finer maps; curves to a requested error."""
+"""Errors of the grid against Hertz, their definition and finer maps; curves to a requested error."""
 
 import numpy as np
 import pytest
@@ -20,14 +20,14 @@ def every_second(indenter):
 
 
 def velocity_change(curve, other, force):
-    """ln of the ratio of two velocities at the same forces."""
+    """Return ln of the ratio of two velocities at the same forces."""
     return np.log(other.at_force(force)[1] / curve.at_force(force)[1])
 
 
 # ---- the estimate ----------------------------------------------------------------------------------------------------
 @pytest.mark.parametrize("elements", [65, 67], ids=["apex on every second point", "apex between every second point"])
 def test_grid_error_of_a_sphere_exceeds_the_error_against_hertz(elements):
-    """Without the apex of the ball every second point is lower by δ, which would change the force by 1.5 δ/u."""
+    """Without the apex of the ball every second point is lower by δ, which changes the force by a share of 1.5 δ/u."""
     curve = indent(BALL.indenter(elements, width=2), until_fraction=0.5, estimate_grid_error=True)
     hertz_depth = (curve.force / BALL.force(1.0)) ** (2 / 3)
     velocity = np.log(BALL.stiffness(hertz_depth) / curve.stiffness)
@@ -44,7 +44,7 @@ def test_grid_error_of_a_sphere_exceeds_the_error_against_hertz(elements):
 
 
 def test_grid_error_is_the_difference_from_every_second_point():
-    """Half a decade of force to either side, and over all forces from hL/25 on."""
+    """The error is a mean over half a decade of force to either side; the mean error covers all F from hL/25 on."""
     disc = self_affine_disc(0.6, 65, rms=0.02, seed=3)
     curve = indent(disc, tolerance=1e-4, estimate_grid_error=True)
     coarse = indent(every_second(disc), tolerance=1e-4, until_fraction=1.0)
@@ -60,7 +60,7 @@ def test_grid_error_is_the_difference_from_every_second_point():
 
 @pytest.mark.parametrize("shape", [(20, 20), (21, 20)], ids=["even", "odd"])
 def test_grid_error_of_a_flat_punch(shape):
-    """The curve has one level, and the velocity is inverse to the stiffness of the punch."""
+    """The curve has one level, and the velocity is proportional to 1/stiffness of the punch."""
     punch = Indenter(np.zeros(shape), 1.0)
     curve = indent(punch, estimate_grid_error=True)
     change = np.log(indent(every_second(punch)).stiffness / curve.stiffness)
@@ -82,7 +82,7 @@ def test_given_levels_have_grid_errors():
 
 
 def test_missing_points_and_rectangles_have_grid_errors():
-    """On elements twice as long as wide, and with a hole, every second point keeps both."""
+    """The map has a hole and elements twice as long as wide; every second point keeps both."""
     disc = self_affine_disc(0.8, 64, rms=0.02, seed=2)
     heights = disc.heights[::2].copy()
     heights[10:14, 20:30] = np.nan
@@ -119,7 +119,7 @@ def test_requested_error_is_met_with_fewer_points(error):
 
 
 def test_depths_count_from_the_highest_point_of_the_whole_map():
-    """The highest point of the map is not among those of the sampling."""
+    """The sampling leaves out the highest point of the map."""
     indenter = BALL.indenter(133, width=2)
     curve = indent(indenter, error=0.2, until_fraction=0.5)
     missed = -np.nanmax(indenter.heights[:: curve.sampling, :: curve.sampling])
@@ -128,7 +128,7 @@ def test_depths_count_from_the_highest_point_of_the_whole_map():
     assert curve.depth[level] == pytest.approx((curve.force[level] / BALL.force(1.0)) ** (2 / 3), rel=0.005)
 
 
-def test_request_out_of_reach_is_a_warning():
+def test_error_that_cannot_be_reached_is_a_warning():
     disc = self_affine_disc(0.1, 33, rms=0.02, seed=1)
     with pytest.warns(AccuracyWarning, match="an error of 1 % is out of reach of this map: .* a finer scan is needed"):
         curve = indent(disc, error=0.01)
@@ -138,7 +138,7 @@ def test_request_out_of_reach_is_a_warning():
 
 
 @pytest.mark.parametrize("other", [{"tolerance": 1e-3}, {"depths": [0.01]}, {"forces": [0.01]}], ids=str)
-def test_error_excludes_what_it_chooses(other):
+def test_error_excludes_the_options_that_it_chooses(other):
     with refused("indent: error and .* exclude each other"):
         indent(self_affine_disc(0.8, 33, seed=1), error=0.1, **other)
 

@@ -1,4 +1,4 @@
-"""The elastic loading path against exact solutions, and itself."""
+"""The elastic loading path against exact solutions and against itself."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ def observed_order(elements, errors):
 
 
 def grid_size(n, aspect):
-    """Odd numbers of rows and columns of about n² elements of aspect dy/dx on a square."""
+    """Return odd numbers of rows and columns of about n² elements of aspect dy/dx on a square."""
     return (2 * round(n * stretch / 2) + 1 for stretch in (aspect**-0.5, aspect**0.5))
 
 
@@ -31,9 +31,9 @@ def grid_size(n, aspect):
     ids=["sphere", "cone", "r⁴", "sphere on wide rectangles", "sphere on tall rectangles"],
 )
 def test_bodies_of_revolution_converge(shape, aspect):
-    """At second order the force, at first order the contact radius and the stiffness.
+    """The force is of second order, the contact radius and the stiffness of first order.
 
-    Mean errors over depths, since that at one depth depends on how the contact's edge cuts the grid.
+    The errors are means over depths, since the error at one depth depends on how the contact's edge cuts the grid.
     """
     depths = np.linspace(0.1, 0.2, 9)
     elements, errors = np.array([33, 65, 129]), []
@@ -55,7 +55,7 @@ def test_bodies_of_revolution_converge(shape, aspect):
 
 @pytest.mark.parametrize(("aspect", "ratio"), [(1.0, 1.0), (1.0, 0.5), (0.5, 0.5), (5.0, 0.5)])
 def test_flat_ellipse_converges_at_first_order(aspect, ratio):
-    """Mean error over sizes, since that of one ellipse depends on how its edge cuts the grid."""
+    """The error is a mean over sizes, since the error of one ellipse depends on how its edge cuts the grid."""
     elements, errors, majors = np.array([33, 65, 129]), [], np.linspace(0.8, 1.0, 7)
     for n in elements:
         rows, columns = grid_size(n, aspect)
@@ -85,7 +85,7 @@ def test_error_of_force_is_of_second_order_in_the_tolerance():
 
 @pytest.mark.parametrize("tolerance", [0.1, 0.03, 1e-2, 1e-3])
 def test_force_of_few_elements_on_the_grid_is_far_more_accurate_than_the_tolerance(tolerance):
-    """An element that overlaps the surface within the tolerance would carry a large part of it."""
+    """With the normal stopping criterion, elements that overlap within the tolerance would carry much of the force."""
     on_grid = SolverOptions(dense_contacts=0)
     for across, hurst, seed in [(17, 0.4, 9), (33, 0.7, 10), (33, 0.4, 13), (65, 0.7, 14)]:
         disc = self_affine_disc(hurst, across, seed=seed)
@@ -97,7 +97,7 @@ def test_force_of_few_elements_on_the_grid_is_far_more_accurate_than_the_toleran
 
 
 @pytest.mark.parametrize(("tolerance", "largest", "median"), [(1e-2, 2e-2, 1e-3), (1e-4, 2e-3, 1e-4)])
-def test_error_of_stiffness_is_that_of_the_elements_that_just_touch(tolerance, largest, median):
+def test_error_of_stiffness_is_small_in_the_median(tolerance, largest, median):
     errors = []
     for hurst in (0.2, 0.8):
         disc = self_affine_disc(hurst, 129, seed=1)
@@ -121,7 +121,7 @@ def test_interpolation_stays_within_the_tolerance(hurst):
     assert np.median(np.abs(stiffness / fine.stiffness[inside] - 1)) < 1e-3
 
 
-def test_stops_at_fraction_or_force():
+def test_curve_stops_at_fraction_or_force():
     disc = self_affine_disc(0.8, 65, seed=4)
     by_fraction = indent(disc, until_fraction=0.3)
     assert 0.3 <= by_fraction.contact_fraction[-1] < 0.6
@@ -133,7 +133,7 @@ def test_stops_at_fraction_or_force():
 
 @pytest.mark.parametrize("seed", range(8))
 def test_curve_until_a_force_has_one_level_at_it(seed):
-    """Rounding neither leaves the last level below the force nor adds a second one just beyond it."""
+    """Rounding neither leaves the last level below the force nor adds a second level just beyond it."""
     random = np.random.default_rng(seed)
     disc = self_affine_disc(random.random(), 33, rms=0.05, seed=seed)
     for force in (10.0 ** random.uniform(-4, 0), np.float32(10.0 ** random.uniform(-4, -1))):
@@ -144,7 +144,7 @@ def test_curve_until_a_force_has_one_level_at_it(seed):
 
 
 @pytest.mark.parametrize("end", [{"until_fraction": 1e-300}, {"until_fraction": 1.0, "until_force": 1e-300}])
-def test_a_curve_that_ends_at_once_has_its_first_level(end):
+def test_curve_that_ends_at_once_has_its_first_level(end):
     disc = self_affine_disc(0.6, 33, seed=1)
     curve, whole = indent(disc, **end), indent(disc)
     np.testing.assert_array_equal(curve.depth, whole.depth[:1])
@@ -161,7 +161,7 @@ def test_first_level_is_one_element_in_contact():
 
 
 # ---- refusals --------------------------------------------------------------------------------------------------------
-def test_refuses():
+def test_invalid_arguments_are_refused():
     for arguments, message in (
         ({"tolerance": 0.0}, "tolerance"),
         ({"until_fraction": 1.5}, "until"),
@@ -176,14 +176,14 @@ def test_refuses():
             indent(**({"indenter": self_affine_disc(0.5, 9, seed=1)} | arguments))
 
 
-def test_raises_when_it_does_not_converge():
+def test_missing_convergence_raises():
     few = SolverOptions(dense_contacts=0, max_iterations=2)
     with pytest.raises(ConvergenceError, match="residual"):
         indent(self_affine_disc(0.5, 33, seed=1), tolerance=1e-8, depths=[1.0], options=few)
 
 
 @pytest.mark.parametrize(("across", "centre"), [(24, (11.5, 11.5)), (33, (15.7, 16.2))])
-def test_levels_of_a_paraboloid_increase_and_are_finite_whatever_the_start(across, centre):
+def test_levels_of_a_paraboloid_increase_and_are_finite(across, centre):
     squares = np.square(np.arange(across) - np.array(centre)[:, None])
     paraboloid = Indenter(-np.add.outer(*squares) / 200, 1.0)
     curve = indent(paraboloid, tolerance=1e-3, start_fraction=0.7, until_fraction=0.95)
@@ -191,18 +191,18 @@ def test_levels_of_a_paraboloid_increase_and_are_finite_whatever_the_start(acros
         assert np.isfinite(values).all()
         assert (np.diff(values, prepend=0) > 0).all()
     assert curve.contact_fraction[-1] >= 0.95
-    assert np.count_nonzero(curve.contact_fraction < 0.35) < 12  # levels before the start only lead there
+    assert np.count_nonzero(curve.contact_fraction < 0.35) < 12  # levels before the start only lead up to it
 
 
-def test_the_last_interval_of_a_small_curve_is_as_accurate_as_the_others():
+def test_last_interval_of_a_small_curve_is_as_accurate_as_the_others():
     indenter = Indenter(np.array([[0.52, 0.08, 0.73], [0.7, 0.74, 0.85], [0.22, 0.55, 0.55]]), 1.0)
     curve, events = indent(indenter, tolerance=1e-5, until_fraction=0.5), march_events(indenter)
     force = np.linspace(0, curve.force[-1], 200)[1:]
     np.testing.assert_allclose(curve.at_force(force)[0], events.depth_at(force), rtol=1e-5)
 
 
-def test_nothing_is_said_before_a_given_depth_at_which_elements_of_several_heights_touch():
-    """The relief is smaller than the tolerance times the depth, and still bends the curve at small forces."""
+def test_curve_is_undetermined_below_a_first_depth_with_several_contacts():
+    """The roughness is smaller than the tolerance times the depth, and still bends the curve at small forces."""
     indenter = Indenter(9e-4 * np.random.default_rng(0).random((20, 20)), 1.0)
     curve = indent(indenter, tolerance=1e-3, depths=[1.0, 2.0])
     depth, stiffness = curve.at_force(curve.force[0] * np.array([0.0, 0.01, 0.5, 1.0]))
@@ -212,7 +212,7 @@ def test_nothing_is_said_before_a_given_depth_at_which_elements_of_several_heigh
 
 @pytest.mark.parametrize("depths", [None, [0.5, 1.5]])
 def test_elements_of_one_height_give_a_straight_curve_from_the_origin(depths):
-    """Here on the grid, where forces are accurate to the tolerance only."""
+    """The contact is solved on the grid, where forces are accurate to the tolerance only."""
     plateau = Indenter(np.where(np.random.default_rng(0).random((40, 40)) < 0.5, 0.0, -2.0), 1.0)
     curve = indent(plateau, tolerance=1e-2, depths=depths)
     assert curve.operator_applications > 0
@@ -221,9 +221,9 @@ def test_elements_of_one_height_give_a_straight_curve_from_the_origin(depths):
     np.testing.assert_array_equal(stiffness, curve.stiffness[0])
 
 
-def test_an_element_that_touches_late_in_a_step_joins_even_where_nothing_else_is_left_to_do():
+def test_element_that_touches_late_in_a_converged_step_joins():
     heights = np.zeros((9, 9))
-    heights[4, 4] = -1.0  # until this pit touches, the tangent leads to the solution
+    heights[4, 4] = -1.0  # the tangent leads to the solution until this pit touches
     pit = Indenter(heights, 1.0)
     gap_rate = (contact_at(pit, depth=0.1, tolerance=1e-6).gap[4, 4] - 1.0) / 0.1
     touch = -1.0 / gap_rate
@@ -233,7 +233,7 @@ def test_an_element_that_touches_late_in_a_step_joins_even_where_nothing_else_is
     assert curve.residual[-1] <= 1e-3
 
 
-def test_levels_closer_than_the_accuracy_are_refused_with_their_values():
+def test_levels_closer_than_the_accuracy_are_refused():
     disc, steps = self_affine_disc(0.7, 65, rms=0.01, seed=1), np.arange(12)
     with refused(r"indent: depths: 0\.02000002\d* and 0\.02000004\d* are closer than the accuracy"):
         indent(disc, depths=0.02 * (1 + 1e-6 * steps), tolerance=0.1)

@@ -11,13 +11,13 @@ from viscorough.viscous.integration.events import march_events
 DISC = self_affine_disc(0.7, 33, seed=4)
 GRID = SolverOptions(dense_contacts=0, dense_interactions=0)
 INDENTERS = {"squares": DISC, "rectangles": Indenter(DISC.heights, (0.2, 0.1))}
-# A few rows or columns of many elements, which the grid solver treats differently from squares.
+# Maps of few rows or columns with many elements, which the grid solver treats differently from squares.
 STRIPS = {(1, 170): 1.0, (2, 85): 1.0, (3, 57): (1.0, 4.0), (9, 38): 1.0, (170, 1): 1.0, (57, 3): (4.0, 1.0)}
 INDENTERS |= {f"strip {shape}": Indenter(np.random.default_rng(1).random(shape), d) for shape, d in STRIPS.items()}
 
 
 def deflection(indenter, pressure):
-    """Displacement of the surface at every element by a dense sum over the pressures, w = d/(4πG) Σ K p."""
+    """Return the displacement of the surface at every element by a dense sum over the pressures, w = d/(4πG) Σ K p."""
     place = np.nonzero(np.isfinite(indenter.heights))
     result = np.full(pressure.shape, np.nan)
     result[place] = influence_matrix(*place, indenter.aspect) @ pressure[place] * indenter.element_side / (4 * np.pi)
@@ -49,8 +49,8 @@ def test_maps_solve_the_contact_problem(indenter, given, tolerance, options):
     assert getattr(contact, name) == value
 
 
-def test_a_long_strip_meets_complementarity():
-    """Its curve starts with contact events and goes on where blocks of blocks of the preconditioner are needed."""
+def test_long_strip_meets_complementarity():
+    """The curve starts with contact events and goes on to contacts that need the preconditioner's third level."""
     strip = Indenter(np.random.default_rng(1).random((1, 6000)), 1.0)
     curve = indent(strip, until_fraction=0.5)
     assert curve.contact_fraction[-1] >= 0.5
@@ -63,7 +63,7 @@ def test_a_long_strip_meets_complementarity():
     assert curve.stiffness[-1] == pytest.approx(contact.stiffness, rel=1e-3)
 
 
-def test_a_contact_is_a_level_of_the_curve():
+def test_contact_equals_a_level_of_the_curve():
     curve = indent(DISC, depths=[0.3, 1.2], tolerance=1e-6)
     contacts = contact_at(DISC, depth=[0.3, 1.2], tolerance=1e-6)
     for level, contact in enumerate(contacts):
@@ -95,7 +95,7 @@ def test_invalid_arguments_are_refused():
 
 
 @pytest.mark.filterwarnings("ignore:overflow")
-def test_a_force_that_overflows_is_refused():
+def test_force_that_overflows_is_refused():
     huge = Indenter(np.array([[0.0, -1e307], [-1e306, -1e307]]), 1e10)
     with pytest.raises(ValueError, match="too large to represent"):
         contact_at(huge, depth=1e306)
@@ -103,7 +103,7 @@ def test_a_force_that_overflows_is_refused():
 
 @pytest.mark.parametrize("seed", range(5))
 def test_no_element_is_under_tension_at_forces_of_contact_events(seed):
-    """An element that touches at exactly this force has no pressure, to rounding of either sign."""
+    """An element that touches at exactly this force has no pressure, but for rounding of either sign."""
     indenter = Indenter(np.random.default_rng(seed).random((5, 6)), 1.0, 1.7)
     forces = march_events(indenter).impulse[1:]
     for force in (forces * (1 + np.finfo(float).eps * np.arange(-2, 3)[:, None])).ravel():

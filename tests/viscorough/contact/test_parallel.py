@@ -42,7 +42,7 @@ def test_aligned_zeros_start_a_line_of_the_cache():
 
 
 def test_blocks_run_at_the_same_time():
-    barrier = threading.Barrier(3)  # is passed only by three threads together
+    barrier = threading.Barrier(3)  # three threads must wait together to pass
     run_blocks(lambda start, stop: barrier.wait(timeout=10), 3, 3, block=1)
 
 
@@ -52,7 +52,7 @@ def test_errors_in_a_block_are_raised(threads):
         run_blocks(lambda start, stop: 1 / (start - 50), 100, threads, block=10)
 
 
-def test_loops_within_loops_end():
+def test_nested_loops_end():
     def inner(start, stop):
         return sum(run_blocks(lambda first, last: last - first, 40, 2, block=10))
 
@@ -69,7 +69,7 @@ def test_a_forked_process_starts_other_threads():
             run_blocks(lambda start, stop: barrier.wait(timeout=10), 2, 2, block=1)
             failed = 0
         finally:
-            os._exit(failed)  # in any case: the child must not run the tests that follow
+            os._exit(failed)  # whatever happens, the child must not run the tests that follow
     deadline = time.monotonic() + 30
     while (done := os.waitpid(child, os.WNOHANG)) == (0, 0):
         assert time.monotonic() < deadline
@@ -77,7 +77,7 @@ def test_a_forked_process_starts_other_threads():
     assert done[1] == 0
 
 
-def test_threads_have_buffers_of_their_own():
+def test_threads_have_separate_buffers():
     buffer = Buffer((3,), float)
     with ThreadPoolExecutor(1) as pool:
         others = [pool.submit(lambda: buffer.array).result() for _ in range(2)]
@@ -86,8 +86,10 @@ def test_threads_have_buffers_of_their_own():
 
 
 @pytest.mark.parametrize("digits", [2, 17])
-def test_elements_are_ranked_by_their_gap_and_equal_ones_in_the_order_of_the_map(digits):
-    heights = np.random.default_rng(1).random((400, 400)).round(digits)  # where some are equal, and where none are
+def test_elements_are_ranked_by_gap_and_ties_by_place(digits):
+    heights = (
+        np.random.default_rng(1).random((400, 400)).round(digits)
+    )  # rounding to these digits gives maps with and without equal heights
     expected = np.argsort((heights.max() - heights).ravel(), kind="stable")
     for threads in (1, 3, 100):
         elements, _ = elements_of(Indenter(heights, 1.0), threads)
@@ -95,13 +97,13 @@ def test_elements_are_ranked_by_their_gap_and_equal_ones_in_the_order_of_the_map
         assert np.all(np.diff(elements.initial_gap) >= 0)
 
 
-def test_a_curve_and_a_contact_in_double_precision_are_the_same():
+def test_curve_and_contact_do_not_depend_on_the_number_of_threads():
     for compute in (partial(indent, until_fraction=0.1), partial(contact_at, force=1.0, tolerance=1e-6)):
         assert compute(DISC, threads=1) == compute(DISC, threads=3)
 
 
 @pytest.mark.parametrize("threads", [0, 1.0, None, True, 1025])
-def test_numbers_of_threads_that_are_none(threads):
+def test_invalid_numbers_of_threads_are_refused(threads):
     for compute in (indent, partial(contact_at, depth=1.0)):
         with pytest.raises(ValueError, match="threads must be a whole number from 1 to 1024, not "):
             compute(Indenter(np.zeros((3, 3)), 1.0), threads=threads)

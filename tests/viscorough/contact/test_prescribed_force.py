@@ -1,4 +1,4 @@
-"""Levels at given forces, against levels at the depths found, solved more accurately."""
+"""Levels at given forces, against more accurate levels at the depths that they found."""
 
 import numpy as np
 import pytest
@@ -15,13 +15,13 @@ GRID = SolverOptions(dense_contacts=0, dense_interactions=0)
 
 
 @pytest.mark.parametrize(("hurst", "tolerance"), [(0.2, 1e-2), (0.8, 1e-3), (0.8, 1e-6), (0.2, 1e-10)])
-def test_levels_stand_at_the_forces(hurst, tolerance):
+def test_curve_has_a_level_at_each_force(hurst, tolerance):
     disc = self_affine_disc(hurst, 65, seed=2)
     curve = indent(disc, forces=FORCES, tolerance=tolerance)
     np.testing.assert_array_equal(curve.force, FORCES)
     exact = indent(disc, depths=curve.depth, tolerance=max(1e-3 * tolerance, 1e-12))
     assert np.abs(exact.force / FORCES - 1).max() < 0.01 * tolerance
-    # A few elements that just touch are in one contact and not in the other, as in levels at given depths.
+    # A few elements that just touch are in only one of the two contacts, as in levels at given depths.
     assert np.abs(curve.stiffness / exact.stiffness - 1).max() < 2 * tolerance
     assert np.abs(curve.contact_count / exact.contact_count - 1).max() < max(20 * tolerance, 0.01)
     assert curve.residual.max() <= tolerance
@@ -29,8 +29,8 @@ def test_levels_stand_at_the_forces(hurst, tolerance):
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
-def test_a_lower_terrace_beside_the_contact_is_met(tolerance):
-    """It lies outside the box of the grid on which the contact of the upper one is solved."""
+def test_lower_terrace_outside_the_box_joins_the_contact(tolerance):
+    """The lower terrace lies outside the box of the grid that holds the contact of the upper terrace."""
     row, column = np.mgrid[:65, :65] - 32
     steps = Indenter(np.where(column > 0, 1e-3, 0.0) - 1e-9 * (row**2 + column**2), 1.0)
     forces = [1e-3, 0.2, 3.0, 6.0]
@@ -43,7 +43,7 @@ def test_a_lower_terrace_beside_the_contact_is_met(tolerance):
     np.testing.assert_allclose([contact.depth for contact in contacts], curve.depth, rtol=tolerance)
 
 
-def test_a_correction_that_leads_to_elements_outside_the_box_has_their_overlap_as_residual():
+def test_residual_of_a_correction_includes_overlap_outside_the_box():
     row, column = np.mgrid[:33, :33] - 16
     gap = 1e-3 + 1e-9 * (row**2 + column**2)
     steps = Indenter(-np.where(column > 0, 1e-9 * (row**2 + column**2), gap), 1.0)
@@ -55,8 +55,8 @@ def test_a_correction_that_leads_to_elements_outside_the_box_has_their_overlap_a
 
 
 @pytest.mark.parametrize(("share", "is_near"), [(0.9, True), (-0.9, True), (1.1, False), (-1.1, False)])
-def test_the_last_correction_is_as_small_as_the_tolerance_asks(share, is_near):
-    """The stiffness at a force is that of the last contact solved, though the correction of the depth changes it."""
+def test_last_correction_changes_the_stiffness_within_the_tolerance(share, is_near):
+    """The stiffness at a force comes from the last solved contact, although a correction of the depth changes it."""
     solver = ContactSolver(self_affine_disc(0.8, 33, seed=2), tolerance=0.01, options=GRID)
     before = solver.advance(solver.unloaded_state(), 0.5 * solver.units.length)
     contact = solver.advance(before, 0.6 * solver.units.length)
@@ -66,8 +66,8 @@ def test_the_last_correction_is_as_small_as_the_tolerance_asks(share, is_near):
     assert ForceSearch(solver)._is_near(contact, before, target) == is_near
 
 
-def test_while_few_elements_touch_the_force_is_met_at_once(monkeypatch):
-    """The contact events of the highest element end at the force: no contact is solved."""
+def test_contact_events_meet_a_small_force_without_a_solution(monkeypatch):
+    """The contact events of the highest element end at the force, so no contact is solved."""
     depths, advance = [], ContactSolver.advance_reduced
     monkeypatch.setattr(ContactSolver, "advance_reduced", lambda *args: depths.append(args[2]) or advance(*args))
     disc = self_affine_disc(0.8, 129, seed=3)
@@ -80,8 +80,8 @@ def test_while_few_elements_touch_the_force_is_met_at_once(monkeypatch):
     np.testing.assert_allclose(exact.force, [0.01, 0.1, 0.2], rtol=1e-12)
 
 
-def test_an_element_far_from_the_others_leaves_the_box_small():
-    """It lies a little deeper than the contact at the force, and the box may not span the map because of it."""
+def test_box_stays_small_despite_a_distant_element():
+    """This element lies a little deeper than the contact at the force. The box must not span the map because of it."""
     heights = np.pad(self_affine_square(0.8, 128, seed=1), ((0, 172), (0, 172)), constant_values=-9.0)
     load = contact_at(Indenter(heights, 1.0), force=50.0, tolerance=1e-6)
     heights[-1, -1] = heights.max() - 1.03 * load.depth
@@ -91,8 +91,8 @@ def test_an_element_far_from_the_others_leaves_the_box_small():
     assert np.count_nonzero(contact.fields.initial_gap < 1e9) <= 128**2
 
 
-def test_few_depths_are_solved(monkeypatch):
-    """A force costs about as many solutions as it takes to come near it, and a force close by one or two."""
+def test_force_needs_few_solutions(monkeypatch):
+    """The first force needs up to 13 solutions; a force close to it needs one or two more."""
     depths, advance = [], ContactSolver.advance_reduced
     monkeypatch.setattr(ContactSolver, "advance_reduced", lambda *args: depths.append(args[2]) or advance(*args))
     search = ForceSearch(ContactSolver(self_affine_disc(0.8, 129, seed=3), 1e-3))
@@ -103,7 +103,7 @@ def test_few_depths_are_solved(monkeypatch):
     assert len(depths) <= 3
 
 
-def test_a_force_takes_hardly_more_operators_than_its_depth():
+def test_force_needs_few_more_operator_applications_than_its_depth():
     disc = self_affine_disc(0.8, 257, seed=3)
     for force in (0.1, 1.0, 10.0):
         at_force = indent(disc, forces=[force], tolerance=1e-6)
@@ -113,7 +113,7 @@ def test_a_force_takes_hardly_more_operators_than_its_depth():
         assert at_force.operator_applications <= 1.5 * at_depth.operator_applications
 
 
-def test_hills_that_are_not_reached_stay_outside_the_box():
+def test_box_excludes_hills_that_are_not_reached():
     """The power law through the first contacts leads above the second hill; the contact is far below it."""
     row, column = np.mgrid[:512, :512]
     first, second = (np.exp(-((row - at) ** 2 + (column - at) ** 2) / 3200) for at in (80, 430))
@@ -124,8 +124,8 @@ def test_hills_that_are_not_reached_stay_outside_the_box():
 
 
 @pytest.mark.parametrize(("hurst", "large"), [(0.2, 1 << 15), (0.8, 1 << 15), (0.8, 1 << 10)])
-def test_depth_of_blocks_tells_that_of_the_contact(hurst, large, monkeypatch):
-    """From few elements in contact to complete contact; blocks at the edges, or of blocks, have fewer elements."""
+def test_coarse_map_bounds_the_depth_of_the_contact(hurst, large, monkeypatch):
+    """The contacts range from few elements to complete contact. Blocks at the edges have fewer elements."""
     monkeypatch.setattr(prescribed_force, "_LARGE", large)
     rough = Indenter(self_affine_square(hurst, 403, seed=5)[:, :390], 1.0, 1.3)
     for force in (200.0, 2e3, 2e4):
@@ -143,14 +143,14 @@ def test_depth_of_blocks_tells_that_of_the_contact(hurst, large, monkeypatch):
 
 def test_blocks_have_the_height_of_their_highest_element():
     heights = np.random.default_rng(1).normal(size=(9, 14)).astype("f4")
-    heights[:4, 4:9] = heights[8, :3] = np.nan  # a block has no element
+    heights[:4, 4:9] = heights[8, :3] = np.nan  # one block has no element
     whole = np.pad(heights, ((0, 3), (0, 2)), constant_values=np.nan).reshape(3, 4, 4, 4)
     expected = np.fmax.reduce(whole, axis=(1, 3))
     np.testing.assert_array_equal(prescribed_force._highest_of_blocks(Indenter(heights, 1.0)).heights, expected)
 
 
-def test_a_force_that_the_first_guess_meets_exactly():
-    """The second element is not touched: the residual is zero from the outset, and there is no step to take."""
+def test_force_that_the_first_guess_meets_exactly_is_accepted():
+    """The second element does not touch: the residual is zero from the start, and no step is needed."""
     two = Indenter(np.array([[0.0], [-1.39]]), (1.0, 0.372))
     options = SolverOptions(dense_interactions=0)
     curve = indent(two, forces=[0.5, 4.0, 30.0], tolerance=1e-4, options=options)
@@ -158,8 +158,8 @@ def test_a_force_that_the_first_guess_meets_exactly():
     np.testing.assert_allclose(exact.force, curve.force, rtol=1e-6)
 
 
-def test_loads_of_blocks_that_are_exact(monkeypatch):
-    """A single element carries all: once the depth is adjusted to its load, no direction is left to search along."""
+def test_exact_loads_of_blocks_are_accepted(monkeypatch):
+    """One element carries the force: once the depth fits its load, no search direction is left."""
     for name in ("_LARGE", "_FEWEST_BLOCKS"):
         monkeypatch.setattr(prescribed_force, name, 1)
     heights = np.full((1, 24), -1.0)
@@ -171,7 +171,7 @@ def test_loads_of_blocks_that_are_exact(monkeypatch):
     np.testing.assert_allclose(curve.depth, punch.depth, rtol=1e-6)
 
 
-def test_blocks_of_one_height_to_rounding():
+def test_blocks_that_differ_by_rounding_are_solved():
     wave = np.sin(np.pi * np.arange(200) / 2) ** 2
     contact = contact_at(Indenter(-np.add.outer(wave, wave), 1.0), force=1e3)
     assert contact_at(Indenter(-np.add.outer(wave, wave), 1.0), depth=contact.depth).force == pytest.approx(
@@ -179,7 +179,7 @@ def test_blocks_of_one_height_to_rounding():
     )
 
 
-def test_a_force_that_is_not_met_is_named(monkeypatch):
+def test_error_names_the_force_that_is_not_met(monkeypatch):
     monkeypatch.setattr(prescribed_force, "_MAX_ATTEMPTS", 1)
     with pytest.raises(ConvergenceError, match=r"contact at F/G = 5: the force is not met within 1 depths"):
         contact_at(self_affine_disc(0.8, 65, seed=3), force=5.0, options=SolverOptions(dense_contacts=10**4))

@@ -1,7 +1,7 @@
-"""Properties that hold for every indenter, on random small maps, for both the dense and the grid solver.
+"""Properties of every indenter, on random small maps, for the dense solver and for the grid solver.
 
-Complementarity, with an influence matrix whose inverse has no positive entry off its diagonal (computed up to 25 × 25
-elements), implies that neither more depth nor more or higher elements lower the force.
+Neither more depth nor more or higher elements lower the force. This follows from complementarity if the inverse of the
+influence matrix has no positive entry off its diagonal (computed up to 25 × 25 elements).
 """
 
 from dataclasses import replace
@@ -26,8 +26,9 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.viscous.integration.events import march_events
 
 TOLERANCE = 1e-9
-# The relative error of the force is of second order in the tolerance. That of the stiffness is of second order in the
-# error of q, which on the grid is the root of the tolerance times a factor that grows with the contact set.
+# The relative error of the force is of second order in the tolerance. The error of the stiffness is of second order in
+# the error of q. On the grid, the error of q is the root of the tolerance times a factor that grows with the contact
+# set.
 STIFFNESS, FORCE = 1e-8, 1e-10
 OPTIONS = {
     "dense": SolverOptions(dense_contacts=10**9, dense_interactions=10**9),
@@ -38,10 +39,11 @@ some = settings(max_examples=60, deadline=None, derandomize=True)
 
 shapes = array_shapes(min_dims=2, max_dims=2, max_side=12)
 heights = st.floats(-4, 0, width=16) | st.integers(-3, 0) | st.just(np.nan)
-# Without a fill every element is drawn; with one, most are equal: a plateau, or nan, with a few peaks and pits.
+# Without a fill every element is drawn. With a fill most elements are equal (a plateau, or nan), with a few peaks and
+# pits.
 maps = arrays(float, shapes, elements=heights, fill=st.nothing()) | arrays(float, shapes, elements=heights)
 seeds = st.integers(0, 10**6)
-# Squares, and rectangles that are longer in either direction, up to the largest aspect.
+# Maps are squares, and rectangles longer in either direction up to the largest aspect.
 spacings = st.just((0.3, 0.3)) | st.sampled_from([(0.3, 0.5), (0.3, 0.06), (0.1, 0.5)])
 indenters = st.builds(Indenter, maps.filter(lambda array: np.isfinite(array).any()), spacings) | st.builds(
     self_affine_disc, st.floats(0, 1), st.integers(9, 17), seed=seeds
@@ -50,7 +52,7 @@ indenters = st.builds(Indenter, maps.filter(lambda array: np.isfinite(array).any
 
 @st.composite
 def pressings(draw):
-    """An indenter and depths, from a thousandth of its largest gap to where nearly all of them are in full contact."""
+    """Draw an indenter and depths, from a thousandth of its largest gap to a depth of almost complete contact."""
     indenter = draw(indenters)
     steps = draw(st.lists(st.integers(-25, 20), min_size=3, max_size=6, unique=True))
     return indenter, (np.nanmax(indenter.initial_gap) or indenter.spacing) * 1.3 ** np.sort(steps)
@@ -86,7 +88,7 @@ def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
         pressure[members] = reduced_pressure * solver.units.pressure
         gap = matrix @ pressure * indenter.element_side / (4 * np.pi) - depth + initial_gap
         limit = TOLERANCE * depth
-        # The solver adds up its steps in single precision: the rounding error must stay far below the tolerance.
+        # The solver adds its steps in single precision. The rounding error must stay far below the tolerance.
         np.testing.assert_allclose(solver_gap, gap, rtol=0, atol=0.05 * limit)
 
         before, inside = inside, np.isin(np.arange(indenter.elements), members)
@@ -114,7 +116,7 @@ def test_whole_curve_ends_at_complete_contact(route, indenter, decade):
     curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, options=OPTIONS[route])
     end = complete_contact(indenter)
     assert curve.contact_fraction[-1] == 1
-    if np.ptp(indenter.initial_gap[np.isfinite(indenter.heights)]) > 0:  # else any depth is one of complete contact
+    if np.ptp(indenter.initial_gap[np.isfinite(indenter.heights)]) > 0:  # otherwise contact is complete at any depth
         np.testing.assert_allclose(curve.depth[-1], end.depth, rtol=0.01 * tolerance)
     np.testing.assert_allclose(curve.force[-1], end.stiffness * (curve.depth[-1] - end.mean_gap), rtol=0.1 * tolerance)
 
@@ -124,7 +126,7 @@ def test_whole_curve_ends_at_complete_contact(route, indenter, decade):
 @given(indenters | long_strips, decades, st.floats(0, 1))
 @some
 def test_pressures_at_a_force_are_zero_where_the_gap_is_open_and_nowhere_negative(route, indenter, decade, share):
-    """Also at forces exactly at levels, where an element just touches."""
+    """The forces include exact levels, where an element just touches."""
     tolerance, options = 10**decade, OPTIONS[route]
     curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, options=options)
     level = curve.force[round(share * (curve.force.size - 1))]
@@ -144,7 +146,7 @@ def test_pressures_at_a_force_are_zero_where_the_gap_is_open_and_nowhere_negativ
 @given(pressings(), st.floats(-12, 12), st.floats(-12, 12))
 @some
 def test_scaling_laws(route, pressing, height_decades, size_decades):
-    """Force is linear in heights, and of second order in all lengths; stiffness is linear in the size alone."""
+    """The force is linear in heights and of second order in all lengths; the stiffness is linear in the size alone."""
     indenter, depths = pressing
     curve = press(indenter, depths, route)
     height, size = 10**height_decades, 10**size_decades
@@ -163,13 +165,13 @@ forces = st.lists(st.integers(0, 9), min_size=1, max_size=6)
 
 @given(pressings(), forces, forces, st.integers(1, 5), st.floats(-6, 6))
 @some
-def test_indenter_never_rises_and_rests_without_force(pressing, earlier, later, rest, decades):
+def test_depth_grows_under_a_force_and_is_constant_without_one(pressing, earlier, later, rest, decades):
     """The depth grows under a force, and is exactly constant without one."""
     indenter, depths = pressing
     curve = press(indenter, depths, "dense")
     force = np.array([*earlier, *np.zeros(1 + rest), *later, 1.0])
     times = np.linspace(0, 10**decades, force.size)
-    viscosity = np.trapezoid(force, times) / curve.force[-1]  # the last level is reached in the end
+    viscosity = np.trapezoid(force, times) / curve.force[-1]  # the last level is reached at the end
     result = kinetics(curve, force, viscosity, times)
     # Between first contact and the first level the depth can be undetermined (nan).
     assert np.all(np.diff(result.depth[np.isfinite(result.depth)]) >= 0)
@@ -182,8 +184,8 @@ def test_indenter_never_rises_and_rests_without_force(pressing, earlier, later, 
 
 @given(indenters, seeds)
 @some
-def test_kinetics_is_the_direct_integration_in_time(indenter, seed):
-    """The correspondence with the elastic problem: integration from event to event in time gives the same depths."""
+def test_kinetics_agrees_with_direct_integration_in_time(indenter, seed):
+    """Integration from event to event in time gives the same depths as the correspondence with the elastic problem."""
     curve, events = indent(indenter, tolerance=TOLERANCE, until_fraction=1.0), march_events(indenter)
     times = np.sort(np.random.default_rng(seed).random(30)) * curve.force[-1]
     np.testing.assert_allclose(kinetics(curve, 1.0, 1.0, times).depth, events.depth_at(times), rtol=1e-9)

@@ -1,4 +1,4 @@
-"""Elements ranked step by step, against all of them at once; contacts of which only few elements are ranked."""
+"""Elements ranked step by step, against a ranking of all at once; contacts with few ranked elements."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ ROW, COLUMN = np.mgrid[:200, :200]
 
 
 def islands():
-    """Few bumps far from each other, above a plate that nothing touches; one of them in a corner, one a spike."""
+    """Return a map of few distant bumps above a plate that nothing touches; one bump in a corner, one a spike."""
     heights = np.full((200, 200), -1.0)
     for number, (y, x) in enumerate([(0, 0), (30, 170), (120, 60), (199, 110)]):
         heights = np.maximum(heights, -0.002 * ((ROW - y) ** 2 + (COLUMN - x) ** 2) - 0.01 * number)
@@ -40,7 +40,7 @@ def indenter(request):
 
 @pytest.fixture
 def few_ranked(monkeypatch):
-    """As on maps of millions of elements: few are ranked at first, operators restricted, and depths estimated."""
+    """Solve small maps as maps of millions of elements: few ranked elements, restricted operators, estimated depths."""
     for name in ("_LEAST", "_LEAST_OF_CURVES", "_FIRST"):
         monkeypatch.setattr(ranking, name, 50)
     for name in ("_LARGE", "_FEWEST_BLOCKS"):
@@ -49,7 +49,7 @@ def few_ranked(monkeypatch):
         monkeypatch.setattr(tiles, name, number)
 
 
-def test_elements_ranked_step_by_step_are_those_of_all_at_once(indenter, few_ranked):
+def test_ranking_step_by_step_equals_ranking_at_once(indenter, few_ranked):
     steps = Ranking(indenter)
     nothing = steps.first(np.inf)
     assert nothing.initial_gap.size == 0
@@ -71,7 +71,7 @@ def test_elements_ranked_step_by_step_are_those_of_all_at_once(indenter, few_ran
 
 
 @pytest.mark.parametrize("across", [1000, 1024, 4096])
-def test_few_elements_are_ranked_at_first_whatever_the_size(across):
+def test_number_of_elements_ranked_first_does_not_grow_with_the_map(across):
     x = np.linspace(-1, 1, across, dtype="f4")
     steps = Ranking(Indenter(-np.add.outer(x**2, x**2), 1.0))
     ranked = steps.up_to(steps.first(np.inf), steps.small_depth())
@@ -79,7 +79,7 @@ def test_few_elements_are_ranked_at_first_whatever_the_size(across):
 
 
 @pytest.mark.parametrize("given", [{"depth": [0.02, 0.3, 1.0]}, {"force": [0.01, 1.0, 30.0]}])
-def test_contacts_are_those_with_all_elements_ranked(indenter, given, few_ranked, monkeypatch):
+def test_contacts_do_not_depend_on_the_number_of_ranked_elements(indenter, given, few_ranked, monkeypatch):
     tolerance = 1e-6
     contacts = contact_at(indenter, tolerance=tolerance, **given)
     monkeypatch.setattr(ranking, "_MOST_SHARE", 0)
@@ -93,7 +93,7 @@ def test_contacts_are_those_with_all_elements_ranked(indenter, given, few_ranked
         assert np.nanmin(contact.gap) >= -tolerance * contact.depth
 
 
-def test_a_force_that_the_highest_terrace_carries_alone_is_met(few_ranked):
+def test_force_on_the_highest_terrace_alone_is_met(few_ranked):
     """The first guess, from blocks, is below the depth at which the next terrace touches."""
     terraces = np.floor(3 * np.random.default_rng(2).random((12, 12)))
     highest = contact_at(Indenter(np.where(terraces == 2, 0.0, np.nan), 1.0), force=1e-3)
@@ -102,7 +102,7 @@ def test_a_force_that_the_highest_terrace_carries_alone_is_met(few_ranked):
     assert contact.depth == pytest.approx(highest.depth, rel=1e-3)
 
 
-def test_curves_are_those_with_all_elements_ranked(indenter, few_ranked, monkeypatch):
+def test_curves_do_not_depend_on_the_number_of_ranked_elements(indenter, few_ranked, monkeypatch):
     curve = indent(indenter, until_fraction=0.4)
     monkeypatch.setattr(ranking, "_LEAST_OF_CURVES", 10**6)
     expected = indent(indenter, until_fraction=0.4)

@@ -13,8 +13,8 @@ ROUTES = {"dense": SolverOptions(dense_contacts=10**9, dense_interactions=10**9)
           "grid": SolverOptions(dense_contacts=0, dense_interactions=0)}  # fmt: skip
 
 
-def test_an_element_that_loses_contact_on_the_grid_is_an_error():
-    """Contact only grows with depth; a step to a smaller depth stands for a wrong solution in which it shrinks."""
+def test_element_that_loses_contact_on_the_grid_is_an_error():
+    """Contact only grows with depth. A step to a smaller depth imitates a wrong solution with a smaller contact."""
     disc = self_affine_disc(0.6, 33, seed=1)
     solver = ContactSolver(disc, 1e-4, ROUTES["grid"])
     deeper = solver.advance_reduced(solver.unloaded_state(), 0.8)
@@ -22,8 +22,8 @@ def test_an_element_that_loses_contact_on_the_grid_is_an_error():
         solver.advance_reduced(deeper, 0.5)
 
 
-def test_an_element_that_loses_contact_in_a_dense_solution_is_an_error():
-    """An element outside the contact is added to its members."""
+def test_element_that_loses_contact_in_a_dense_solution_is_an_error():
+    """The test adds an element outside the contact to its members."""
     solver = ContactSolver(self_affine_disc(0.6, 33, seed=1), 1e-4, ROUTES["dense"])
     contact = solver.advance_reduced(solver.unloaded_state(), 0.5)
     candidates = np.searchsorted(solver.elements.initial_gap, 0.51)
@@ -66,7 +66,7 @@ def test_invalid_options_are_refused():
             SolverOptions(**wrong)
 
 
-def test_a_known_largest_depth_makes_grids_smaller_and_limits_nothing():
+def test_largest_depth_makes_grids_smaller_without_a_limit():
     disc = self_affine_disc(0.8, 65, seed=1)
     depths = np.nanmax(disc.initial_gap) * np.array([0.1, 0.15, 0.2])
     sizes = []

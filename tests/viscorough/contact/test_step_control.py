@@ -11,13 +11,13 @@ from viscorough.viscous.integration.events import march_events
 
 
 def springs(gaps, depth):
-    """The level of independent springs of stiffness 1 with these gaps."""
+    """Return the level of independent springs of stiffness 1 with these gaps."""
     overlap = np.maximum(depth - gaps, 0)
     return Level(depth, overlap.sum(), np.count_nonzero(overlap), np.count_nonzero(overlap))
 
 
 @pytest.mark.parametrize(("least", "width"), [(0.0, 1.0), (0.31, 0.01), (0.5, 0.01), (0.5, 0.2), (0.78, 0.01)])
-def test_the_bound_holds_wherever_elements_join(least, width):
+def test_error_bound_holds_for_elements_that_join_anywhere(least, width):
     gaps = np.append(0, least + width * np.random.default_rng(0).random(200))
     before, after = (springs(gaps, depth) for depth in (0.3, 0.8))
     depth = np.linspace(0.3, 0.8, 100)[1:-1]
@@ -26,13 +26,13 @@ def test_the_bound_holds_wherever_elements_join(least, width):
     assert error <= interpolation_bound(before, after)
 
 
-def test_one_element_that_joins_leaves_no_error():
+def test_single_joining_element_leaves_no_error():
     gaps = np.array([0.0, 0.5])
     assert interpolation_bound(springs(gaps, 0.3), springs(gaps, 0.8)) == 0.0
     assert interpolation_bound(springs(np.append(gaps, 0.4), 0.3), springs(np.append(gaps, 0.4), 0.8)) > 0.01
 
 
-def test_an_interval_is_divided_where_the_stiffness_jumps():
+def test_interval_is_divided_at_a_jump_of_the_stiffness():
     gaps = np.append(0, np.full(50, 0.45))
     assert division(springs(gaps, 0.3), springs(gaps, 0.8)) == pytest.approx(0.45, rel=1e-12)
     close_to_the_end = np.append(0, np.full(50, 0.79999))
@@ -40,7 +40,7 @@ def test_an_interval_is_divided_where_the_stiffness_jumps():
 
 
 def boss_on_a_plate(across=24, radius=7):
-    """A boss of height 1 on a plate whose heights vary by 1e-3: the stiffness jumps when the plate touches."""
+    """Return a boss of height 1 on a plate whose heights vary by 1e-3: the stiffness jumps when the plate touches."""
     position = np.arange(across) - (across - 1) / 2
     boss = np.add.outer(position**2, position**2) <= radius**2
     return Indenter(boss + 1e-3 * np.random.default_rng(0).random(boss.shape), 1.0)
@@ -67,7 +67,7 @@ def test_a_kink_is_resolved(tolerance, start_fraction):
     ],
     ids=["rough disc", "a plate begins to touch"],
 )
-def test_the_bound_is_relaxed_only_where_a_small_error_is_predicted(indenter, depths, tolerance, relaxed):
+def test_bound_is_relaxed_only_for_a_small_predicted_error(indenter, depths, tolerance, relaxed):
     solver, control = ContactSolver(indenter, 1e-6), StepControl(tolerance)
     contact = solver.advance_reduced(solver.unloaded_state(), depths[0] / 2)
     before = solver.advance_reduced(contact, depths[0])
@@ -77,8 +77,8 @@ def test_the_bound_is_relaxed_only_where_a_small_error_is_predicted(indenter, de
     assert control.excess(before, after) == pytest.approx(bound / 3.3 if relaxed else bound)
 
 
-def test_touches_before_a_dense_solution_are_not_predicted():
-    """Contacts are solved ahead, so that one on the grid may come before a dense one: the bound alone decides."""
+def test_contacts_before_a_dense_solution_are_not_predicted():
+    """Contacts are solved ahead, so a contact on the grid may precede a dense contact: the bound alone decides."""
     indenter, contacts = self_affine_disc(0.5, 33, seed=1), []
     for depth, options in ((0.3, SolverOptions(dense_contacts=0)), (0.35, DEFAULT)):
         solver = ContactSolver(indenter, 1e-6, options)

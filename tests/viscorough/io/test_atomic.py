@@ -1,4 +1,4 @@
-"""Files are replaced when their content is complete, and not touched otherwise."""
+"""Files are replaced when their content is complete, and not touched before."""
 
 import os
 import shutil
@@ -20,7 +20,7 @@ def write(path, text, error=None):
             raise error
 
 
-def test_target_of_a_link_is_replaced_and_not_the_link(tmp_path):
+def test_writing_to_a_link_replaces_its_target(tmp_path):
     (tmp_path / "folder").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "folder" / "real")
     write(tmp_path / "link", "content")
@@ -56,14 +56,14 @@ with atomic_write(sys.argv[1]) as temporary:
 
 
 def writing(path, text, *prefix):
-    """A process that writes a file, and waits before it is complete; and the temporary file."""
+    """Start a process that writes a file and waits before it is complete; return it and the temporary file."""
     command = [*prefix, sys.executable, "-c", WRITE_UNTIL_TOLD, str(path), text]
     writer = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     return writer, Path(writer.stdout.readline().strip())
 
 
 def test_leftovers_of_killed_processes_are_removed(tmp_path):
-    """The temporary file lies beside the target, else replacing would not be atomic; that of a live process stays."""
+    """The temporary file lies next to the target, so that replacing is atomic. A live process keeps its file."""
     for _ in range(2):
         writer, leftover = writing(tmp_path / "a.csv", "half")
         with writer:
@@ -79,7 +79,7 @@ def test_leftovers_of_killed_processes_are_removed(tmp_path):
 
 
 def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
-    """There the numbers of processes are others: that of the writer does not exist here, or is that of another."""
+    """Process numbers differ between containers: the writer's number may be free here, or another process."""
     container = namespace("--user", "--map-root-user", "--pid", "--fork", "--mount-proc")
     writer, part = writing(tmp_path / "a.csv", "of the container", *container)
     with writer:
@@ -94,7 +94,7 @@ def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
 
 @pytest.mark.parametrize("mode", [None, 0o600, 0o444])
 @pytest.mark.parametrize("name", ["é" * 120, "a" * 255])
-def test_permissions_are_kept_or_those_of_any_new_file_also_under_the_longest_names(tmp_path, mode, name):
+def test_permissions_are_kept_for_names_of_any_length(tmp_path, mode, name):
     path, plain = tmp_path / name, tmp_path / "plain"
     plain.write_text("older")
     if mode is not None:
@@ -106,9 +106,9 @@ def test_permissions_are_kept_or_those_of_any_new_file_also_under_the_longest_na
 
 
 def test_paths_that_cannot_be_written(tmp_path):
-    """A folder without permission to write is tested with the whole command, in a namespace without privileges."""
+    """The test of the whole command, in a namespace without privileges, covers folders without permission to write."""
     (tmp_path / "folder").mkdir()
-    os.mkfifo(tmp_path / "pipe")  # like /dev/null, it must never be replaced by a file
+    os.mkfifo(tmp_path / "pipe")  # a pipe, like /dev/null, must never be replaced by a file
     for name, what in {
         "none/a.nc": "there is no folder",
         "folder": "is not a regular file",
@@ -122,7 +122,7 @@ def test_paths_that_cannot_be_written(tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["folder", "pipe"]
 
 
-def test_only_files_with_an_end_are_readable(tmp_path):
+def test_only_regular_files_are_readable(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "link").symlink_to(tmp_path / "pipe")
     (tmp_path / "file").write_text("")

@@ -14,8 +14,8 @@ CONTACT = contact_at(DISC, depth=0.005)
 
 
 @pytest.mark.parametrize(("tolerance", "precision"), [(1e-2, "f4"), (1e-4, "f4"), (0.99e-4, "f8"), (1e-8, "f8")])
-def test_maps_are_as_precise_as_the_contact(tmp_path, tolerance, precision):
-    """In single precision from a tolerance of 1e-4 on; numbers are in double precision in any case."""
+def test_maps_have_the_precision_of_the_contact(tmp_path, tolerance, precision):
+    """Maps are in single precision for tolerances of 1e-4 or more; single numbers are always in double precision."""
     contact = dataclasses.replace(CONTACT, tolerance=tolerance)
     contact.save(tmp_path / "contact.nc")
     variables = netcdf.read(tmp_path / "contact.nc").variables

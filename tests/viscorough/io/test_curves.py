@@ -12,7 +12,7 @@ from viscorough.io.netcdf import Content
 
 
 def values(name, change):
-    """A change of a content: a function replaces the values of a variable."""
+    """Return a change of a content: a function replaces the values of a variable."""
 
     def changed(content):
         variable = content.variables[name]
@@ -23,7 +23,7 @@ def values(name, change):
 
 
 def entry(name, index, value):
-    """A change of a content: one value of a variable."""
+    """Return a change of a content: one new value of a variable."""
 
     def change(numbers):
         numbers[..., index] = value
@@ -33,7 +33,7 @@ def entry(name, index, value):
 
 
 def units(**texts):
-    """A change of a content: the units of some variables; None: without."""
+    """Return a change of a content: new units of some variables; None: without units."""
 
     def changed(content):
         variables = dict(content.variables)
@@ -46,7 +46,7 @@ def units(**texts):
 
 
 def attribute(name, value):
-    """A change of a content: an attribute."""
+    """Return a change of a content: a new attribute."""
     return lambda content: content.with_attributes(**{name: value})
 
 
@@ -65,7 +65,7 @@ ABOUT_GRID = {
     ("name", "levels", "about"),
     [("a.nc", 1, {}), ("a.nc", netcdf.COMPRESSED_FROM, {}), ("a.nc", 2, ABOUT_GRID)],
 )
-def test_curve_survives_a_file_exactly(tmp_path, name, levels, about):
+def test_curve_is_read_exactly_as_written(tmp_path, name, levels, about):
     curve = random_curve(levels, **about)
     curve.save(str(tmp_path / name))
     assert_same_curve(load_curve(tmp_path / name), curve)
@@ -74,7 +74,7 @@ def test_curve_survives_a_file_exactly(tmp_path, name, levels, about):
         load_curve(tmp_path / "map.nc")
 
 
-def test_stacked_curves_survive_files_exactly(tmp_path):
+def test_stacked_curves_are_read_exactly_as_written(tmp_path):
     last = random_curve(9, seed=2, elements=2, operator_applications=0)
     curves = [random_curve(5), random_curve(1, seed=1, method="dense"), last]
     content = stack_curves(curves)
@@ -131,7 +131,7 @@ ALSO_STACKED = [
 
 
 @pytest.mark.parametrize(("change", "what"), ALONE + ALSO_STACKED)
-def test_what_no_curve_has_is_refused(change, what):
+def test_impossible_curves_are_refused(change, what):
     curve = random_curve(elements=200, length_unit="um")
     with refused(what):
         curve_from_content(change(curve_to_content(curve)))
@@ -153,7 +153,7 @@ def test_what_no_curve_has_is_refused(change, what):
         (attribute("choice", 3), "choice is 3; text is needed"),
     ],
 )
-def test_grid_errors_that_no_curve_has_are_refused(change, what):
+def test_impossible_grid_errors_are_refused(change, what):
     content = curve_to_content(random_curve(2, **ABOUT_GRID))
     curve_from_content(content)
     with refused(what):
@@ -171,7 +171,7 @@ INDENTERS = {
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-8])
 @pytest.mark.parametrize("kind", INDENTERS)
 def test_curves_that_the_solvers_compute_are_read(kind, tolerance):
-    """To their tolerance they are convex, and contact grows; in single precision they are read as well."""
+    """Within their tolerance the curves are convex and contact grows. Curves in single precision are read as well."""
     indenter, levels = INDENTERS[kind], np.linspace(0.1, 1, 7)
     whole = indent(indenter, tolerance=tolerance, until_fraction=1.0)
     for curve in (

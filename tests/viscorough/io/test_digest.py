@@ -1,4 +1,4 @@
-"""Digests of NetCDF files: a changed content is refused, whatever changed; files without a digest are read."""
+"""Digests of NetCDF files: any change of the content is refused; files without a digest are read."""
 
 import netCDF4
 import numpy as np
@@ -17,7 +17,7 @@ ABOUT = {"long_name": "depth", "units": "m"}
 
 @pytest.fixture
 def path(tmp_path):
-    """A file with numbers and texts, on a dimension and alone."""
+    """Make a file with numbers and texts, both along a dimension and scalar."""
     variables = {
         "depth": Variable(("level",), np.array([1.0, -0.0, np.nan]), ABOUT),
         "count": Variable(("level",), np.array([1, 2, 3]), ABOUT | {"valid": np.array([1, 3])}),
@@ -63,7 +63,7 @@ CHANGES = {
 
 @pytest.mark.parametrize("read", [netcdf.read, datasets.read_dataset], ids=["content", "dataset"])
 @pytest.mark.parametrize("change", CHANGES)
-def test_a_changed_content_is_refused(path, change, read):
+def test_changed_content_is_refused(path, change, read):
     read(path)
     with netCDF4.Dataset(path, "a") as file:
         CHANGES[change](file)
@@ -71,8 +71,8 @@ def test_a_changed_content_is_refused(path, change, read):
         read(path)
 
 
-def test_files_of_other_programs_and_older_ones_are_read(path):
-    """Those that say nothing of a digest, even if a program kept other attributes."""
+def test_older_files_and_files_of_other_programs_are_read(path):
+    """Files without a digest are read, even if a program kept other attributes."""
     with netCDF4.Dataset(path, "a") as file:
         file.delncattr(digest.ATTRIBUTE)
         file.setncattr("history", "written by viscorough 1.0.0")
@@ -84,8 +84,8 @@ def test_files_of_other_programs_and_older_ones_are_read(path):
     assert read_heights(path, 2.0).spacing == 2.0
 
 
-def test_the_digest_depends_on_the_content_alone(tmp_path, monkeypatch):
-    """Not on the order of names, the byte order, compression, or the rows that are read at a time."""
+def test_digest_depends_on_the_content_alone(tmp_path, monkeypatch):
+    """The order of names, the byte order, compression and the number of rows read at a time do not change it."""
     map_of_heights, names = np.random.default_rng(0).random((7, 6)), np.array([*"abcdefg"], dtype=object)
 
     def write(name, order, kind, **options):
@@ -112,7 +112,7 @@ def test_the_digest_depends_on_the_content_alone(tmp_path, monkeypatch):
     assert digest_in("plain.nc") == plain
 
 
-def test_a_file_that_is_read_and_written_again_has_its_own_digest(path):
+def test_file_that_is_written_again_gets_a_new_digest(path):
     netcdf.write(stack_curves([random_curve(3), random_curve(5)]), path)
     once = netcdf.read(path)
     netcdf.write(once, path)
@@ -121,8 +121,8 @@ def test_a_file_that_is_read_and_written_again_has_its_own_digest(path):
     assert netcdf.read(path).variables["levels"].values.tolist() == [3]
 
 
-def test_a_damaged_number_in_the_bytes_of_a_curve_is_refused(tmp_path):
-    """The structure of the file is whole, and the curve is one that could exist."""
+def test_damaged_number_in_a_curve_is_refused(tmp_path):
+    """The file has a valid structure, and its curve is possible."""
     curve = random_curve(30)
     curve.save(tmp_path / "curve.nc")
     whole = (tmp_path / "curve.nc").read_bytes()

@@ -1,4 +1,4 @@
-"""Elevation models: units, masks, missing values and compressions, which rasterio reads; ESRI grids in degrees."""
+"""Elevation models that rasterio reads: units, masks, missing values and compressions; ESRI grids in degrees."""
 
 import shutil
 import sys
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarni
 
 
 def elevation(path, heights=HEIGHTS, *, crs=UTM, transform=GRID, unit=None, mask=None, scale=None, **options):
-    """A file with elements of 2 by 3 in the unit of a reference system; `mask` is True where points are missing."""
+    """Write a file with elements of 2 by 3 in the unit of a reference system; `mask` : True at missing points."""
     bands = np.reshape(heights, (-1, *HEIGHTS.shape))
     (rows, columns), suffix = HEIGHTS.shape, path.suffix
     options = {"driver": {".bil": "EHdr", ".img": "HFA"}.get(suffix, "GTiff")} | options
@@ -37,7 +37,7 @@ def elevation(path, heights=HEIGHTS, *, crs=UTM, transform=GRID, unit=None, mask
 
 
 def rio(arguments):
-    """The command line of rasterio."""
+    """Run the command line of rasterio."""
     from rasterio.rio.main import main_group
 
     main_group(arguments.split(), standalone_mode=False)
@@ -56,13 +56,13 @@ def rio(arguments):
     ],
 )
 def test_units_of_coordinates_and_heights(tmp_path, crs, metres, unit, height_metres):
-    """In particular survey feet along x and y below heights in metres, in a compound reference system."""
+    """One case is a compound reference system with survey feet along x and y and heights in metres."""
     indenter = read_heights(elevation(tmp_path / "a.tif", crs=crs, unit=unit)).to("m")
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2 * metres, 3 * metres), rel=1e-12)
     np.testing.assert_allclose(indenter.heights, HEIGHTS.astype(float) * height_metres, rtol=1e-6)
 
 
-def test_a_height_unit_is_needed_where_the_file_states_none(tmp_path):
+def test_height_unit_is_required_if_the_file_states_none(tmp_path):
     path = elevation(tmp_path / "a.tif", crs="EPSG:2263")
     with refused("heights in no stated unit; unit is needed"):
         read_heights(path)
@@ -77,7 +77,7 @@ def test_two_different_units_of_heights_are_refused(tmp_path):
 
 @pytest.mark.parametrize("is_internal", [True, False])
 def test_masked_points_are_nan(tmp_path, is_internal):
-    """Also where the masked numbers are possible heights, and where the file has a value for missing data as well."""
+    """A masked number may be a possible height, and the file may have a value for missing data as well."""
     mask = np.zeros(HEIGHTS.shape, bool)
     mask[2:4, 3:6] = True
     heights = HEIGHTS.copy()
@@ -92,7 +92,7 @@ def test_masked_points_are_nan(tmp_path, is_internal):
         assert indenter.heights.dtype == np.float32
 
 
-def test_a_mask_beside_a_picture_of_a_microscope_is_used(tmp_path):
+def test_mask_file_of_a_microscope_picture_is_used(tmp_path):
     mask = HEIGHTS > 300.8
     with rasterio.Env(GDAL_TIFF_INTERNAL_MASK=False):
         elevation(tmp_path / "masked.tif", unit="m", mask=mask)
@@ -102,14 +102,14 @@ def test_a_mask_beside_a_picture_of_a_microscope_is_used(tmp_path):
     np.testing.assert_array_equal(indenter.heights, np.where(mask, np.nan, HEIGHTS))
 
 
-def test_a_mask_inside_a_picture_of_a_microscope_is_used(tmp_path):
+def test_mask_inside_a_microscope_picture_is_used(tmp_path):
     mask = HEIGHTS > 300.8
     elevation(tmp_path / "a.tif", mask=mask, crs=None, transform=None)
     indenter = read_heights(tmp_path / "a.tif", 1, unit="um")
     np.testing.assert_array_equal(indenter.heights, np.where(mask, np.nan, HEIGHTS))
 
 
-def test_what_gdal_states_in_a_file_for_a_picture_is_used(tmp_path):
+def test_metadata_file_of_gdal_for_a_picture_is_used(tmp_path):
     heights = HEIGHTS.copy()
     heights[2, 3] = -1
     tifffile.imwrite(tmp_path / "a.tif", heights)
@@ -141,14 +141,14 @@ def test_scale_and_offset_are_applied_to_measured_points(tmp_path):
     "options",
     [{"compress": "lzw"}, {"compress": "zstd"}, {"compress": "deflate", "predictor": 3}, {"compress": "lerc"}],
 )
-def test_compressed_files(tmp_path, options):
+def test_compressed_files_are_read(tmp_path, options):
     indenter = read_heights(elevation(tmp_path / "a.tif", unit="m", **options))
     np.testing.assert_array_equal(indenter.heights, HEIGHTS)
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (2, 3, "m")
 
 
 @pytest.mark.parametrize("suffix", [".bil", ".img"])
-def test_other_formats(tmp_path, suffix):
+def test_other_formats_of_gdal_are_read(tmp_path, suffix):
     indenter = read_heights(elevation(tmp_path / f"a{suffix}"), unit="m")
     np.testing.assert_array_equal(indenter.heights, HEIGHTS)
     assert (indenter.spacing, indenter.row_spacing) == (2, 3)
@@ -167,7 +167,7 @@ def test_tiles_of_the_shuttle_mission_are_in_degrees(tmp_path):
         read_heights(tmp_path / "N46E013.hgt", 30, unit="m")
 
 
-def test_the_advice_for_degrees_works(tmp_path):
+def test_advice_for_maps_in_degrees_works(tmp_path):
     path = elevation(tmp_path / "a.tif", crs="EPSG:4326", transform=rasterio.transform.from_origin(15, 46, 1e-3, 1e-3))
     rio(f"warp {path} {tmp_path / 'b.tif'} --dst-crs {UTM}")
     assert read_heights(tmp_path / "b.tif", unit="m").spacing == pytest.approx(95, rel=0.2)  # 0.001 degrees
@@ -177,7 +177,7 @@ def test_the_advice_for_degrees_works(tmp_path):
 
 
 def minimal(path, *keys):
-    """A GeoTIFF with these (key, value) pairs alone, and elements of 30 by 20."""
+    """Write a GeoTIFF with only these (key, value) pairs, and elements of 30 by 20."""
     directory = [1, 1, 0, len(keys), *(number for key, value in keys for number in (key, 0, 1, value))]
     place = [(33550, "d", 3, (30.0, 20.0, 0.0), True), (33922, "d", 6, (0.0, 0.0, 0.0, LEFT, TOP, 0.0), True)]
     tifffile.imwrite(path, HEIGHTS, extratags=[*place, (34735, "H", len(directory), directory, True)])
@@ -188,7 +188,7 @@ def minimal(path, *keys):
     "keys", [[(1024, 1), (3076, 9003)], [(1024, 1)], [(2048, 4326)], [(2054, 9102)], [(1024, 32767), (2048, 4326)]]
 )
 def test_incomplete_reference_systems_are_refused(tmp_path, keys):
-    """GDAL reads the first one, in survey feet without a projection, as metres."""
+    """GDAL would read the first of them, in survey feet without a projection, as metres."""
     path = minimal(tmp_path / "a.tif", *keys)
     with refused("incomplete, so that the unit of x and y is not certain; .* 'rio edit-info --crs EPSG:CODE FILE'"):
         read_heights(path, unit="m")
@@ -204,7 +204,7 @@ def test_a_map_without_reference_system_is_in_the_unit_that_is_given(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", [".tif", ".bil"])
-def test_coordinates_without_a_unit_that_may_be_degrees_are_refused(tmp_path, suffix):
+def test_coordinates_that_may_be_degrees_are_refused(tmp_path, suffix):
     for left, top, step in ((-105.56, 40.09, 3 / 3600), (-180.5, 90.5, 1)):  # points at -180 and 90
         near = rasterio.transform.from_origin(left, top, step, step)
         path = elevation(tmp_path / f"a{suffix}", crs=None, transform=near)
@@ -241,7 +241,7 @@ def test_esri_grids_that_may_be_in_degrees_need_a_unit(tmp_path, place, is_refus
     assert read_heights(path, unit="m").spacing == place[-1]
 
 
-def test_the_prj_file_beside_an_esri_grid_states_its_units(tmp_path):
+def test_prj_file_states_the_units_of_an_esri_grid(tmp_path):
     path = tmp_path / "a.asc"
     path.write_text(ESRI.format("corner", 10, 20, 2))
     (tmp_path / "a.prj").write_text(rasterio.crs.CRS.from_user_input(METRES_ABOVE_FEET).to_wkt(version="WKT1_ESRI"))
@@ -295,9 +295,9 @@ def test_bad_files_are_one_line(tmp_path, capfd):
     assert capfd.readouterr().err == ""
 
 
-def test_without_the_extra_the_message_names_the_remedy(tmp_path, monkeypatch):
+def test_message_without_the_extra_names_the_remedy(tmp_path, monkeypatch):
     paths = [elevation(tmp_path / "a.tif"), elevation(tmp_path / "a.bil"), tmp_path / "a.asc"]
-    paths[-1].write_text(ESRI.format("corner", LEFT, TOP, 2))  # beside a.prj
+    paths[-1].write_text(ESRI.format("corner", LEFT, TOP, 2))  # next to a.prj
     monkeypatch.setitem(sys.modules, "rasterio", None)  # as if it were not installed
     for path in paths:
         with refused(rf'{path.name}: .*pip install "viscorough\[geo\]"'):

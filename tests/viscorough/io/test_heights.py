@@ -24,7 +24,7 @@ def test_heights_of_any_real_type_are_read_exactly(tmp_path, dtype):
         assert indenter.spacing == 0.5
 
 
-def test_heights_of_netcdf(tmp_path):
+def test_heights_of_netcdf_files_are_read(tmp_path):
     heights = np.array([[np.nan, 1.0], [2.0, 3.0]])
     attributes = {"long_name": "height", "units": "um"}
     only = xr.Dataset({"z": (("y", "x"), heights, attributes), "rms": ((), 1.0, attributes)})
@@ -44,8 +44,8 @@ def test_heights_of_netcdf(tmp_path):
             read_heights(tmp_path / "b.nc", 1.0)
 
 
-def test_leading_dimensions_of_netcdf(tmp_path):
-    """Of length 1, they are left out; the spacing is that of the last two."""
+def test_leading_dimensions_of_length_1_are_left_out(tmp_path):
+    """Leading dimensions of length 1 are left out. The spacings belong to the last two dimensions."""
     coordinates = {name: (name, step * np.arange(n), {"units": "um"}) for name, n, step in (("y", 3, 2), ("x", 4, 1))}
     heights = 1e-3 * np.random.default_rng(0).random((3, 4))
     plane = xr.Dataset({"z": (("y", "x"), heights, {"units": "um"})}, coordinates)
@@ -97,7 +97,7 @@ def test_bad_files_of_heights_are_one_line(tmp_path):
 
 
 def test_counts_are_scaled(tmp_path):
-    """A detector's counts of 0.053 nm, without a unit in the file."""
+    """The map holds counts of a detector, 0.053 nm each, without a unit in the file."""
     np.save(tmp_path / "counts.npy", np.array([[0, 100], [200, 300]], np.int16))
     indenter = viscorough.read_heights(tmp_path / "counts.npy", 20.0, scale="0.053 nm")
     np.testing.assert_allclose(indenter.heights, [[0, 5.3], [10.6, 15.9]], rtol=1e-15)
@@ -115,8 +115,8 @@ def test_counts_are_scaled(tmp_path):
             viscorough.read_heights(tmp_path / "odd.npy", 20.0, scale=2)
 
 
-def test_a_scale_converts_a_unit_that_is_no_length(tmp_path):
-    """As the phase of an interferometer, in radians; the message about the unit names the option."""
+def test_scale_converts_values_that_are_no_lengths(tmp_path):
+    """The values are phases of an interferometer, in radians. The message about the unit names the option."""
     (tmp_path / "a.txt").write_text("# Z units: rad\n# pixel size: 2 um\n1 2 3\n4 5 7\n5 8 6\n")
     with refused(r"unit 'rad': not a unit of length, .*; scale, such as '5 nm', states the height of 1 rad"):
         read_heights(tmp_path / "a.txt")
@@ -146,7 +146,7 @@ SPIP = """# File Format = ASCII
 @pytest.mark.parametrize(
     "factor", ["Bit2nm = 0.5", "bit to um: 0.5", "nm/bit = 0.5", "nm per count: 0.5", "Z LSB = 0.5 nm"]
 )
-def test_a_header_with_the_height_of_a_count_is_refused_and_the_advice_works(tmp_path, factor):
+def test_header_with_a_height_per_count_is_refused_with_advice(tmp_path, factor):
     path = tmp_path / "spip.asc"
     path.write_text(SPIP.replace("Bit2nm = 0.5", factor))
     with refused(f"header '# {factor}': .*; without this line, and with scale, they are read"):
@@ -170,7 +170,7 @@ def test_binary_files_with_the_suffix_of_a_text_are_refused_without_their_bytes(
 
 @pytest.mark.parametrize(("slope", "is_steep"), [(0.29, False), (0.31, True)])
 def test_steep_slopes_give_a_warning(tmp_path, recwarn, slope, is_steep):
-    ridges = np.abs(np.arange(16) % 8 - 4.0)  # of the slope 1 almost everywhere
+    ridges = np.abs(np.arange(16) % 8 - 4.0)  # the slope is 1 almost everywhere
     heights = np.broadcast_to(ridges, (16, 16)) * slope
     np.save(tmp_path / "a.npy", heights)
     indenter = read_heights(tmp_path / "a.npy", 1.0)
@@ -207,7 +207,7 @@ def test_a_spacing_may_be_a_text_with_a_unit(tmp_path):
         ({"spacing": 1.0, "crop": [[0, 1.5], [0, 2]]}, "crop: must be a whole number"),
     ],
 )
-def test_numbers_that_are_none_are_refused_for_what_they_are(tmp_path, options, message):
+def test_arguments_that_are_no_numbers_are_refused_by_name(tmp_path, options, message):
     np.save(tmp_path / "heights.npy", np.arange(16.0).reshape(4, 4) % 5)
     with refused(rf"heights.npy: .*{message}"):
         read_heights(tmp_path / "heights.npy", **options)
@@ -223,7 +223,7 @@ def test_spacings_of_every_type_count_as_floats(tmp_path):
 @pytest.mark.filterwarnings("error", "ignore:.*rms slope")
 @pytest.mark.parametrize("spacing", [1e308, 1e-300])
 @pytest.mark.parametrize("detrend", ["none", "plane"])
-def test_a_map_whose_size_or_area_has_no_number_is_prepared_as_any_other(tmp_path, spacing, detrend):
+def test_maps_whose_size_overflows_are_prepared(tmp_path, spacing, detrend):
     np.save(tmp_path / "heights.npy", np.random.default_rng(1).normal(size=(8, 8)))
     extreme, usual = (read_heights(tmp_path / "heights.npy", each, detrend=detrend) for each in (spacing, 1.0))
     np.testing.assert_allclose(extreme.heights, usual.heights, rtol=0, atol=1e-12)

@@ -1,4 +1,4 @@
-"""Files written by instruments and other programs; for their formats the extra `formats` is needed."""
+"""Files of instruments and other programs; their formats need the extra `formats`."""
 
 import struct
 import sys
@@ -27,8 +27,8 @@ pytestmark = pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarni
         ("top-1.top", (256, 256), (600 / 256, 600 / 256), "nm"),
     ],
 )
-def test_files_of_other_programs(name, shape, spacing, unit):
-    """Heights, spacings and units, as SurfaceTopography reads them where it can: most of them are read without it."""
+def test_files_of_other_programs_are_read(name, shape, spacing, unit):
+    """Heights, spacings and units agree with SurfaceTopography if it can read the file. Most are read without it."""
     reference = SurfaceTopography.read_topography(str(FILES / name))
     indenter = read_heights(FILES / name)
     assert indenter.heights.shape == shape
@@ -39,8 +39,8 @@ def test_files_of_other_programs(name, shape, spacing, unit):
 
 
 @pytest.mark.parametrize("suffix", ["x3p", "gwy"])
-def test_formats_written_by_another_program(tmp_path, suffix):
-    """Rows are along y, points that were not measured are nan, both spacings are read, in metres."""
+def test_formats_written_by_another_program_are_read(tmp_path, suffix):
+    """Rows are along y, points without a measurement are nan, and both spacings are read, in metres."""
     heights = np.random.default_rng(1).random((6, 9)) * 1e-7
     measured = np.ma.masked_invalid(np.where(heights < 2e-8, np.nan, heights)) if suffix == "x3p" else heights
     surface = SurfaceTopography.Topography(measured.T, (9 * 2e-6, 6 * 3e-6), unit="m")
@@ -56,7 +56,7 @@ MAP = 1e-7 * np.random.default_rng(1).random((5, 7))
 
 @pytest.mark.parametrize("suffix", ["h5", "mat", "npz"])
 def test_arrays_of_several_maps_are_listed(tmp_path, suffix):
-    """Coordinates of one row or column are no maps."""
+    """Coordinates of one row or column do not count as maps."""
     path = tmp_path / f"a.{suffix}"
     arrays = {"first": MAP, "second": 2 * MAP, "x": np.arange(7.0)[None], "y": np.arange(5.0)[:, None]}
     if suffix == "h5":
@@ -88,7 +88,7 @@ def test_the_only_map_among_coordinates_is_read(tmp_path, suffix):
 
 
 def gwyddion(path, *fields, mask=None):
-    """A Gwyddion file of maps of 2 by 3 um per point; each field is (title, heights, unit of x and y, unit of z)."""
+    """Write a Gwyddion file of maps of 2 by 3 um per point; fields are (title, heights, unit of x and y, unit of z)."""
 
     def part(name, kind, content):
         return name.encode() + b"\0" + kind.encode() + content
@@ -131,8 +131,8 @@ def test_the_first_of_several_channels_of_an_instrument_is_read_with_a_warning(t
     np.testing.assert_array_equal(read_heights(path, channel="Retrace").heights, 2 * MAP)
 
 
-def test_gwyddion_fields_without_units(tmp_path):
-    """The size of a field without a unit of length states no spacing."""
+def test_gwyddion_fields_without_units_need_a_spacing(tmp_path):
+    """Without a unit of length, the size of a field does not determine the spacing."""
     path = gwyddion(tmp_path / "a.gwy", ("Topo", MAP, None, None), mask=(MAP > 8e-8).astype(float))
     indenter = read_heights(path, 1.0, unit="nm")
     np.testing.assert_array_equal(indenter.heights, np.where(MAP > 8e-8, np.nan, MAP))
@@ -153,7 +153,7 @@ def test_gwyddion_fields_without_units(tmp_path):
 
 
 @pytest.mark.parametrize(("code", "kind"), [(3, "<f4"), (7, "<f8")])
-def test_the_lowest_number_marks_missing_points(tmp_path, code, kind):
+def test_lowest_number_marks_missing_points(tmp_path, code, kind):
     heights = (10 * MAP / 1e-7).astype(kind)
     heights[2, 3] = np.finfo(kind).min
     header = struct.pack("<8s10s12s12sHH4dBBB", b"bISO-1.0", b"", b"", b"", 7, 5, 2e-7, 3e-7, 1e-8, 1e-9, 0, code, 0)
@@ -170,7 +170,7 @@ def test_compressed_digital_surf_files_are_refused_by_name(tmp_path):
         read_heights(tmp_path / "a.sur")
 
 
-def test_an_x3p_file_with_a_dash_in_its_revision(tmp_path):
+def test_x3p_file_with_a_dash_in_its_revision_is_read(tmp_path):
     surface = SurfaceTopography.Topography(MAP.T, (7 * 2e-6, 5 * 3e-6), unit="m")
     surface.to_x3p(str(tmp_path / "plain.x3p"))
     for name, dash in (("en", "\u2013"), ("hyphen", "\u2010"), ("none", "-")):
@@ -184,7 +184,7 @@ def test_an_x3p_file_with_a_dash_in_its_revision(tmp_path):
 
 
 def nms(path, step):
-    """A NanoFocus file of 12 by 8 points, with heights from 2 to 6 um."""
+    """Write a NanoFocus file of 12 by 8 points, with heights from 2 to 6 um."""
     content = bytearray(3468 + 2 * 12 * 8)
     struct.pack_into("<2d", content, 16, 2.0, 6.0)
     struct.pack_into("<2I2d", content, 1368, 12, 8, step, step)
@@ -202,8 +202,8 @@ def test_the_spacing_of_nanofocus_files_is_in_nanometres_or_millimetres(tmp_path
 
 
 @pytest.mark.parametrize(("step", "is_doubtful"), [(2e-10, True), (2e-9, False), (0.1, False), (0.2, True)])
-def test_a_field_of_unlikely_size_gives_a_warning(tmp_path, recwarn, step, is_doubtful):
-    """Seven points per row: 1.4 nm, 14 nm, 0.7 m and 1.4 m."""
+def test_field_of_unlikely_size_gives_a_warning(tmp_path, recwarn, step, is_doubtful):
+    """The seven points per row span 1.4 nm, 14 nm, 0.7 m and 1.4 m."""
     SurfaceTopography.Topography(MAP.T * step, (7 * step, 7 * step), unit="m").to_x3p(str(tmp_path / "a.x3p"))
     read_heights(tmp_path / "a.x3p")
     assert any("check the unit of the spacing" in str(warning.message) for warning in recwarn) is is_doubtful
@@ -238,15 +238,15 @@ def test_bad_files_are_one_line(tmp_path):
         assert len(str(error.value)) < 400
 
 
-def test_without_the_extra_the_message_names_the_remedy(tmp_path, monkeypatch):
+def test_message_without_the_extra_names_the_remedy(tmp_path, monkeypatch):
     (tmp_path / "a.x3p").write_bytes(b"PK")
     monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)  # as if it were not installed
     with refused(r'pip install "viscorough\[formats\]"'):
         read_heights(tmp_path / "a.x3p")
 
 
-def test_contents_decide_where_a_suffix_is_shared(tmp_path):
-    """Some instruments write binary files under .dat, which is read as text otherwise."""
+def test_contents_decide_if_formats_share_a_suffix(tmp_path):
+    """Some instruments write binary files with the suffix .dat; other files with it are read as text."""
     (tmp_path / "a.dat").write_text("1 2\n3 4\n")
     assert read_heights(tmp_path / "a.dat", (1.0, 1.0)).heights.tolist() == [[1, 2], [3, 4]]
     (tmp_path / "b.dat").write_bytes((FILES / "unnamed.ibw").read_bytes())

@@ -1,4 +1,4 @@
-"""Tables of loads: numbers in the units of people who read them, and rows that are found again."""
+"""Tables of loads: numbers in the units that people use, and rows that are found again."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def contacts(indenter=BALL):
 
 
 def test_numbers_are_in_micrometres_newtons_and_megapascals():
-    """Converted by hand: G um2 is 5e-7 N, G um is 0.5 N/m, G is 0.5 MPa."""
+    """The expected numbers are converted by hand: G um2 is 5e-7 N, G um is 0.5 N/m, G is 0.5 MPa."""
     rows, units = load_tables.rows_of_contacts(contacts())
     last = contacts()[-1]
     expected = {
@@ -93,7 +93,7 @@ def test_other_files_have_no_rows(tmp_path):
     assert load_tables.finished_rows(other) == {}
 
 
-def test_a_file_without_a_unit_is_refused_beside_files_that_have_one(tmp_path):
+def test_files_with_and_without_a_unit_do_not_mix(tmp_path):
     known = LoadRows("known.csv", "1", *load_tables.rows_of_contacts([contact_at(BALL, force=20.0)]))
     plain = LoadRows("plain.csv", "2", *load_tables.rows_of_contacts([contact_at(Indenter(HEIGHTS, 1.0), force=20.0)]))
     assert load_tables.with_one_unit([plain, plain]) == [plain, plain]

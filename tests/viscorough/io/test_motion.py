@@ -1,4 +1,4 @@
-"""Force histories and creep tables read from files: what is a header, and what is a mistake."""
+"""Force histories and creep tables read from files: headers, units, and refusals."""
 
 import numpy as np
 import pytest
@@ -21,13 +21,13 @@ def history(tmp_path):
 
 
 @pytest.mark.parametrize("header", ["", "t [s],F [N]\n", "# a comment\n", "\n\nTime;seconds,Force\n", "\ufefft,F\n"])
-def test_a_header_is_a_row_without_numbers(history, header):
+def test_header_is_a_row_without_numbers(history, header):
     np.testing.assert_array_equal(history(f"{header}0,1e0\n\n1,2\n", "m"), [[0, 1], [1, 2]])
 
 
 @pytest.mark.parametrize("first", ["0,nan", "inf,1", "-Infinity,x", "0,one", "zero,1", "-.5s,-1N", "+1 s,F"])
-def test_a_first_row_with_a_number_is_no_header(history, first):
-    """It would vanish, and with it the beginning of the history."""
+def test_first_row_with_a_number_is_no_header(history, first):
+    """As a header it would be dropped, and with it the start of the history."""
     with refused(r"not readable|each larger than|finite"):
         history(f"{first}\n1,2\n2,3\n")
 
@@ -82,6 +82,6 @@ def test_units_of_creep_tables_are_converted(tmp_path):
         *['"0","1"\n"1","2"\n', "0,1\n1,\n2,3\n", "0,1\n1\n2,3\n", "0,1_0\n1,2_0\n", "", "time,force\n0,1\n"],
     ],
 )
-def test_what_is_not_certain_is_refused(history, text, length_unit):
+def test_ambiguous_tables_are_refused(history, text, length_unit):
     with refused(r"force\.csv: .*two columns, time and force"):
         history(text, length_unit)

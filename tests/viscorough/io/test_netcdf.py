@@ -25,7 +25,7 @@ def content_of(values):
 
 @pytest.mark.parametrize("levels", [1, netcdf.COMPRESSED_FROM])
 def test_xarray_writes_and_reads_the_same(tmp_path, levels):
-    """The two ways to write a file differ in nothing that a reader sees; the same way always gives the same bytes."""
+    """Both ways to write a file give the same contents to a reader; the same way always gives the same bytes."""
     content = curve_to_content(random_curve(levels))
     ds = xr.Dataset(content.variables, attrs=content.attributes)
     netcdf.write(content, tmp_path / "ours.nc")
@@ -54,8 +54,8 @@ def test_coordinates_have_no_fill_value_and_labels_of_a_dimension_are_no_coordin
     xr.testing.assert_equal(read, ds)
 
 
-def test_content_survives_a_file_exactly(tmp_path):
-    """Variables of every kind that an input file may hold, known to the command line or not."""
+def test_content_is_read_exactly_as_written(tmp_path):
+    """The content has variables of every kind that an input file may hold, also kinds that no command uses."""
     random = np.random.default_rng(0)
     variables = {
         "depth": Variable(("level",), np.append(random.random(4), np.nan), METRES),
@@ -75,8 +75,8 @@ def test_content_survives_a_file_exactly(tmp_path):
 
 
 @pytest.mark.parametrize("limit", [0, 20_000])
-def test_full_disk_is_one_line_and_leaves_nothing(tmp_path, limit):
-    """A limit on the size of files stands for the full disk: both fail in the middle of writing."""
+def test_full_disk_is_one_line_and_leaves_no_file(tmp_path, limit):
+    """A limit on the size of files imitates the full disk: both fail in the middle of writing."""
     noise, limits = np.random.default_rng(0).random(20_000), resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limits[1]))
     try:

@@ -1,4 +1,4 @@
-"""Profiles in text files: heights along a line are read by read_line in the grammar of maps, and never as a map."""
+"""Profiles in text files: read_line reads heights along a line in the grammar of maps; they are never read as maps."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ Z = np.random.default_rng(1).normal(0, 9, 12).round(3)
 
 
 def columns(*values, delimiter=" ", form="{:g}"):
-    """The text of columns of numbers."""
+    """Return the text of columns of numbers."""
     return "".join(delimiter.join(map(form.format, row)) + "\n" for row in zip(*values, strict=True))
 
 
@@ -74,7 +74,7 @@ def test_profiles_with_uneven_steps_or_gaps_are_neither_lines_nor_maps(tmp_path,
 
 
 @pytest.mark.parametrize("heading", ["x [um], z [nm]", "# Position (µm), Height (nm)", "x/um;z/nm", "z_nm x_um"])
-def test_units_of_a_heading(tmp_path, heading):
+def test_units_of_a_heading_are_used(tmp_path, heading):
     order = (Z, X) if heading.startswith("z") else (X, Z)
     delimiter = next(mark for mark in (", ", ";", " ") if mark in heading)
     table = columns(*order, delimiter=delimiter, form="{:.3f}")
@@ -84,14 +84,14 @@ def test_units_of_a_heading(tmp_path, heading):
     assert (line.spacing, line.length_unit) == (pytest.approx(500, rel=1e-12), "nm")
 
 
-def test_lateral_unit_of_positions(tmp_path):
+def test_lateral_unit_applies_to_positions(tmp_path):
     (tmp_path / "a.txt").write_text(columns(X, Z))
     line = read_line(tmp_path / "a.txt", unit="um", lateral_unit="mm")
     assert (line.spacing, line.length_unit) == (500, "um")
 
 
 @pytest.mark.parametrize("heights", [Z[:, None], Z[None, :], np.stack([Z, Z[::-1]]), np.stack([Z, Z[::-1]], axis=1)])
-def test_two_distances_state_a_map_of_few_rows_or_columns(tmp_path, heights):
+def test_two_spacings_make_a_map_of_few_rows_or_columns(tmp_path, heights):
     np.savetxt(tmp_path / "a.txt", heights)
     surface = read_heights(tmp_path / "a.txt", (0.5, 0.25))
     np.testing.assert_array_equal(surface.heights, heights)
@@ -136,7 +136,7 @@ def test_bad_profiles_are_one_line(tmp_path, text, what):
         read_line(tmp_path / "a.txt")
 
 
-def test_line_of_an_unknown_suffix_is_refused(tmp_path):
+def test_line_with_an_unknown_suffix_is_refused(tmp_path):
     (tmp_path / "a.pro").write_text(columns(Z))
     with refused("unknown kind of file"):
         read_line(tmp_path / "a.pro", 0.5)

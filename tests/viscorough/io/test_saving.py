@@ -1,4 +1,4 @@
-"""Names of files that results are saved to: each suffix has one format, others are refused."""
+"""Names of files for results: each suffix has one format, other suffixes are refused."""
 
 import numpy as np
 import pytest
@@ -28,13 +28,13 @@ def test_other_suffixes_are_refused_and_no_file_is_left(tmp_path, kind, name):
 
 
 @pytest.mark.parametrize("name", ["result.nc", "result.NC"])
-def test_suffix_of_netcdf_in_any_case(tmp_path, name):
+def test_suffix_of_netcdf_may_be_in_any_case(tmp_path, name):
     CURVE.save(tmp_path / name)
     assert netcdf.read(tmp_path / name).variables["depth"].values.tolist() == CURVE.depth.tolist()
 
 
 @pytest.mark.parametrize("name", ["result.csv", "result.CSV"])
-def test_suffix_of_tables_in_any_case(tmp_path, name):
+def test_suffix_of_tables_may_be_in_any_case(tmp_path, name):
     MOTION.save(tmp_path / name)
     rows = [line for line in (tmp_path / name).read_text().splitlines() if not line.startswith("#")]
     columns = np.genfromtxt(rows, delimiter=",", names=True)

@@ -1,4 +1,4 @@
-"""Spacings and units: from the file where it states them, refused where file and arguments contradict each other."""
+"""Spacings and units are read from the file if it states them; contradictions of file and arguments are refused."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ HEIGHTS = np.random.default_rng(0).random((3, 4))
 
 
 def netcdf_map(path, *, unit="um", x=(0, 0.5, 1.0, 1.5), y=(3, 2, 1), x_unit="um", y_unit="um", dimensions=("y", "x")):
-    """A file with the map HEIGHTS, and coordinates where they are given."""
+    """Write a file with the map HEIGHTS, with coordinates if they are given."""
     heights = HEIGHTS if dimensions == ("y", "x") else HEIGHTS.T
     parts = {"heights": (dimensions, heights, unit), "x": (("x",), x, x_unit), "y": (("y",), y, y_unit)}
     variables = {
@@ -42,14 +42,14 @@ def test_coordinates_of_netcdf_give_the_spacings(tmp_path, content, arguments, s
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (*spacings, unit)
 
 
-def test_a_plain_spacing_is_not_taken_in_another_unit_than_that_of_x_and_y(tmp_path):
+def test_plain_spacing_needs_one_unit_for_all_axes(tmp_path):
     (tmp_path / "a.txt").write_text("# XY units: mm\n# Z units: um\n1 2 3\n3 4 9\n2 5 7\n")
     with refused("heights are in um, x and y in mm; a spacing with a unit"):
         read_heights(tmp_path / "a.txt", 0.5)
     assert read_heights(tmp_path / "a.txt", [units.quantity("0.5 mm")] * 2).spacing == 500
 
 
-def test_positions_far_from_0_are_as_exact_as_their_precision():
+def test_positions_far_from_0_keep_their_precision():
     northings = 5.4e6 + 0.5 * np.arange(9)
     assert uniform_spacing("y", northings) == 0.5
     assert uniform_spacing("y", northings.astype(np.float32)) == 0.5

@@ -1,4 +1,4 @@
-"""Tables as CSV: what they hold, in full precision, and which contents are none."""
+"""Tables as CSV: their contents, in full precision, and contents that are refused."""
 
 import json
 
@@ -39,7 +39,7 @@ def test_missing_values_are_empty_fields(path):
     assert path.read_text(encoding="utf-8").endswith("v (m s-1),w (m s-1)\n1.5,1.5\n,\n")
 
 
-def test_maps_are_no_tables(path):
+def test_maps_are_refused_as_tables(path):
     attributes = {"long_name": "height", "units": "m"}
     content = Content({"heights": Variable(("y", "x"), np.zeros((2, 2)), attributes)}, {})
     with refused(r"no table of one dimension; a NetCDF file \(\.nc\) is needed"):

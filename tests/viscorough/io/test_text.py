@@ -1,6 +1,6 @@
-"""Maps of heights in text files: what they state is read, what they do not state is not guessed.
+"""Maps of heights in text files: stated spacings and units are read, missing ones are not guessed.
 
-Ordinary variations of such files are tried by benchmarks/file_campaign.py; these are the ones that it lacks.
+benchmarks/file_campaign.py tries ordinary variations of such files; these tests cover the others.
 """
 
 import numpy as np
@@ -34,7 +34,7 @@ TABLES = [
 
 
 @pytest.mark.parametrize(("text", "heights"), TABLES)
-def test_tables_of_any_punctuation_with_gaps(tmp_path, text, heights):
+def test_tables_with_any_punctuation_and_gaps_are_read(tmp_path, text, heights):
     (tmp_path / "a.txt").write_text(text, encoding="utf-8", newline="")
     scan = read_text(tmp_path / "a.txt", is_map=True)
     np.testing.assert_array_equal(scan.heights, heights)
@@ -54,7 +54,7 @@ def test_tables_of_any_punctuation_with_gaps(tmp_path, text, heights):
         ("Width: 1 um\nHeight: 1 um\npixel size: 0.5 um\nZ unit: nm\n", "nm", (500, 500)),
     ],
 )
-def test_headers(tmp_path, header, unit, spacing):
+def test_spacings_and_units_of_headers_are_read(tmp_path, header, unit, spacing):
     (tmp_path / "a.txt").write_text(f"{header}1 2\n3 4\n", encoding="utf-8")
     indenter = to_indenter(read_text(tmp_path / "a.txt", is_map=True))
     np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
@@ -63,13 +63,13 @@ def test_headers(tmp_path, header, unit, spacing):
 
 
 @pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
-def test_utf_16_without_a_mark(tmp_path, encoding):
+def test_utf_16_without_a_byte_order_mark_is_read(tmp_path, encoding):
     (tmp_path / "a.txt").write_text("1\t2\t3\n4\t5\t6\n", encoding=encoding)
     np.testing.assert_array_equal(read_text(tmp_path / "a.txt", is_map=True).heights, MATRIX)
 
 
-def test_points_in_any_order_with_gaps(tmp_path):
-    """Positions rounded to a hundredth of their distance, one column and one more point missing."""
+def test_points_in_any_order_with_gaps_are_read(tmp_path):
+    """Positions are rounded to a hundredth of the spacing; one column and one further point are missing."""
     random = np.random.default_rng(3)
     heights = random.standard_normal((6, 8))
     x, y = np.meshgrid(np.round(0.0996 * np.arange(8), 3), 5 - 0.25 * np.arange(6))
@@ -108,14 +108,14 @@ POINTS = "0 0 1\n0.5 0 2\n0 0.25 3\n0.5 .25 4\n"
         "y [um];x [um];z [nm];n\n0;0;1;9\n0;0,5;2;9\n0,25;0;3;9\n0,25;0,5;4;9\n",
     ],
 )
-def test_points_with_units_of_their_columns_or_below_a_header_that_agrees(tmp_path, text):
+def test_points_with_units_in_headings_or_headers_are_read(tmp_path, text):
     (tmp_path / "a.xyz").write_text(text, encoding="utf-8")
     indenter = read_heights(tmp_path / "a.xyz")
     np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (500, 250, "nm")
 
 
-def test_points_whose_lateral_unit_is_given(tmp_path):
+def test_given_lateral_unit_applies_to_points(tmp_path):
     (tmp_path / "a.xyz").write_text(POINTS)
     indenter = read_heights(tmp_path / "a.xyz", unit="um", lateral_unit="mm")
     np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])

@@ -1,4 +1,4 @@
-"""Maps of heights in TIFF files of microscopes, with the tags that ImageJ defines; of GeoTIFF in test_elevation."""
+"""Maps of heights in TIFF files of microscopes, with the tags that ImageJ defines. GeoTIFF: test_elevation."""
 
 import logging
 import re
@@ -20,7 +20,7 @@ def imagej(path, **metadata):
     return path
 
 
-def test_units_of_imagej(tmp_path):
+def test_units_of_imagej_are_read(tmp_path):
     indenter = read_heights(imagej(tmp_path / "a.tif", unit="um"), unit="um")
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((0.5, 0.25), rel=1e-12)
     tifffile.imwrite(tmp_path / "plain.tif", HEIGHTS, resolution=(72, 72), resolutionunit="INCH")
@@ -33,7 +33,7 @@ def test_units_of_imagej(tmp_path):
             read_heights(path, unit="um")
 
 
-def test_numbers_that_imagej_would_scale_are_refused(tmp_path):
+def test_files_with_an_imagej_calibration_of_heights_are_refused(tmp_path):
     with refused("after a scale and an offset are applied"):
         read_heights(imagej(tmp_path / "a.tif", unit="um", cf=0, c0=5.0, c1=2.0, vunit="nm"), unit="m")
 
@@ -46,8 +46,8 @@ COMPRESSIONS = {
 
 
 @pytest.mark.parametrize("name", COMPRESSIONS)
-def test_compressed_files(tmp_path, name):
-    """With the extra `formats` they are read; without it, the message names it."""
+def test_compressed_files_need_the_extra(tmp_path, name):
+    """The extra `formats` reads them; without it, the message names it."""
     pytest.importorskip("imagecodecs", reason="the extra 'formats' is not installed")
     path = tmp_path / f"{name}.tif"
     tifffile.imwrite(path, HEIGHTS, **COMPRESSIONS[name])
@@ -80,9 +80,9 @@ def test_bad_files_are_one_line(tmp_path):
             read_heights(tmp_path / f"{name}.tif", 1)
 
 
-def test_what_the_library_logs_is_not_printed_beside_the_error(tmp_path, monkeypatch, capsys):
+def test_log_of_the_tiff_library_is_not_printed(tmp_path, monkeypatch, capsys):
     (tmp_path / "empty.tif").write_bytes(b"II*\x00\x00\x00\x00\x00")
-    monkeypatch.setattr(logging.getLogger(), "handlers", [])  # those of the tests
+    monkeypatch.setattr(logging.getLogger(), "handlers", [])  # the handlers of the tests
     with refused(r"empty\.tif: not readable \(it has no picture\)"):
         read_heights(tmp_path / "empty.tif", 1)
     assert capsys.readouterr().err == ""

@@ -1,4 +1,4 @@
-"""Packed and missing values of NetCDF variables, whatever the types of the attributes that describe them."""
+"""Packed and missing values of NetCDF variables, for attributes of any type."""
 
 import netCDF4
 import numpy as np
@@ -12,7 +12,7 @@ NAN = np.nan
 
 
 def stored(path, kind, values, fill_value=None, **attributes):
-    """A file with the given stored values in a variable `z`; None is not written."""
+    """Write a file with the given stored values in a variable `z`; values of None are not written."""
     values = np.ma.masked_equal(np.where(np.equal(values, None), 0, values).astype(kind), 0)
     with netCDF4.Dataset(path, "w") as file:
         file.createDimension("y", values.shape[0])
@@ -30,7 +30,7 @@ def read(path):
 
 
 @pytest.mark.parametrize("kind", ["f4", "f8", "i2", "u4", "i8"])
-def test_what_was_not_written_is_missing(tmp_path, kind):
+def test_values_that_were_not_written_are_missing(tmp_path, kind):
     path = stored(tmp_path / "a.nc", kind, [[1, None], [3, 4]])
     np.testing.assert_array_equal(read(path), [[1, NAN], [3, 4]])
     indenter = read_heights(path, 1.0)
@@ -39,8 +39,8 @@ def test_what_was_not_written_is_missing(tmp_path, kind):
 
 
 @pytest.mark.parametrize(("kind", "fill"), [("u1", 255), ("i1", -127)])
-def test_every_value_of_a_byte_is_valid_unless_one_is_said_to_be_missing(tmp_path, kind, fill):
-    """255 is white in a picture of 8 bits."""
+def test_every_value_of_a_byte_is_valid_without_a_fill_value(tmp_path, kind, fill):
+    """255 is white in an 8-bit picture."""
     np.testing.assert_array_equal(read(stored(tmp_path / "a.nc", kind, [[1, fill]])), [[1, fill]])
     np.testing.assert_array_equal(read(stored(tmp_path / "b.nc", kind, [[1, fill]], fill_value=fill)), [[1, NAN]])
 
@@ -48,7 +48,7 @@ def test_every_value_of_a_byte_is_valid_unless_one_is_said_to_be_missing(tmp_pat
 @pytest.mark.parametrize(
     ("kind", "attributes", "expected"),
     [
-        # 1e20 in double precision is no number of single precision
+        # 1e20 in double precision is no number of single precision.
         ("f4", {"missing_value": 1e20}, [[1, 2], [3, NAN]]),
         ("f4", {"missing_value": 1e20, "fill_value": 2}, [[1, NAN], [3, NAN]]),
         ("f8", {"missing_value": [1.0, 3.0]}, [[NAN, 2], [NAN, 1e20]]),
@@ -62,8 +62,8 @@ def test_every_value_of_a_byte_is_valid_unless_one_is_said_to_be_missing(tmp_pat
         ("u2", {"missing_value": np.int32(-9)}, [[1, 2], [3, 9]]),
     ],
 )
-def test_missing_values(tmp_path, kind, attributes, expected):
-    """Numbers with a point and whole numbers: the last one stored is 1e20, or 9. Attributes of storage are not kept."""
+def test_attributes_mark_missing_values(tmp_path, kind, attributes, expected):
+    """The last stored value is 1e20 for real numbers, or 9 for whole numbers. Attributes of storage are not kept."""
     path = stored(tmp_path / "a.nc", kind, [[1, 2], [3, 1e20 if kind.startswith("f") else 9]], **attributes)
     expected = np.array(expected).astype(kind if kind.startswith("f") else float)
     np.testing.assert_array_equal(read(path), expected)
@@ -101,24 +101,24 @@ def test_attributes_that_are_no_numbers_are_refused(tmp_path, kind, attributes, 
         ("f4", {"_Unsigned": "true"}, [[1, -100], [-1, -128]]),
     ],
 )
-def test_numbers_without_a_sign_that_are_stored_with_one(tmp_path, kind, attributes, expected):
+def test_unsigned_numbers_stored_as_signed_ones_are_read(tmp_path, kind, attributes, expected):
     path = stored(tmp_path / "a.nc", kind, [[1, -100], [-1, -128]], **attributes)
     np.testing.assert_array_equal(read(path), expected)
     np.testing.assert_array_equal(read_heights(path, 1.0).heights, expected)
 
 
-def test_numbers_with_a_sign_that_are_stored_without_one(tmp_path):
+def test_signed_numbers_stored_as_unsigned_ones_are_read(tmp_path):
     path = stored(tmp_path / "a.nc", "u1", [[1, 156], [255, 128]], _Unsigned="false", missing_value=np.uint8(255))
     np.testing.assert_array_equal(read(path), [[1, -100], [NAN, -128]])
 
 
 @pytest.mark.parametrize("fill", [-32767, 7])
-def test_numbers_without_a_sign_that_were_not_written_are_missing(tmp_path, fill):
+def test_unsigned_values_that_were_not_written_are_missing(tmp_path, fill):
     options = {} if fill == -32767 else {"fill_value": fill}
     path = stored(tmp_path / "a.nc", "i2", [[1, None], [-1, 4]], _Unsigned="true", **options)
     np.testing.assert_array_equal(read(path), [[1, NAN], [65535, 4]])
 
 
-def test_whole_numbers_that_double_precision_lacks_are_refused_also_beside_missing_ones(tmp_path):
+def test_whole_numbers_beyond_double_precision_are_refused(tmp_path):
     with refused(r"whole numbers must not exceed 2\*\*53"):
         read_heights(stored(tmp_path / "a.nc", "u8", [[2**60, None]]), 1.0)

@@ -1,4 +1,4 @@
-"""Kinetics of contacts that recede and return: closed forms of Ting, direct integration, and other representations.
+"""Kinetics of contacts that recede and return, against closed forms of Ting and direct integration.
 
     GRID=257 python -m pytest -s tests/viscorough/viscous/test_any_history.py -k grids
 
@@ -35,7 +35,7 @@ GRID = int(os.environ.get("GRID", "65"))
 
 
 def ting(body, medium, time):
-    """Force at a time after an approach and a retract with the same speed.
+    """Return the force at a time of an approach and a retract with the same speed.
 
     F = ∫ψ(t − s) dF_el(u(s)) up to the time t₁ of the present contact size, where ∫ψ(t − s) du(s) = 0 from t₁ to t.
     """
@@ -79,7 +79,7 @@ def test_approach_and_retract_follow_ting(name, body):
 
 @functools.cache
 def curve_of_map(name, across):
-    """Loading curve of a body on a square map of side 1, which touches far inside its edge."""
+    """Return the loading curve of a body on a square map of side 1; the contact stays far from its edge."""
     position = np.linspace(-0.5, 0.5, across)
     radius = np.hypot(position[:, None], position)
     heights = -(radius**2) / (2 * 1.7) if name == "sphere" else -0.3 * radius
@@ -88,7 +88,7 @@ def curve_of_map(name, across):
 
 
 def assert_converges(what, errors):
-    """Print errors by the number of elements across; assert that they fall, to 1e-3 at the finest grid."""
+    """Print errors by the number of elements across; require that they fall, to 1e-3 on the finest grid."""
     grids, values = np.array(list(errors)), np.array(list(errors.values()))
     order = -np.polyfit(np.log(grids), np.log(values), 1)[0]
     print(f"{what}: errors {values.round(6).tolist()} on {grids.tolist()}, order {order:.2g}")
@@ -101,7 +101,7 @@ GRIDS = [n for n in (33, 65, 129, 257) if n <= GRID]
 
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("name", ["maxwell", "solid", "springpot"])
-def test_ting_on_grids(name, body):
+def test_force_converges_to_ting_on_fine_grids(name, body):
     load = Load([0.0, TURN, 2 * TURN], depth=[0.0, SPEED * TURN, 0.0])
     times = np.array([0.5, 0.8, 0.999, 1.05, 1.1, 1.2, 1.3, 1.5])
     expected = np.array([ting(BODIES[body], MEDIA[name], time) for time in times])
@@ -112,8 +112,8 @@ def test_ting_on_grids(name, body):
     assert_converges(f"{name}, {body}", errors)
 
 
-def test_release_on_grids():
-    """Depth of a sphere after its force is removed, against a curve without a grid."""
+def test_release_converges_on_fine_grids():
+    """The reference is the depth of a sphere after its force is removed, from a curve without a grid."""
     medium, end = MEDIA["solid"], 0.7
     exact = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 401))
     force = 0.9 * exact.force[np.searchsorted(exact.depth, SPEED)]
@@ -127,14 +127,14 @@ def test_release_on_grids():
     assert_converges("release of a sphere", errors)
 
 
-def test_release_of_a_sphere():
-    """Under no force the deepest point of the imprint recovers: the creep of its pressure history."""
+def test_released_sphere_recovers_by_creep():
+    """Without a force the deepest point of the imprint recovers: its creep follows from the pressure history."""
     medium, force, end = MEDIA["solid"], 0.05, 0.7
     curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 401))
     motion = kinetics(curve, Load([0.0, end, end, 5.0], force=[force, force, 0, 0]), medium, [0.3, 0.7, 1.0, 2.0, 5.0])
     times = np.linspace(0, end, 20001)
     depth = curve.at_force(force * medium.creep_compliance(times))[0]
-    # φ of the first spring, by the mean of ψ over every step of its deflection; then its creep at later times.
+    # Compute φ of the first spring from the mean of ψ over every step of its deflection, then its creep at later times.
     relaxation, lag = medium.relaxation, np.diff(times)[0]
     state, carried = 0.0, [medium.relaxation_modulus(0.0) * depth[0]]
     state = depth[0]
@@ -153,7 +153,7 @@ def test_release_of_a_sphere():
 
 
 def maps():
-    """Small maps of many kinds."""
+    """Return small maps of many kinds."""
     random = np.random.default_rng(54)
     rough = self_affine_disc(0.7, 9, rms=0.1, seed=2).heights
     rows, columns = np.indices((7, 8))
@@ -174,7 +174,7 @@ def maps():
 
 
 def history(control, *, steps, scale):
-    """Load, hold, unload, reload and release; with a step up and a step down if the medium allows them."""
+    """Return a load with hold, unload, reload and release; with a step up and a step down if the medium allows them."""
     shape = np.array([0, 1, 1, 0.3, 0.7, 0.7, 0.1, 0.5, 0]) * scale
     times = np.array([0, 1, 1.5, 2, 2.5, 2.5 if steps else 2.6, 3, 3, 4.0])
     if not steps:
@@ -186,8 +186,8 @@ def history(control, *, steps, scale):
 
 @pytest.mark.parametrize("control", ["force", "depth"])
 @pytest.mark.parametrize("kind", maps())
-def test_kinetics_of_maps_are_those_of_direct_integration(kind, control):
-    """The error of the implicit steps falls with their length; extrapolated to none it is far below theirs."""
+def test_kinetics_of_maps_agrees_with_direct_integration(kind, control):
+    """The error of the implicit steps falls with their length."""
     indenter = maps()[kind]
     curve = indent(indenter, tolerance=1e-11, until_fraction=1.0)
     for name in ("solid", "newtonian", "prony"):
@@ -207,7 +207,7 @@ def test_kinetics_of_maps_are_those_of_direct_integration(kind, control):
             marched = march(indenter, fine, medium)
             last = np.searchsorted(fine.time, load.time, side="right") - 1
             found, expected = (getattr(each, "force" if load.by_depth else "depth") for each in (marched, motion))
-            # At steps compare the state after them; the steps of a dashpot have the force before each time.
+            # At steps the states after them are compared. Steps of a dashpot give the force before each time.
             compared = np.diff(load.time, append=np.inf) > 0
             if name == "newtonian" and load.by_depth:
                 continue
@@ -232,7 +232,7 @@ def test_samples_of_a_linear_history_do_not_matter(name, control):
 
 
 def test_default_curves_are_fine_enough():
-    """Load, unload and reload with peaks at shares of the last depth, against a curve of many levels."""
+    """The load has peaks at shares of the last depth. The reference is a curve of many levels."""
     disc, medium = self_affine_disc(0.7, 65, rms=0.01, seed=5), SPRINGS_AND_DASHPOTS["solid"]
     curve = indent(disc)
     fine = indent(disc, tolerance=1e-7, depths=np.geomspace(curve.depth[0], curve.depth[-1], 2000))
@@ -245,7 +245,7 @@ def test_default_curves_are_fine_enough():
 
 @pytest.mark.parametrize("control", ["force", "depth"])
 @pytest.mark.parametrize("name", ["solid", "prony"])
-def test_media_known_by_their_compliance_are_integrated_to_the_tolerance(name, control):
+def test_media_given_by_their_compliance_are_integrated_to_the_tolerance(name, control):
     curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 201))
     medium = SPRINGS_AND_DASHPOTS[name]
     load = Load([0, 1, 2, 3, 4.0], **{control: (0.3 if control == "depth" else 0.2) * np.array([0, 1, 0.2, 0.6, 0.0])})
@@ -257,7 +257,7 @@ def test_media_known_by_their_compliance_are_integrated_to_the_tolerance(name, c
 
 
 class Accelerating(Wrapped):
-    """A medium whose compliance is not concave, which no medium that relaxes has."""
+    """A medium with a compliance that is not concave, unlike any medium that relaxes."""
 
     def __init__(self):
         super().__init__(MEDIA["solid"])
@@ -273,7 +273,7 @@ class Accelerating(Wrapped):
         return 0.1 * (np.asarray(end) - start) + late[1] - late[0]
 
 
-def test_media_without_a_concave_compliance_are_refused_where_contact_recedes():
+def test_receding_contact_needs_a_concave_compliance():
     curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 201))
     growing, receding = (Load([0.0, 1.0, 3.0], force=0.1 * np.array([0, 1, end])) for end in (1, 0.2))
     assert np.isfinite(kinetics(curve, growing, Accelerating()).depth).all()
@@ -290,7 +290,7 @@ def test_motions_that_overflow_are_refused():
                 kinetics(curve, load, medium, [1.0, 2.0])
 
 
-def test_a_curve_that_begins_late_is_warned_of():
+def test_curve_that_begins_late_gives_a_warning():
     curve = curve_of_body(BODIES["sphere"], np.geomspace(0.1, 1, 50))
     load = Load([0, 1, 2.0], depth=[0.0, 0.2, 0.0])
     with pytest.warns(AccuracyWarning, match="depends on the curve before its first level"):
@@ -299,8 +299,8 @@ def test_a_curve_that_begins_late_is_warned_of():
 
 
 @pytest.mark.parametrize("name", MEDIA)
-def test_forces_at_steps_of_the_depth(name):
-    """A step out of the surface leaves no force where nothing moves at once, and less where it does."""
+def test_force_falls_at_a_step_out_of_the_surface(name):
+    """A step out of the surface leaves no force in media without instantaneous deflection, and less force in others."""
     medium = MEDIA[name]
     curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 201))
     load = Load([0, 1, 1, 2.0], depth=[0, 0.1, 0.08, 0.08])
@@ -312,7 +312,7 @@ def test_forces_at_steps_of_the_depth(name):
 
 
 def test_depth_follows_a_force_that_vanishes():
-    """Its limit is reached as the square root of the force. Thousands of springs let go on the way."""
+    """The depth reaches its limit as the square root of the force. Thousands of springs lose contact on the way."""
     curve = curve_of_body(BODIES["cone"], np.geomspace(1e-7, 1, 271))
     medium, short = StandardLinearSolid(1.5e-4, 5e-7, 0.165), 1e-9
     load = Load([0.0, 0.25, 0.3, 0.4, 0.5], force=1e-5 * np.array([4, 8, 3, 0, 0]))

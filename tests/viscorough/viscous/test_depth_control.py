@@ -14,17 +14,17 @@ CURVE = curve_of_body(SPHERE, np.geomspace(1e-6, 1, 601))
 
 
 @pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "springpot"])
-def test_a_step_relaxes_with_the_modulus(name):
+def test_step_relaxes_with_the_modulus(name):
     times = np.array([1.0, 1.1, 2.0, 30.0])
     result = kinetics(CURVE, depth=np.full(4, 0.3), medium=MEDIA[name], times=times)
     np.testing.assert_allclose(result.force, SPHERE.force(0.3) * MEDIA[name].relaxation_modulus(times - 1), rtol=1e-9)
 
 
 @pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
-def test_a_ramp_and_its_hold(name):
-    """F = ∫ψ(t − s) f'(u(s)) u' ds over the ramp, by quadrature; plus η k u' of a dashpot while it moves.
+def test_ramp_and_hold_agree_with_quadrature(name):
+    """The force is ∫ψ(t − s) f'(u(s)) u' ds over the ramp, by quadrature, plus η k u' of a moving dashpot.
 
-    The force is given just before and just after the end of the ramp, a time given twice.
+    The history gives the end of the ramp twice, so the force is known just before and just after it.
     """
     medium, speed, end = MEDIA[name], 0.2, 1.5
     times = np.array([0, 0.7, 1.2, 1.5, 1.5, 2.0, 9.0])
@@ -41,14 +41,14 @@ def test_a_ramp_and_its_hold(name):
         assert result.force[k] == pytest.approx(expected, rel=3e-4, abs=1e-12)
 
 
-def test_force_of_a_dashpot_is_that_just_after_each_time_and_just_before_the_last_one():
+def test_force_of_a_dashpot_is_taken_just_after_each_time():
     medium, times, depth = MEDIA["newtonian"], np.arange(5.0), np.array([0.0, 0.1, 0.4, 0.4, 0.5])
     result = kinetics(CURVE, depth=depth, medium=medium, times=times)
     expected = medium.viscosity * SPHERE.stiffness(depth[1:]) * np.array([0.3, 0.0, 0.1, 0.1])
     np.testing.assert_allclose(result.force[1:], expected, rtol=1e-4)
 
 
-def test_refusals():
+def test_invalid_histories_are_refused():
     for arguments, message in (
         (
             {"medium": KelvinVoigt(1.0, 1.0), "depth": [0, 0, 0.1]},

@@ -17,15 +17,15 @@ CURVE = curve_of_body(reference.sphere(RADIUS), np.geomspace(1e-6, 10, 71))
 
 
 def depth_of_sphere(creep):
-    """Lee and Radok, u^(3/2) = 3Φ/(16√R); Φ = ∫F dt/η in a viscous medium."""
+    """Return the depth by Lee and Radok, u^(3/2) = 3Φ/(16√R); Φ = ∫F dt/η in a viscous medium."""
     return (3 * creep / (16 * np.sqrt(RADIUS))) ** (2 / 3)
 
 
 # ---- a viscous medium
 
 
-def test_varying_force_against_time_integration():
-    """du/dt = F(t)/(8η√(Ru)), a flat punch of the present contact radius, integrated in time without the impulse."""
+def test_depth_under_a_varying_force_agrees_with_time_integration():
+    """The reference integrates du/dt = F(t)/(8η√(Ru)) in time: the velocity of a flat punch of the present radius."""
     times = np.linspace(0, 6, 25)
     force = np.random.default_rng(3).uniform(0, 4, times.size)
     result = kinetics(CURVE, force, VISCOSITY, times)
@@ -34,14 +34,14 @@ def test_varying_force_against_time_integration():
         return np.interp(t, times, force) / (8 * VISCOSITY * np.sqrt(RADIUS * u))
 
     depth = result.depth[1]
-    for i in range(1, times.size - 1):  # kinks of the force only between the integrations
+    for i in range(1, times.size - 1):  # the force has kinks only between the integrations
         depth = solve_ivp(velocity, times[i : i + 2], [depth], rtol=1e-11, atol=0, method="DOP853").y[0, -1]
         assert depth == pytest.approx(result.depth[i + 1], rel=1e-9)
         assert velocity(times[i + 1], depth) == pytest.approx(result.velocity[i + 1], rel=1e-9)
 
 
 def test_times_of_the_levels_reproduce_the_levels():
-    """Rounding of F·t/η, up or down, moves no level beyond the ends of the curve."""
+    """Rounding of F·t/η, up or down, must move no level beyond the ends of the curve."""
     for force in np.random.default_rng(5).uniform(0.1, 10, 50):
         levels = kinetics(CURVE, force, VISCOSITY, CURVE.force * VISCOSITY / force)
         np.testing.assert_allclose(levels.depth, CURVE.depth, rtol=1e-13)
@@ -55,8 +55,8 @@ def test_sum_of_many_samples_reaches_the_last_level():
         assert result.depth[-1] == pytest.approx(CURVE.depth[-1], rel=1e-9)
 
 
-def test_before_the_first_level():
-    """At zero force the depth is zero. Between there and the first level the curve of a round body is undetermined."""
+def test_depth_is_undetermined_before_the_first_level():
+    """At zero force the depth is zero. Above it, a curve of a round body is undetermined up to its first level."""
     times = np.array([0, 1e-12, 1])
     result = kinetics(CURVE, 1.0, VISCOSITY, times)
     np.testing.assert_array_equal(np.isnan(result.depth), [False, True, False])
@@ -70,8 +70,8 @@ def test_before_the_first_level():
 
 
 @pytest.mark.parametrize("name", MEDIA)
-def test_constant_force_in_any_medium(name):
-    """Given as one number, and as samples."""
+def test_constant_force_gives_the_creep_of_any_medium(name):
+    """The force is given as one number and as samples."""
     medium, times = MEDIA[name], np.geomspace(1e-3, 90, 40)
     result = kinetics(CURVE, FORCE, medium, times)
     depth = depth_of_sphere(FORCE * medium.creep_compliance(times))
@@ -84,8 +84,8 @@ def test_constant_force_in_any_medium(name):
 
 
 @pytest.mark.parametrize("name", MEDIA)
-def test_history_with_a_step_at_other_times(name):
-    """A ramp, a step and a hold; output times that are no samples, the time of the step among them."""
+def test_history_with_a_step_is_evaluated_at_other_times(name):
+    """The force is a ramp, a step and a hold. Output times are no samples, except for the time of the step."""
     medium = MEDIA[name]
     history = Load([0.0, 2.0, 2.0, 8.0], force=[0.0, 0.02, 0.03, 0.03])
     times = np.array([0.5, 1.7, 2.0, 3.0, 8.0])
@@ -143,7 +143,7 @@ def test_default_times_are_a_hundred_over_the_whole_curve(name):
         ({"medium": MEDIA["table"], "force": [0.01, 0.01], "times": [0.0, 101.0]}, "last time of the table, 100"),
     ],
 )
-def test_refusals(arguments, message):
+def test_invalid_arguments_are_refused(arguments, message):
     call = {"force": FORCE, "medium": MEDIA["solid"], "times": [0.0, 1.0, 2.0]} | arguments
     with pytest.raises(ValueError, match=r"^[^\n]+$") as refusal:
         kinetics(CURVE, **call)
@@ -153,8 +153,8 @@ def test_refusals(arguments, message):
 # ---- units
 
 
-def test_forces_and_viscosities_are_in_si_where_the_unit_of_length_is_known():
-    """1 Pa s is 1e-12 N s/um², so that newtons on pascals are 1e12 times as large as on consistent units."""
+def test_forces_and_viscosities_are_in_si_with_a_unit_of_length():
+    """1 Pa s is 1e-12 N s/um², so newtons on pascals are 1e12 times as large as in consistent units."""
     curve = curve_of_body(reference.sphere(100.0), np.geomspace(0.01, 1, 20))
     in_micrometres = dataclasses.replace(curve, length_unit="um")
     wanted = kinetics(curve, 2e-5, 3e-9, [1e-4, 1e-3])

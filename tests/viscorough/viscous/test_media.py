@@ -1,4 +1,4 @@
-"""Media: compliance and modulus against closed forms and against each other, and values that are refused."""
+"""Media: compliance and modulus against closed forms and against each other, and refusals."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ TIMES = np.append(0, np.geomspace(1e-9, 1e6, 60))
 
 
 def relaxance_times_compliance(medium, rates):
-    """Q(s) · s Ĵ(s), which is 1 for every s: J and ψ are inverse under convolution. All terms are positive."""
+    """Return Q(s) · s Ĵ(s), which is 1 for every s: J and ψ are inverse under convolution. All terms are positive."""
     viscosity, relaxed, moduli, times = medium.relaxation
     x = rates[:, None] * times
     relaxance = relaxed + viscosity * rates + (moduli * x / (1 + x)).sum(axis=1)
@@ -22,7 +22,7 @@ def relaxance_times_compliance(medium, rates):
 
 
 def random_prony(seed):
-    """Up to twelve branches; moduli and times over many decades, or times that hardly differ."""
+    """Return up to twelve branches, with moduli and times over many decades, or with nearly equal times."""
     random = np.random.default_rng(seed)
     branches = random.integers(1, 13)
     times = 10 ** random.uniform(*((-8, 8) if seed % 3 else (0, 1e-6)), branches)
@@ -45,8 +45,8 @@ def test_creep_is_the_inverse_of_relaxation(name):
 
 
 @pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
-def test_integrals_over_time(name):
-    """∫J dt and ∫ψ dt against quadrature, and one interval against its parts."""
+def test_integrals_over_time_agree_with_quadrature(name):
+    """∫J dt and ∫ψ dt are compared with quadrature, and an interval with the sum of its parts."""
     medium = SPRINGS_AND_DASHPOTS[name]
     for integral, function in (
         (medium.creep_integral, medium.creep_compliance),
@@ -58,7 +58,7 @@ def test_integrals_over_time(name):
         assert integral(times[:-1], times[1:]).sum() == pytest.approx(integral(0.0, 8.0), rel=1e-13)
 
 
-def test_closed_forms():
+def test_compliance_and_modulus_follow_closed_forms():
     t = TIMES
     np.testing.assert_allclose(Newtonian(3.0).creep_compliance(t), t / 3, rtol=1e-15)
     np.testing.assert_allclose(Maxwell(2.0, 5.0).creep_compliance(t), 0.5 + t / 5, rtol=1e-15)
@@ -71,8 +71,8 @@ def test_closed_forms():
 
 
 @pytest.mark.parametrize("a", [0.05, 0.5, 0.95])
-def test_springpot(a):
-    """ψ and J are inverse, ∫ψ(t − s) J(s) ds = t, and ∫(t − s)^(−a) s^a ds = t B(1 − a, 1 + a)."""
+def test_springpot_compliance_and_modulus_are_inverse(a):
+    """ψ and J are inverse, so ∫ψ(t − s) J(s) ds = t, with ∫(t − s)^(−a) s^a ds = t B(1 − a, 1 + a)."""
     medium = Springpot(2.5, a)
     for t in (0.1, 3.0):
         product = medium.relaxation_modulus(t) * medium.creep_compliance(t)
@@ -87,7 +87,7 @@ def test_springpot(a):
     assert medium.relaxation_integral(1, 2) == pytest.approx(quad(medium.relaxation_modulus, 1, 2)[0], rel=1e-10)
 
 
-def test_table():
+def test_table_is_interpolated():
     table = CreepTable([0, 1, 3, 4], [1, 2, 3, 3.2])
     np.testing.assert_allclose(table.creep_compliance([0, 0.5, 2, 4]), [1, 1.5, 2.5, 3.2])
     np.testing.assert_allclose(table.creep_rate([0, 1, 3, 4]), [1, 0.5, 0.2, 0.2])
@@ -136,7 +136,7 @@ def test_table():
         (lambda: CreepTable([0, 1, 2], [0, 1, 3]), "after time 1 than before; allowed: a concave J"),
     ],
 )
-def test_refusals(make, message):
+def test_invalid_parameters_are_refused(make, message):
     with refused(message):
         make()
 

@@ -10,7 +10,7 @@ PRESCRIBED = 1e5  # weight of the equation that prescribes a value
 
 
 def farthest(matrix, target, row, distance, sign):
-    """Value of row·x on one side of the best fit, at which the best x ≥ 0 with that value is worse by distance²."""
+    """Return row·x on one side of the best fit, such that the best x ≥ 0 with this value is worse by distance²."""
     best, least = nnls(matrix, target)
 
     def excess(value):
@@ -21,20 +21,20 @@ def farthest(matrix, target, row, distance, sign):
 
 
 @pytest.mark.parametrize("shape", [(12, 6), (6, 6), (9, 14)])
-def test_extremes_are_those_of_a_nested_search(shape):
-    """Coefficients of both signs, so that either extreme exists; bounds are active at most of them."""
+def test_extremes_agree_with_a_nested_search(shape):
+    """Coefficients have both signs, so both extremes exist; bounds are active at most of them."""
     random = np.random.default_rng(shape)
     matrix = random.normal(size=shape) + 0.5
     target = matrix @ np.maximum(random.normal(size=shape[1]), 0) + 0.3 * random.normal(size=shape[0])
-    functions = matrix[:3] * 0.7  # determined by the rows
+    functions = matrix[:3] * 0.7  # the rows determine these functions
     low, high = extremes(matrix, target, functions, 0.4)
     for ends, sign in ((low, -1), (high, 1)):
         expected = [farthest(matrix, target, row, 0.4, sign) for row in functions]
         np.testing.assert_allclose(ends, expected, rtol=0, atol=0.01 * 0.4 * 3)
 
 
-def test_a_value_that_a_bound_limits_ends_there():
-    """x ≥ 0 keeps the least value of x at 0, although the residual would allow less."""
+def test_extreme_ends_at_an_active_bound():
+    """x ≥ 0 keeps the smallest x at 0, although the residual would allow less."""
     low, high = extremes(np.eye(2), np.array([0.1, 1.0]), np.eye(2), 0.5)
     np.testing.assert_allclose(low, [0.0, 0.5], atol=0.01)
     np.testing.assert_allclose(high, [0.6, 1.5], atol=0.01)

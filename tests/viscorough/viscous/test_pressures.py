@@ -1,4 +1,4 @@
-"""Pressures in viscoelastic media against direct integration, which uses neither elastic contacts nor the creep."""
+"""Pressures in viscoelastic media against direct integration, which uses neither elastic contacts nor creep."""
 
 import numpy as np
 import pytest
@@ -21,11 +21,11 @@ from viscorough import (
 )
 
 DISC = self_affine_disc(0.7, 17, seed=3)
-DASHPOTS = ("newtonian", "kelvin-voigt")  # side by side with the rest of the medium
+DASHPOTS = ("newtonian", "kelvin-voigt")  # parallel to the rest of the medium
 
 
 @pytest.mark.parametrize("name", sorted(set(MEDIA) - set(DASHPOTS)))
-def test_pressures_of_a_ramp_and_a_step(name):
+def test_pressures_after_a_ramp_and_a_step_agree_with_direct_integration(name):
     medium, scale = MEDIA[name], 0.5
     times, force = np.array([0, 0.5, 0.5, 2.0]), scale * np.array([0.1, 0.5, 0.8, 1.0])
     steps = np.append(np.linspace(0, 0.5, 41), np.linspace(0.5, 2, 41))
@@ -51,8 +51,8 @@ HISTORIES = {
 
 @pytest.mark.parametrize("history", HISTORIES)
 @pytest.mark.parametrize("name", DASHPOTS)
-def test_pressures_of_dashpots_are_those_at_the_last_time(name, history):
-    """Not the mean over the last step: all ways to compute them agree, however long that step is."""
+def test_pressures_of_dashpots_are_taken_at_the_last_time(name, history):
+    """The pressures are not means over the last step: all methods agree, however long that step is."""
     disc, medium = self_affine_disc(0.7, 33, seed=4), MEDIA[name]
     times, force = (np.array(values) for values in HISTORIES[history])
     by_steps = stepped(disc, medium, times, force=force).pressure
@@ -63,7 +63,7 @@ def test_pressures_of_dashpots_are_those_at_the_last_time(name, history):
 
 
 @pytest.mark.parametrize("name", DASHPOTS)
-def test_force_of_a_dashpot_under_a_ramp_of_the_depth_is_that_at_each_time(name):
+def test_dashpot_force_agrees_with_kinetics_under_a_depth_ramp(name):
     times, curve = np.linspace(0, 2, 21), indent(DISC, tolerance=1e-11, depths=0.15 * np.linspace(0, 2, 21)[1:])
     steps = stepped(DISC, MEDIA[name], times, depth=0.15 * times)
     expected = kinetics(curve, depth=0.15 * times, medium=MEDIA[name], times=times)
@@ -71,7 +71,7 @@ def test_force_of_a_dashpot_under_a_ramp_of_the_depth_is_that_at_each_time(name)
     assert np.nansum(steps.pressure) * DISC.spacing**2 == pytest.approx(steps.force[-1], rel=1e-12)
 
 
-def test_pressures_at_a_step_within_the_history_are_those_after_it():
+def test_pressures_at_a_step_are_taken_after_it():
     force, times = [0.1, 0.5, 0.8, 1.0], [0, 0.5, 0.5, 2.0]
     after = pressure_at(DISC, Load(times, force=force), MEDIA["newtonian"], 0.5)
     up_to_it = stepped(DISC, MEDIA["newtonian"], times[:3], force=force[:3]).pressure
@@ -81,8 +81,8 @@ def test_pressures_at_a_step_within_the_history_are_those_after_it():
 
 @pytest.mark.parametrize("control", ["force", "depth"])
 @pytest.mark.parametrize("name", MEDIA)
-def test_pressures_of_a_receding_and_returning_contact(name, control):
-    """None is tensile, their sum is the force, and they are those of direct integration."""
+def test_pressures_of_a_receding_and_returning_contact_are_exact(name, control):
+    """No pressure is tensile, the sum is the force, and direct integration agrees."""
     if control == "depth" and name in DASHPOTS:
         values = 0.1 * np.array([0, 1, 0.95, 1.05])
     else:
@@ -90,7 +90,7 @@ def test_pressures_of_a_receding_and_returning_contact(name, control):
     corners, times = np.array([0, 1.0, 1.4, 2.0]), np.linspace(0, 2, 1001)
     moved = stepped(DISC, MEDIA[name], times, **{control: np.interp(times, corners, values)})
     found = pressure_at(DISC, Load(corners, **{control: values}), MEDIA[name], 2.0, contacts=64, tolerance=1e-8)
-    # Under a force both sums are exactly this force; under a depth the force is that of each method.
+    # Under a force both sums are exactly this force; under a depth each method gives a slightly different force.
     exact = 1e-12 if control == "force" else 1e-3
     for pressure in (moved.pressure, found):
         assert np.nanmin(pressure) >= 0
@@ -108,7 +108,7 @@ ALL = MEDIA | {f"springpot {exponent}": Springpot(2.0, exponent) for exponent in
 @pytest.mark.parametrize("contacts", [1, 5, 64])
 @pytest.mark.parametrize("name", ALL)
 def test_sum_of_the_pressures_is_the_force(name, contacts):
-    """At a step, shortly after it and later; in a springpot the depth does not follow a step at once."""
+    """The times are a step, shortly after it, and later. In a springpot the depth does not follow a step at once."""
     for time, force in ((0.25, 0.3), (0.5, 0.8), (0.5001, 0.8 + 0.2 * 1e-4 / 1.5), (2.0, 1.0)):
         pressure = pressure_at(DISC, STEPS, ALL[name], time, contacts=contacts)
         assert (np.isnan(pressure) == np.isnan(DISC.heights)).all()
@@ -131,7 +131,7 @@ def test_first_step_in_a_springpot_is_carried_by_the_highest_element():
 
 
 def held_in_a_springpot(disc, medium, force, time):
-    """p of a constant force, to rounding: p_el is linear in Φ between contact events, and ∫ψ dΦ is by quadrature."""
+    """Return p under a constant force, to rounding: p_el is linear in Φ between contact events; quadrature of ∫ψ dΦ."""
     a, last = medium.exponent, force * float(medium.creep_compliance(time))
     events = indent(disc, tolerance=1e-11, until_fraction=1.0).force
     levels = np.append(events[events < last], last)
@@ -155,7 +155,7 @@ def held_in_a_springpot(disc, medium, force, time):
 
 
 def test_pressures_in_a_springpot_converge_at_second_order():
-    """To exact pressures; the error is the mean over the elements, several times and exponents."""
+    """The reference pressures are exact. The error is a mean over the elements, several times and exponents."""
     disc, errors = self_affine_disc(0.7, 9, seed=3), []
     for exponent in (0.2, 0.5, 0.8):
         medium = Springpot(2.0, exponent)
@@ -169,7 +169,7 @@ def test_pressures_in_a_springpot_converge_at_second_order():
 
 
 def test_media_of_users_are_integrated_numerically():
-    """A medium whose ψ is known only as a function has the pressures of the springpot that it is."""
+    """A medium whose ψ is known only as a function has the same pressures as the equal springpot."""
 
     springpot = Springpot(2.0, 0.4)
 
@@ -185,7 +185,7 @@ def test_media_of_users_are_integrated_numerically():
         assert np.nansum(abs(found - exact)) < 1e-3 * np.nansum(exact)
 
 
-def test_refusals():
+def test_invalid_arguments_are_refused():
     medium, force = Maxwell(1.0, 2.0), Load([0.0, 1.0], force=[1.0, 1.0])
     for arguments, message in (
         ((force, medium, 2.0), "time: 2.0; allowed: within those of the load"),

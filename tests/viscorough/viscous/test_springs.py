@@ -1,4 +1,4 @@
-"""Rows of springs have the forces of their loading curves, at levels exactly and in between within the tolerance."""
+"""Rows of springs have the force of their loading curve: exactly at levels, within the tolerance in between."""
 
 import dataclasses
 
@@ -14,7 +14,7 @@ DISC = self_affine_disc(0.7, 65, rms=0.01, seed=1)
 
 
 def force_of_row(row, depth):
-    """Σ dk (u − g)₊ at depths."""
+    """Return Σ dk (u − g)₊ at depths."""
     return (np.maximum(np.subtract.outer(depth, row.gap), 0.0) * row.stiffness).sum(axis=-1)
 
 
@@ -25,7 +25,7 @@ def test_row_has_the_force_of_the_curve(tolerance):
     np.testing.assert_allclose(force_of_row(row, curve.depth), curve.force, rtol=1e-12)
     force = np.geomspace(curve.force[0], curve.force[-1], 1001)[1:-1]
     depth, stiffness = curve.at_force(force)
-    # A deviation of the depth by this share is one of the force by F/(k u) of it.
+    # A force error ΔF corresponds to a relative depth error of ΔF/(k u).
     deviation = np.abs(force_of_row(row, depth) - force) / (stiffness * depth)
     assert deviation.max() < 0.1 * tolerance
     assert (row.stiffness > 0).all()
@@ -34,7 +34,7 @@ def test_row_has_the_force_of_the_curve(tolerance):
 
 
 def test_row_of_a_curve_of_all_contact_events_is_exact():
-    """At and between the events of direct integration; some events are two springs within rounding."""
+    """The reference is direct integration, at and between its events; some events are two springs within rounding."""
     disc = self_affine_disc(0.7, 9, rms=0.01, seed=1)
     events = march_events(disc)
     row = row_of_springs(indent(disc, tolerance=1e-11, until_fraction=1.0))
@@ -47,7 +47,7 @@ def test_row_of_a_curve_of_all_contact_events_is_exact():
 
 
 def test_stiffness_is_made_monotone():
-    """Levels that are not convex, as rounding and the tolerance allow, lie above the row."""
+    """If rounding or the tolerance make levels slightly non-convex, these levels lie above the row."""
     curve = random_curve(levels=30)
     force = curve.force * (1 + 1e-3 * np.random.default_rng(1).standard_normal(30))
     row = row_of_springs(dataclasses.replace(curve, force=np.sort(force)))
@@ -55,8 +55,8 @@ def test_stiffness_is_made_monotone():
     assert (force_of_row(row, curve.depth) <= np.sort(force) * (1 + 1e-12)).all()
 
 
-def test_before_the_first_level_the_curve_is_a_power_law():
-    """That of a sphere is one, so that a late first level changes little."""
+def test_row_follows_a_power_law_before_the_first_level():
+    """The curve of a sphere is a power law, so a late first level changes little."""
     sphere = reference.sphere(1.7)
     row = row_of_springs(curve_of_body(sphere, np.geomspace(0.1, 1, 50)))
     assert row.first_depth == 0.1

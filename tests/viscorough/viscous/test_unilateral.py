@@ -19,7 +19,7 @@ def moved(gaps, weights, medium, times, load, *, by_depth, limit=np.inf):
 
 
 def random_case(number):
-    """A row of springs, a medium, and a history with holds, rests, and steps where the medium allows them."""
+    """Return a row of springs, a medium, and a history with holds, rests, and steps if the medium allows them."""
     random = np.random.default_rng([54, number])
     medium = random_medium(random)
     springs = random.integers(2, 12)
@@ -58,7 +58,7 @@ def random_medium(random):
 
 
 def refined(times, load, parts):
-    """The same history with more samples, and the indices of the old ones."""
+    """Return the same history with more samples, and the indices of the old samples."""
     shares = np.arange(1, parts + 1) / parts
     new_times, new_load, place = [times[:1]], [load[:1]], [0]
     for k in range(1, times.size):
@@ -71,7 +71,7 @@ def refined(times, load, parts):
 
 @pytest.mark.parametrize("number", range(10))
 def test_steps_in_time_approach_the_exact_motion(number):
-    """The independent solver makes steps in time, which springs that touch or let go within a step do not notice."""
+    """Steps in time resolve no contact or loss of contact within a step, so the difference shrinks with the steps."""
     gaps, weights, medium, times, load, by_depth = random_case(number)
     spectrum = medium.relaxation
     same = SpringsAndDashpots(
@@ -86,14 +86,14 @@ def test_steps_in_time_approach_the_exact_motion(number):
         )
         found.append((steps.force if by_depth else steps.depth)[place])
     exact = motion.force if by_depth else motion.depth
-    # The steps have the force of a dashpot just before each time.
+    # With a dashpot, the steps give the force just before each time.
     compared = np.append(np.diff(times) == 0, True) if by_depth and spectrum.viscosity else slice(None)
     coarse, fine = (np.abs(values - exact)[compared].max() / np.abs(exact).max() for values in found)
     assert fine < 1e-12 or fine < min(2e-3, 0.4 * coarse), (coarse, fine)
 
 
 @pytest.mark.parametrize("number", range(40))
-def test_more_samples_of_the_same_history_change_nothing(number):
+def test_motion_does_not_depend_on_samples_of_a_linear_history(number):
     *row, times, load, by_depth = random_case(number)
     motion = moved(*row, times, load, by_depth=by_depth)
     fine_times, fine_load, place = refined(times, load, 7)
@@ -106,8 +106,8 @@ def test_more_samples_of_the_same_history_change_nothing(number):
 
 
 @pytest.mark.parametrize("number", range(40))
-def test_the_forces_of_the_springs_fall_along_the_row_and_add_up(number):
-    """c = −∂φ/∂g ≥ 0, so that all pressures are positive."""
+def test_spring_forces_fall_along_the_row_and_add_up(number):
+    """The derivative c = −∂φ/∂g ≥ 0 makes all pressures positive."""
     gaps, weights, medium, times, load, by_depth = random_case(number)
     motion = moved(gaps, weights, medium, times, load, by_depth=by_depth)
     largest = max(motion.force.max() / weights.sum(), motion.pressures.max())
@@ -117,8 +117,8 @@ def test_the_forces_of_the_springs_fall_along_the_row_and_add_up(number):
     assert total == pytest.approx(motion.force[-1], abs=1e-11 * max(motion.force.max(), 1e-300))
 
 
-def test_release_and_recovery_of_one_spring():
-    """Pressed for a time t₁, a standard linear solid lets go at once and recovers as J does."""
+def test_released_spring_recovers_by_the_compliance():
+    """After a press of duration t₁, a standard linear solid loses contact at once and recovers as J does."""
     medium = StandardLinearSolid(4.0, 1.0, 0.5)
     times = np.array([0.0, 2.0, 2.0, 3.0, 7.0])
     motion = moved(np.zeros(1), np.ones(1), medium, times, np.array([1.0, 1, 0, 0, 0]), by_depth=False)
@@ -128,17 +128,17 @@ def test_release_and_recovery_of_one_spring():
     assert motion.velocity[3] == pytest.approx(medium.creep_rate(3.0) - medium.creep_rate(1.0), rel=1e-12)
 
 
-def test_a_newtonian_surface_does_not_recover():
+def test_newtonian_surface_does_not_recover():
     gaps, times = np.linspace(0, 1, 11), np.array([0.0, 1.0, 2.0, 3.0, 4.0])
     depth = np.array([0.0, 0.55, 0.2, 0.55, 0.75])
     motion = moved(gaps, np.ones(11), Newtonian(2.0), times, depth, by_depth=True)
-    # The force just after each time; no spring is touched before the depth of 0.55 is reached again.
+    # The force is taken just after each time. No spring touches before the depth reaches 0.55 again.
     np.testing.assert_allclose(motion.force, [2.0 * 0.55, 0, 0, 2.0 * 6 * 0.2, 2.0 * 8 * 0.2], rtol=1e-12)
     assert motion.in_contact.tolist() == [1, 0, 0, 6, 8]
     assert motion.receding_from == 1.0
 
 
-def test_limits():
+def test_motion_ends_at_the_last_depth_and_at_infinite_forces():
     gaps, times = np.array([0.0, 0.5]), np.array([0.0, 1.0])
     law = law_of(*(getattr(SPRINGS_AND_DASHPOTS["solid"], name) for name in ("relaxation", "retardation")))
     motion, ended, until = move_row(gaps, np.ones(2), 0.8, law, times, np.array([0.0, 1.0]), by_depth=True)

@@ -1,16 +1,16 @@
-"""Direct integrations decide between the readings of the law."""
+"""Direct integrations decide between the two readings of the law, with and without Γ."""
 
 import numpy as np
 
 from viscorough_study.comparisons.direct_integration import COLUMNS, compare_direct
 
 
-def test_depths_are_elastic_ones_and_tend_to_the_exact_solution():
-    """The grid's error falls with the elements in contact, and ends far below the tenth that the factor would make."""
+def test_depths_follow_the_elastic_curve_and_the_exact_solution():
+    """The error of the grid falls with the elements in contact and ends far below the 10 % that Γ would make."""
     table = compare_direct(hursts=[0.4, 0.8], elements=33, impulses=25, seed=1)
     assert list(table) == list(COLUMNS)
     rough = table[table["case"].str.startswith("rough")]
-    np.testing.assert_allclose(rough["depth_ratio"], 1, atol=1e-4)  # what the interpolation of a curve at 1e-6 leaves
+    np.testing.assert_allclose(rough["depth_ratio"], 1, atol=1e-4)  # error of the interpolation at a tolerance of 1e-6
     for body in ("sphere", "cone"):
         error = np.abs(table.loc[table["case"] == body, "depth_ratio"].to_numpy() - 1)
         assert error[-5:].max() < 0.01

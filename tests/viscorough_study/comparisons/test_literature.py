@@ -39,13 +39,13 @@ def of(table, quantity, place=""):
     return table[(table["quantity"] == quantity) & table["place"].str.contains(place)]
 
 
-def test_exponents_and_lines_stand_beside_those_of_others(table):
+def test_table_compares_exponents_and_lines_with_published_ones(table):
     assert list(table) == list(COLUMNS)
     assert table["year"].is_monotonic_increasing
     alpha = of(table, "alpha")
     assert set(alpha["hurst"]) == set(HURST)
     np.testing.assert_allclose(alpha["value"], reference.exponent_alpha(alpha["hurst"]), atol=0.02)
-    assert (alpha[["low", "high"]] == [0.3, 0.9]).all(axis=None)  # 1 less the ends of β
+    assert (alpha[["low", "high"]] == [0.3, 0.9]).all(axis=None)  # 1 minus the ends of β
     law, stated = of(table, "alpha", "86, 026710"), of(table, "alpha", "108, 104301")
     np.testing.assert_allclose(law["theirs_low"], 1 / (1 + law["hurst"]))
     assert set(zip(stated["theirs_low"], stated["theirs_high"], strict=True)) == {(0.51, 0.77)}
@@ -55,7 +55,7 @@ def test_exponents_and_lines_stand_beside_those_of_others(table):
         np.testing.assert_allclose(rows["high"] - rows["low"], 0.002)
 
 
-def test_u0_stands_beside_that_of_others_and_persson_s_law(table):
+def test_table_compares_u0_with_published_values_and_perssons_law(table):
     u0, gamma = of(table, "u0"), of(table, "gamma")
     assert set(zip(u0["value"], u0["low"], u0["high"], strict=True)) == {(0.5, 0.4, 0.6)}
     law, stated = of(table, "u0", "99, 125502"), of(table, "u0", "87, 062809")
@@ -63,7 +63,7 @@ def test_u0_stands_beside_that_of_others_and_persson_s_law(table):
     np.testing.assert_allclose(law[["theirs_low", "theirs_high"]], np.outer(without, [0.4, 0.45]))
     assert set(zip(stated["theirs_low"], stated["theirs_high"], strict=True)) == {(0.4, 0.4)}
     np.testing.assert_allclose(gamma["value"] * without, 0.5)
-    assert of(table, "u0", "0810.0950")["theirs_low"].isna().all()  # of the order of h is no number
+    assert of(table, "u0", "0810.0950")["theirs_low"].isna().all()  # "of the order of h" is no number
 
 
 def test_sources_stay_without_numbers_of_this_study():
@@ -73,7 +73,7 @@ def test_sources_stay_without_numbers_of_this_study():
     assert table["value"].isna().all()
 
 
-def test_no_number_is_without_a_place_where_it_was_read():
+def test_every_source_states_what_was_read():
     for entry in ENTRIES:
         assert entry["when"] == ("before" if entry["year"] < 2013 else "after")
         assert entry["sure"] in KNOWN
@@ -85,10 +85,10 @@ def test_no_number_is_without_a_place_where_it_was_read():
 
 
 @pytest.mark.parametrize(("hurst", "band"), [(0.6, 50.0), (0.3, 400.0)])
-def test_pressure_does_the_work_that_the_elastic_energy_takes(hurst, band):
-    """−dU/dp over p is u₀/p at small pressures: E* = 1, q₀ = 1."""
+def test_persson_pressure_is_the_derivative_of_the_elastic_energy(hurst, band):
+    """−dU/dp over p tends to u₀/p at small pressures; units: E* = 1, q₀ = 1."""
     power = 2 * hurst
-    h = np.sqrt(2 * np.pi * (1 - band**-power) / power)  # of C = q^(−2−2H)
+    h = np.sqrt(2 * np.pi * (1 - band**-power) / power)  # for C = q^(−2−2H)
 
     def energy(p):
         def density(q):

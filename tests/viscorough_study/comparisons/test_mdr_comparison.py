@@ -1,4 +1,4 @@
-"""Lines that have the spectrum of a surface, and their comparison with it."""
+"""Lines with the spectrum of a surface, compared with the surface."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ def test_line_has_the_power_of_the_rings(n):
     square = self_affine_square(0.6, n, seed=1)
     line = line_of_surface(square, 0.5, 2)
     assert (line.heights.shape, line.spacing) == ((n,), 0.5)
-    # Without corners all waves of the map are in rings up to the Nyquist wavenumber: equal rms heights.
+    # Without corners all waves of the map are in rings up to the Nyquist wavenumber, so rms heights are equal.
     assert line.heights.std() == pytest.approx(square.std(), rel=1e-12)
     wave = np.cos(2 * np.pi * 3 * np.arange(n) / n)
     line = line_of_surface(np.tile(wave, (n, 1)), 1.0, 3).heights
@@ -25,7 +25,7 @@ def test_line_has_the_power_of_the_rings(n):
     assert power[3] == pytest.approx(power.sum(), rel=1e-9)
 
 
-def test_comparison():
+def test_comparison_has_ratios_of_stiffness_area_and_gap():
     x = {"x_low": 1e-3, "x_high": 3.0, "per_decade": 5}
     table = compare_reduction(hursts=[0.8], elements=33, realizations=6, tolerance=1e-3, seed=1, **x)
     assert list(table) == list(COLUMNS)
@@ -39,7 +39,7 @@ def test_comparison():
     assert table["gap_ratio"].dropna().between(0.05, 1.5).all()
 
 
-def test_mean_gap_of_a_line_is_that_of_its_points():
+def test_mean_gap_of_a_line_is_the_mean_over_its_points():
     line = Indenter(np.random.default_rng(1).normal(size=500), 0.01)
     curve = reduce(line)
     force = curve.force[[3, 40, -1]]
@@ -48,8 +48,8 @@ def test_mean_gap_of_a_line_is_that_of_its_points():
     np.testing.assert_allclose(mean_gaps(line, curve, force, 1e-3), gaps, rtol=1e-12, atol=1e-15)
 
 
-def test_mean_gap_of_flat_and_raised_discs():
-    """A flat punch has no gap; one raised element of height 1 holds the others apart by about its height."""
+def test_mean_gap_of_flat_and_raised_discs_is_exact():
+    """A flat punch has no gap. A raised element of height 1 holds the other elements apart by about its height."""
     flat = np.where(np.hypot(*np.mgrid[-8:9, -8:9]) <= 8.5, 0.0, np.nan)
     raised = flat.copy()
     raised[8, 8] = 1.0

@@ -1,4 +1,4 @@
-"""Tables of lines against discs, from ensembles of known λ(X) and known exponents."""
+"""Tables of lines against discs, from ensembles with given λ(X) and exponents."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ HOW = {"average": "geometric", "stiffness_range": [0.03, 0.3], "resamples": 50, 
 
 
 def ensemble(alpha, seed, *, factor=1.0, elements=10**5, hurst=0.7, spread=0.0):
-    """κ = factor X^α with scatter, from one element to complete contact; spread : standard deviation of α."""
+    """Make an ensemble with κ = factor X^α from one element to complete contact; spread : standard deviation of α."""
     normal = np.random.default_rng(seed).normal(size=(12, 1))
     scatter, alpha = np.exp(0.05 * normal), alpha + spread * normal
     stiffness = np.clip(factor * scatter * x**alpha, 1e-6, 1)
@@ -25,7 +25,7 @@ def tables(discs, lines):
     return compare_ensembles({0.7: discs}, {0.5: lines, 0.7: lines}, **HOW).values()
 
 
-def test_equal_ensembles_have_the_lambda_pi():
+def test_equal_ensembles_give_lambda_pi():
     discs = ensemble(0.6, seed=1)
     lambdas, summary, exponents = all_tables = tables(discs, discs)
     assert list(map(list, all_tables)) == list(map(list, TABLES.values()))
@@ -38,7 +38,7 @@ def test_equal_ensembles_have_the_lambda_pi():
     assert row["realizations"] == 12
     assert exponents["window"].tolist() == list(WINDOWS)
     assert exponents["difference"].abs().max() < 1e-9
-    few = discs.assign(contact_count_median=discs["contact_count_median"] * 0)  # without a region
+    few = discs.assign(contact_count_median=discs["contact_count_median"] * 0)  # no region (b)
     lambdas, summary, exponents = tables(few, discs)
     assert lambdas.empty
     assert np.isnan(summary["drift"]).all()
@@ -46,7 +46,7 @@ def test_equal_ensembles_have_the_lambda_pi():
 
 
 def test_discs_and_lines_are_drawn_independently():
-    """Even if they are the same curves: the variances of both exponents add up."""
+    """Discs and lines are the same curves here. With independent draws the variances of both exponents add up."""
     both = ensemble(0.6, seed=1, spread=0.01)
     exponents = compare_ensembles({0.7: both}, {0.7: both}, **HOW | {"resamples": 500})["mdr_exponents"]
     own = exponents.iloc[0]
@@ -55,8 +55,8 @@ def test_discs_and_lines_are_drawn_independently():
     assert own["difference_high"] - own["difference_low"] == pytest.approx(np.sqrt(2) * (high - low), rel=0.15)
 
 
-def test_another_exponent_makes_lambda_drift():
-    """κ3 = X^0.55 and κ1 = X^0.6: β differ by 0.05, λ by X^(2·0.05/0.6), vt/h at the ends by half of X^0.05."""
+def test_different_exponents_make_lambda_drift():
+    """κ3 = X^0.55 and κ1 = X^0.6: β differs by 0.05, λ by X^(2·0.05/0.6), and vt/h at the ends by half of X^0.05."""
     lambdas, summary, exponents = tables(ensemble(0.55, seed=1), ensemble(0.6, seed=2))
     (row,) = summary.to_dict("records")
     decades = np.ptp(np.log(lambdas.loc[lambdas["in_region"] == 1, "x"]))

@@ -9,7 +9,7 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.comparisons.measured import CONTACTS, measured_contacts
 
 
-def test_rows_are_those_of_the_command_line(tmp_path, monkeypatch):
+def test_rows_agree_with_the_command_line(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     np.save("a.npy", self_affine_disc(0.6, 17, rms=0.5, diameter=170.0, seed=1).heights)
     scan = {"name": "ground_a", "group": "ground", "file": "a.npy", "digest": "", "spacing": [10.0], "unit": "um"}

@@ -1,4 +1,4 @@
-"""Contact on a periodic half-space, against the wavy surface, which has an exact solution."""
+"""Contact on a periodic half-space, against the exact solution of a wavy surface."""
 
 import numpy as np
 import pytest
@@ -11,18 +11,19 @@ SETTINGS = {"surfaces": 3, "roll_off": {"wavelength": 0.25, "level": 1.0}, "per_
 
 
 def wave(points):
-    """One wave across a square, of amplitude 1."""
+    """Return one wave of amplitude 1 across a square."""
     return np.tile(np.cos(2 * np.pi * np.arange(points) / points), (points, 1))
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.8])
-def test_wavy_surface(share):
-    """Westergaard: p/p* = sin²(πa), a the share in contact and p* = π E* amplitude/wavelength, up to the grid."""
+def test_wavy_surface_follows_westergaard(share):
+    """Westergaard: p/p* = sin²(πa) with the contact fraction a and p* = π E* amplitude/wavelength, up to the grid."""
     n, complete = 128, np.pi
     separation, pressure = periodic_contact(wave(n), np.full((n, n), share * complete), tolerance=1e-6)
     assert pressure.mean() == pytest.approx(share * complete)
     assert (pressure > 0).mean() == pytest.approx(2 / np.pi * np.arcsin(np.sqrt(share)), abs=2 / n)
-    # Mean separation of a wavy surface under p = p* sin²(φ): amplitude (cos²φ − sin²φ ln(1/sin²φ)) (Johnson 1985).
+    # The mean separation of a wavy surface under p = p* sin²(φ) is amplitude (cos²φ − sin²φ ln(1/sin²φ)) (Johnson
+    # 1985).
     assert separation == pytest.approx(1 - share + share * np.log(share), abs=2e-3)
 
 
@@ -31,7 +32,7 @@ def test_complete_contact_has_no_separation():
     assert mean_separations(wave(n), np.sqrt(2) * np.pi * np.array([1.01, 2.0])) == pytest.approx([0, 0], abs=1e-4)
 
 
-def test_table():
+def test_table_has_a_row_for_each_pressure():
     table = periodic_control.periodic_control(hursts=[0.7], points=32, x_low=0.1, x_high=10.0, **SETTINGS)
     assert list(table) == list(COLUMNS)
     assert table["roll_off_wavelength"].isna().tolist() == [True] * 8 + [False] * 8
@@ -41,7 +42,7 @@ def test_table():
     assert own[-1] < roll_off[-1]
 
 
-def test_no_convergence_raises(monkeypatch):
+def test_missing_convergence_raises(monkeypatch):
     monkeypatch.setattr(periodic_control, "ITERATIONS_MAX", 3)
     with pytest.raises(ConvergenceError, match="not reached in 3 iterations"):
         periodic_contact(wave(32), np.full((32, 32), 1.0))

@@ -1,4 +1,4 @@
-"""The comparison with exact solutions passes for the methods as they are, and notices when they are not."""
+"""The comparison with exact solutions passes for the present methods and notices wrong ones."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from viscorough_study.comparisons import validation as validate_solvers
 GRIDS = (17, 33, 65)
 MARGIN = 0.3
 ERRORS = ["case", "quantity", "elements", "error"]
-# About twice the errors of the finest grid; those of the default grids are in config/config.yaml.
+# The limits are about twice the errors of the finest grid. config/config.yaml has the limits of the default grids.
 LIMITS = {
     "force": 5e-4,
     "depth": 8e-4,
@@ -45,7 +45,7 @@ def test_an_error_above_its_limit_is_named(table):
 
 
 def test_a_solver_that_does_not_converge_is_noticed(table):
-    """An error of 1 % that remains on finer grids is below a generous limit, but its order is too low."""
+    """An error of 1 % on all grids is below a generous limit, but its order is too low."""
     errors = table[ERRORS].assign(error=table["error"] + 0.01 * (table["quantity"] == "force"))
     judged = validate_solvers.judge_errors(errors, dict.fromkeys(LIMITS, 0.1), MARGIN)
     failed = validate_solvers.failures(judged, MARGIN)

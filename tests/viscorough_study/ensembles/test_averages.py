@@ -1,4 +1,4 @@
-"""Ensembles: exact dashpot lines made by hand, counted and averaged independently of the module."""
+"""Averages of ensembles, on exact lines of dashpots that are counted and averaged independently of the module."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 def line_stiffness(gaps, rms, x):
-    """κ = N_touching/N where mean((u−g)₊) = X h, found by trying every number of touching points."""
+    """Return κ = N_touching/N at mean((u−g)₊) = X h, found by trying every number of touching points."""
     gaps = np.sort(gaps)
     touching = np.arange(1, gaps.size + 1)
     depth = (np.asarray(x)[:, None] * rms * gaps.size + np.cumsum(gaps)) / touching
@@ -21,7 +21,7 @@ def line_stiffness(gaps, rms, x):
 
 @pytest.fixture
 def gaps():
-    """Gaps to the highest point of 12 rough lines of 40 points."""
+    """Return the gaps to the highest point of 12 rough lines of 40 points."""
     heights = np.random.default_rng(1).normal(size=(12, 40))
     return heights.max(axis=1, keepdims=True) - heights
 
@@ -36,7 +36,7 @@ def test_abscissa_is_made_of_multiples_and_contains_its_ends():
 
 
 @pytest.mark.parametrize("arguments", [(0, 1, 20), (2, 1, 20), (2, 3, 1)])
-def test_abscissa_refuses(arguments):
+def test_invalid_abscissae_are_refused(arguments):
     with pytest.raises(ValueError, match=r"^abscissa: "):
         abscissa(*arguments)
 
@@ -46,13 +46,13 @@ def test_velocity_of_a_line_is_exact(gaps):
     rms = gaps.std(axis=1)
     ensemble = aggregate([line_curve(g) for g in gaps], {"line": rms}, 1.0, x, hurst=0.5, case="lines")
     expected = np.array([line_stiffness(g, h, x) for g, h in zip(gaps, rms, strict=True)])
-    assert 1 / 40 in expected  # in region (a), where one point is in contact
+    assert 1 / 40 in expected  # in region (a) one point is in contact
     assert expected.max() > 0.9
     np.testing.assert_allclose(ensemble.stiffness.values[0], expected, rtol=1e-12)
 
 
 def test_rms_conventions_shift_the_abscissa(gaps):
-    """With twice the h, the force at X is that at 2X: κ(X; 2h) = κ(2X; h)."""
+    """If h doubles, X halves at the same force: κ(X; 2h) = κ(2X; h)."""
     x = 2.0 ** np.arange(-10, 0)
     rms = {"disc": 1.0, "square": np.full(12, 2.0)}
     ensemble = aggregate([line_curve(g) for g in gaps], rms, 1.0, x, hurst=0.5, case="a")
@@ -64,14 +64,14 @@ def test_contact_count_between_levels_is_linear_in_logarithms():
     depth = np.array([1.0, 2.0, 4.0])
     curve = LoadingCurve(depth, depth**2, 2 * depth, np.array([3, 12, 48]), 100, "cone", 1e-3, 0, 0 * depth)
     h, length = 0.5, 2.0
-    x = np.array([1.0, 2.0, 4.0, 8.0, 16.0]) / (4 * h * length)  # at and half-way between (in ln F) the levels
+    x = np.array([1.0, 2.0, 4.0, 8.0, 16.0]) / (4 * h * length)  # at the levels, and half-way between them in ln F
     ensemble = aggregate([curve], {"disc": h}, length, x, hurst=0.5, case="a")
     np.testing.assert_allclose(ensemble.contact_count.values[0, 0], [3, 6, 12, 24, 48], rtol=1e-12)
 
 
 def test_averages_are_over_the_realizations_defined(gaps):
     x = abscissa(1e-3, 3, 10)
-    curves = [line_curve(g, levels=20 if i < 4 else None) for i, g in enumerate(gaps)]  # four stop early
+    curves = [line_curve(g, levels=20 if i < 4 else None) for i, g in enumerate(gaps)]  # four curves stop early
     ensemble = aggregate(curves, {"line": 1.0}, 1.0, x, hurst=0.5, case="a")
     velocity, count = ensemble.velocity.values[0], ensemble.contact_count.values[0]
     assert np.array_equal(np.isnan(velocity), np.isnan(count))

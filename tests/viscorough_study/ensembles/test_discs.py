@@ -10,7 +10,7 @@ from viscorough_study.run.seeds import realization_seed
 
 
 @pytest.mark.parametrize("rms_over", ["disc", "square"])
-def test_both_rms_heights_are_those_of_the_surface(rms_over):
+def test_both_rms_heights_agree_with_the_surface(rms_over):
     surface = {"hurst": 0.4, "rms": 2e-6, "diameter": 1e-2, "period": 2.0, "rms_over": rms_over, "length_unit": "m"}
     seed = realization_seed(1, 1, 0)
     disc, rms = ensemble_disc(33, surface, seed)
@@ -22,8 +22,8 @@ def test_both_rms_heights_are_those_of_the_surface(rms_over):
 
 
 @pytest.mark.parametrize("across", [16, 17])
-def test_rms_height_of_the_ensemble_is_that_of_the_spectrum(across):
-    """In its unit the mean square height over the square is 1 on average; with fixed amplitudes, in each."""
+def test_rms_height_of_the_ensemble_agrees_with_the_spectrum(across):
+    """In this unit the mean square height over the square is 1 on average; with fixed amplitudes, in each disc."""
     surface = {"hurst": 0.9, "rms": 1.0, "diameter": 1.0, "rms_over": "disc", "length_unit": "1"}
 
     def squares(amplitudes, number):
@@ -33,7 +33,7 @@ def test_rms_height_of_the_ensemble_is_that_of_the_spectrum(across):
     np.testing.assert_allclose(squares("fixed", 3), 1, rtol=1e-12)
     random = squares("random", 400)
     error = random.std(ddof=1) / np.sqrt(random.size)
-    assert error < 0.04  # a realization's own mean square scatters by more than half
+    assert error < 0.04  # the mean square of a single realization scatters by more than half
     assert abs(random.mean() - 1) < 4 * error
 
 

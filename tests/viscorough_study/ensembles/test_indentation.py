@@ -1,4 +1,4 @@
-"""Curves of realizations, as the scripts make them, and the stiffness of flat discs."""
+"""Curves of realizations, as the scripts compute them, and the stiffness of flat discs."""
 
 import warnings
 
@@ -20,7 +20,7 @@ INDENTATION = {"tolerance": 1e-3, "until_fraction": 1.0} | ENDS
 
 
 def curves_of(kind, folder, batch):
-    """{name: values} in the file of curves that scripts make of a batch, of discs by way of the file of surfaces."""
+    """Return {name: values} in the file of curves that the scripts make of a batch; discs pass through a file."""
     if kind == "lines":
         load_script("reduce_lines").main(folder / "curves.nc", ensembles=batch, seed=7, until_x=30.0)
     else:
@@ -30,7 +30,7 @@ def curves_of(kind, folder, batch):
 
 
 @pytest.mark.parametrize("kind", ["discs", "lines"])
-def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
+def test_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")
     table, size = (cases.disc_cases, {"elements": 17}) if kind == "discs" else (cases.line_cases, {"points": 512})
     ensembles = [ensemble | size for ensemble in cases.batch_ensembles(table(settings)["h04000"], "0000-0002")[-2:]]
@@ -47,7 +47,7 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
 
 
 def test_dimensionless_discs_have_no_unit_and_give_no_warning(tmp_path):
-    """Their heights are as large as their diameter, which would be a mistake in metres."""
+    """Heights of the size of the diameter would be an error in metres, but are normal in dimensionless units."""
     settings = read_settings("config")
     (ensemble,) = cases.batch_ensembles(cases.disc_cases(settings)["h04000_roll_off"], "0000-0001")
     with warnings.catch_warnings(action="error"):
@@ -58,7 +58,7 @@ def test_dimensionless_discs_have_no_unit_and_give_no_warning(tmp_path):
     assert {variables[name].attributes["units"] for name in lengths} == {"1"}
 
 
-def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
+def test_first_curves_of_every_ensemble_extend_further(tmp_path):
     settings = read_settings("config")
     ensembles = cases.batch_ensembles(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
     batch = [ensemble | {"elements": 17} for ensemble in ensembles]
@@ -85,13 +85,13 @@ def test_curves_of_lines_end_at_the_first_level_beyond_their_x(tmp_path, until_x
     np.testing.assert_allclose(content.variables["rms_line"].values, batch["surface"]["rms"])
 
 
-def test_stiffness_of_a_flat_disc_approaches_that_of_the_punch_at_first_order():
+def test_stiffness_of_a_flat_disc_converges_to_the_punch_at_first_order():
     errors = np.array([(1 - punch_stiffness(across)) * across for across in (33, 65, 129)])
     np.testing.assert_allclose(errors, 1.3, rtol=0.05)
 
 
-def test_a_curve_is_that_of_the_surface_itself(tmp_path):
-    """Bit by bit: nothing of a surface is lost in its file. A measured one has only the rms height over itself."""
+def test_curve_is_computed_from_the_exact_surface(tmp_path):
+    """The comparison is bit by bit: the file of a surface loses nothing. A measured surface has only one rms height."""
     surface = {"hurst": 0.5, "rms": 1.7, "diameter": 33.0, "period": 1.5, "rms_over": "disc", "length_unit": "m"}
     disc, rms = ensemble_disc(17, surface, 3)
     for known in (rms, {"disc": rms["disc"]}):

@@ -10,8 +10,8 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.ensembles.surface_files import read_surfaces
 
 
-def test_a_prepared_scan_has_its_lengths_in_metres(tmp_path):
-    """Each of them differs from the others, so that none can take the place of another."""
+def test_prepared_scan_has_its_lengths_in_metres(tmp_path):
+    """All lengths differ, so a mix-up would show."""
     disc = self_affine_disc(0.6, 25, rms=0.5, diameter=250.0, seed=1)
     np.save(tmp_path / "scan.npy", disc.heights)
     reading = {"spacing": [10.0, 20.0], "unit": "um", "preparation": {}}

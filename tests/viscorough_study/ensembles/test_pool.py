@@ -1,4 +1,4 @@
-"""Pools of batches: what is taken out of them is what one large ensemble would be."""
+"""Pools of batches: an ensemble taken from a pool equals one large ensemble."""
 
 import json
 
@@ -49,8 +49,8 @@ def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves):
     np.testing.assert_allclose(by_case["a_c2"]["velocity_geometric"], second["velocity_geometric"], rtol=1e-12)
 
 
-def test_a_mean_is_over_the_curves_that_were_to_reach_its_abscissa(curves):
-    """Shorter curves reach further by chance, by what the surface is; beyond their end they do not count."""
+def test_mean_is_over_the_curves_required_to_reach_its_abscissa(curves):
+    """Shorter curves reach further by chance, depending on the surface; beyond their required end they do not count."""
     short = ("base", batch(curves[2:], RMS[2:], first=2, until_x=0.1))
     mean = ensembles(pool_batches([("base", batch(curves[:2], RMS[:2])), short], ["line"], X), "hurst")[0.5]
     whole = aggregate(curves[:2], {"line": RMS[:2]}, 1.0, X, hurst=0.5, case="a")
@@ -61,8 +61,8 @@ def test_a_mean_is_over_the_curves_that_were_to_reach_its_abscissa(curves):
     assert mean["fraction_defined"].values[0, 0] == 1
 
 
-def test_a_batch_of_several_ensembles(curves):
-    """Realizations on two grids and with two Hurst exponents in one file."""
+def test_batch_may_hold_several_ensembles(curves):
+    """One file has realizations on two grids and with two Hurst exponents."""
     short = line_curve([0.0, 0.5, 1.0])
     content = batch([*curves[:2], short], np.ones(3), hurst=[0.5, 0.5, 0.7], case="sizes")
     other = batch([short], np.ones(1), hurst=0.7, case="sizes", first=3)

@@ -1,4 +1,4 @@
-"""Files of surfaces: what is read is what was written, one realization at a time."""
+"""Files of surfaces: surfaces are read exactly as written, one realization at a time."""
 
 import netCDF4
 import numpy as np
@@ -12,7 +12,7 @@ from viscorough_study.ensembles.surface_files import read_surfaces, write_surfac
 
 
 def surface(name, number, shape, dtype=float):
-    """A map with a hole, on rectangles, whose spacings are no sums of powers of two."""
+    """Return a map with a hole, on rectangles, whose spacings are no sums of powers of two."""
     heights = np.random.default_rng(number).normal(size=shape).astype(dtype)
     heights[0, 1] = np.nan
     indenter = Indenter(heights, 0.1 / 3, 0.2 / 7, length_unit="m")
@@ -45,7 +45,7 @@ def test_surfaces_are_read_as_they_were_written(path):
 
 
 def test_surfaces_are_made_written_and_read_one_after_the_other(path, monkeypatch):
-    """Each is dropped before the next is made, and a file of some of them never appears."""
+    """Each surface is dropped before the next is made, and an incomplete file never appears."""
 
     def surfaces(number, fails):
         for realization in range(number):
@@ -66,7 +66,7 @@ def test_surfaces_are_made_written_and_read_one_after_the_other(path, monkeypatc
     assert sizes == [900]
 
 
-def test_a_damaged_file_is_named(path):
+def test_error_names_a_damaged_file(path):
     path.write_bytes(b"no NetCDF")
     with refused("surfaces.nc: not readable"):
         next(read_surfaces(path))

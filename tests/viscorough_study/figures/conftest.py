@@ -16,7 +16,7 @@ from viscorough_study.ensembles.pool import ensembles
 
 @pytest.fixture(scope="session")
 def curves():
-    """{(H, combination): two loading curves}; the surfaces of a Hurst exponent are the same but for their units."""
+    """Return {(H, combination): two curves}; the surfaces of a Hurst exponent differ only in their units."""
     result = {}
     for hurst in HURST:
         for name, at in COMBINATIONS.items():
@@ -29,7 +29,7 @@ def curves():
 
 @pytest.fixture(scope="session")
 def discs(curves):
-    """Ensemble of every case, all of two realizations."""
+    """Return an ensemble for every case, each of two realizations."""
     members = []
     for (hurst, name), pair in curves.items():
         rms, diameter = COMBINATIONS[name]["rms"], COMBINATIONS[name]["diameter"]
@@ -59,7 +59,7 @@ def scaling():
 
 @pytest.fixture(scope="session")
 def drawn(discs, pooled, lines, scaling):
-    """{file of the report: its figure}, without a warning."""
+    """Return {file of the report: its figure}, drawn without a warning."""
     heights = self_affine_disc(0.5, 9, seed=1).heights
     of_group = scaling[scaling["source"] == "discs"].assign(source="measured", case_group="polished")
     arguments = tables.FROM_TABLES | {

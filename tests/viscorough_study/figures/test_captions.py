@@ -1,6 +1,6 @@
 """Every caption describes its figure: the panels, the quantities on the axes, the kinds of lines and markers.
 
-Panels that have a letter in their title are named by it in the caption, as "(a)".
+If a panel has a letter in its title, the caption names it, for example as "(a)".
 """
 
 import re
@@ -17,23 +17,23 @@ REPORT = ROOT / "workflow" / "report"
 SYMBOLS = {r"\alpha": "α", r"\beta": "β", r"\zeta": "ζ", r"\kappa": "κ", r"\eta": "η", r"\lambda": "λ", r"\ln": "ln "}
 
 
-# ---- what a figure shows, and what a caption says
+# ---- contents of figures and captions
 
 
 def labels_of(figure):
-    """Labels of the axes."""
+    """Return the labels of the axes."""
     return [text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text]
 
 
 def plain(text):
-    """Text in which mathematics and spaces are comparable."""
+    """Return a text with mathematics and spaces in a form that can be compared."""
     for name, symbol in SYMBOLS.items():
         text = text.replace(f"{name} ", symbol).replace(name, symbol)
     return " ".join(re.sub(r"\\,|\$", "", text).replace("\\Gamma", "Γ").replace(" = ", "=").split())
 
 
 def faults(caption, figure):
-    """Errors and omissions of a caption, one line each."""
+    """Return the errors and omissions of a caption, one line each."""
     caption, wrong = plain(caption), []
     drawn = {match[0] for axes in figure.axes if (match := re.match(r"\([a-z]\)", axes.get_title()))}
     of_no_region = re.sub(r"regions? \([abc]\)( and \([abc]\))?", "", caption)
@@ -71,7 +71,7 @@ def test_caption_describes_its_figure(drawn, name):
     assert faults(read(name), drawn[name]) == []
 
 
-def test_units_stand_in_parentheses_and_dimensionless_quantities_have_none(drawn):
+def test_units_are_in_parentheses_and_dimensionless_quantities_have_none(drawn):
     units = set()
     for figure in drawn.values():
         labels = labels_of(figure)
@@ -80,8 +80,8 @@ def test_units_stand_in_parentheses_and_dimensionless_quantities_have_none(drawn
     assert units - {"b"} == {"s", "m/s", "µm", "darker is higher"}  # region (b)
 
 
-def test_a_hurst_exponent_looks_the_same_in_all_figures(drawn):
-    """Colour and, where there are markers, marker in every figure that has the exponent in its legend."""
+def test_hurst_exponent_looks_the_same_in_all_figures(drawn):
+    """Colour and marker are the same in every figure that has the exponent in its legend."""
     looks = []
     for figure in drawn.values():
         legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
@@ -98,9 +98,9 @@ def test_letters_of_verdicts_are_explained():
 
 
 def test_texts_of_the_report_can_be_filled_in():
-    """From those params that the rule of the caption really has: that of a figure; all others have none.
+    """The caption of a figure may use the params of the figure's rule; other captions have no params.
 
-    Not from the settings, which may have changed since the figure was drawn; the params of its rule redraw it.
+    The settings may have changed since the figure was drawn, so captions do not use them; changed params redraw it.
     """
     settings = read_settings("config")
     for path in REPORT.rglob("*.rst"):
@@ -109,6 +109,6 @@ def test_texts_of_the_report_can_be_filled_in():
         assert "{" not in template.render(snakemake={"params": dict.fromkeys(params, settings["figures"])}), path
 
 
-def test_every_caption_is_that_of_a_result():
+def test_every_caption_belongs_to_a_result():
     assert {path.stem for path in REPORT.glob("figures/*.rst")} == set(FIGURES)
     assert {path.stem for path in REPORT.glob("*.rst")} == {"page", "workflow"}

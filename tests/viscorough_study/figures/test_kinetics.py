@@ -1,4 +1,4 @@
-"""Figure 2 of the paper: in the units on its axes, with the regions where they are."""
+"""Figure 2 of the paper: its units and its regions."""
 
 import numpy as np
 import pytest
@@ -13,8 +13,8 @@ from viscorough_study.fits.conventions import fits
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-def test_kinetics_are_those_of_the_curves_in_real_units(curves, drawn):
-    """Against viscorough.viscous.kinetics, which does not know of X: geometric mean of v at the times drawn."""
+def test_kinetics_agree_with_the_curves_in_real_units(curves, drawn):
+    """viscorough.viscous.kinetics does not use X. The geometric mean of v at the drawn times must agree."""
     scaled, moving = (
         {line.get_label(): line.get_data() for line in axes.lines} for axes in drawn["fig2_kinetics"].axes[:2]
     )

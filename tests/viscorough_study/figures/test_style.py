@@ -1,4 +1,4 @@
-"""What the figures share: looks of the Hurst exponents, and files that are whole and reproducible."""
+"""Common properties of the figures: looks of the Hurst exponents, and complete and reproducible files."""
 
 import itertools
 
@@ -16,18 +16,18 @@ from viscorough_study.figures.style import figure, hurst_looks, save_figure
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-def test_looks_of_a_hurst_exponent_do_not_depend_on_how_exponents_are_listed():
+def test_looks_of_a_hurst_exponent_do_not_depend_on_the_list():
     looks = hurst_looks([0.9, 0.1, 0.6, 0.4, 0.9])
     assert list(looks) == [0.1, 0.4, 0.6, 0.9]
     assert all(hurst_looks([alone])[alone] == looks[alone] for alone in looks)
     for name in ("color", "marker", "linestyle"):
         assert len({str(look[name]) for look in looks.values()}) == 4
     grey = [np.dot(to_rgb(look["color"]), (0.3, 0.6, 0.1)) for look in looks.values()]
-    assert (np.diff([*grey, 0.77]) > 0.07).all()  # told apart from each other and from the paper when printed in grey
+    assert (np.diff([*grey, 0.77]) > 0.07).all()  # grey levels differ from each other and from the paper's white
 
 
 def test_colours_of_neighbouring_hurst_exponents_differ():
-    """Also those of 0.9 and 1; a distance of 1 is that of black and a pure colour."""
+    """The colours of 0.9 and 1 are included. Black and a pure colour have the distance 1."""
     colours = [np.array(to_rgb(look["color"])) for look in hurst_looks([0.1, 0.4, 0.6, 0.9, 1.0]).values()]
     assert min(np.linalg.norm(after - before) for before, after in itertools.pairwise(colours)) > 0.2
 
@@ -60,5 +60,5 @@ def test_saved_files_are_reproducible(scaling, tmp_path):
     with Image.open(folders[0] / "a.png") as picture:
         assert picture.mode == "P", "few colours: all pictures are part of one page"
     assert b"CreationDate" not in first["a.pdf"]
-    assert b"/FontFile2" in first["a.pdf"]  # TrueType fonts are in the file
+    assert b"/FontFile2" in first["a.pdf"]  # the file embeds TrueType fonts
     assert int.from_bytes(first["a.png"][16:20], "big") == pytest.approx(85 / 25.4 * 200, abs=1)

@@ -1,4 +1,4 @@
-"""The table of fits: one row for every convention that needs a fit, from ensembles of known curves."""
+"""The table of fits: one row for every convention that needs a fit, from ensembles of given curves."""
 
 import numpy as np
 import pandas as pd
@@ -26,7 +26,7 @@ def fitted(ensemble, **changes):
     return fit_rows(ensemble, **(options | LIMITS | BOOTSTRAP | changes))
 
 
-def test_a_row_for_every_fit():
+def test_table_has_a_row_for_every_fit():
     rows = fitted(DISCS, lines=LINES)
     assert len(rows) == len({tuple(row[name] for name in FITTED) for row in rows}) == 2 * 4
     for row in rows:
@@ -41,8 +41,8 @@ def test_a_row_for_every_fit():
 
 
 @pytest.mark.parametrize("gamma", GAMMA)
-def test_a_reading_is_a_fit_in_it(gamma):
-    """ζ and its interval against a fit in that reading; of two groups of surfaces one is selected."""
+def test_reading_agrees_with_a_fit_in_its_convention(gamma):
+    """ζ and its interval agree with a fit in that reading. One of two groups of surfaces is selected."""
     table = pd.DataFrame(fitted(DISCS) + fitted(DISCS, case_group="corners"))
     wanted = SHOWN | {"gamma": gamma, "case_group": "corners"}
     (row,) = select(table, wanted).to_dict("records")
@@ -76,7 +76,7 @@ def test_every_grid_is_fitted_also_in_windows_of_fixed_x():
     assert set(zip(table["source"], table["case_group"], strict=True)) == {("discs", "sizes"), ("lines", "sizes")}
     assert set(table["elements"]) == {ELEMENTS}
     fixed = table[table["window_rule"] == "X = 0.001 to 0.01"]
-    assert fixed.groupby("hurst").size().to_dict() == {0.6: 8, 0.9: 8}  # discs, lines; rms conventions; averages
+    assert fixed.groupby("hurst").size().to_dict() == {0.6: 8, 0.9: 8}  # discs and lines; rms conventions; averages
     np.testing.assert_allclose(fixed["beta"], reference.exponent_beta(fixed["hurst"]))
 
 
@@ -87,15 +87,15 @@ def test_calibration_has_base_discs_and_lines_in_the_conventions_shown():
     table = calibrated(pd.DataFrame(rows), sizes, conventions=SHOWN | {"gamma": "with"}, across=257)
     assert list(table) == list(calibrated_law.COLUMNS)
     assert table["source"].tolist() == ["discs", "discs", "lines"]
-    assert table["hurst"].tolist() == [0.7, 0.8, 0.7]  # of sizes, one that is new, on the same grid
+    assert table["hurst"].tolist() == [0.7, 0.8, 0.7]  # only the sizes add an exponent, on the same grid
     assert table["lambda"].notna().tolist() == [True, False, False]
 
 
 def test_lines_of_self_affine_roughness_have_the_exponent_of_the_paper():
-    """β = H/(1 + H) (Eq. 10) at H = 0.7, by the MDR: within 0.03.
+    """β = H/(1 + H) (Eq. 10) at H = 0.7, by the MDR, to 0.03.
 
-    The bootstrap gives a standard error of 0.008 for 40 lines; the rest allows for the curvature that 13
-    octaves of roughness leave. The halves of the window have twice the error, and are allowed twice as much.
+    The bootstrap gives a standard error of 0.008 for 40 lines; the rest allows for the curvature that 13 octaves of
+    roughness leave. The halves of the window have twice the error and twice the limit.
     """
     curves = [reduce(self_affine_line(0.7, 2**14, seed=realization_seed(1, 3, i))) for i in range(40)]
     rows = fitted(aggregate(curves, {"line": 1.0}, 1.0, X, hurst=0.7, case="lines"), source="lines")

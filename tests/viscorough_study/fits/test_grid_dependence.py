@@ -1,4 +1,4 @@
-"""What the grid does to κ at given u/h, of discs whose curves are known."""
+"""Effect of the grid on κ at given u/h, for discs with given curves."""
 
 import numpy as np
 import pytest
@@ -7,11 +7,11 @@ from support.study import ensemble_of, pool_of
 from viscorough_study.fits.grid_dependence import COLUMNS, grid_dependence
 
 X = np.geomspace(1e-9, 30, 900)
-GRIDS = {33: 8, 65: 6, 129: 4, 257: 3}  # elements across, and discs
+GRIDS = {33: 8, 65: 6, 129: 4, 257: 3}  # elements across: number of discs
 
 
 def table(prefactor, scatter=0.0, elements_min=10):
-    """Of κ = prefactor(elements across) X^(1/2), so that u/h = 2 X^(1/2)/prefactor: κ = prefactor² (u/h)/2."""
+    """Fit discs with κ = prefactor(elements) X^(1/2), so that u/h = 2 X^(1/2)/prefactor and κ = prefactor² (u/h)/2."""
     random, members = np.random.default_rng(5), []
     for across, number in GRIDS.items():
         elements = round(np.pi / 4 * across**2)
@@ -24,7 +24,7 @@ def table(prefactor, scatter=0.0, elements_min=10):
     return found.set_index(["quantity", "across"])
 
 
-def test_values_and_factor_of_a_known_trend():
+def test_fit_returns_values_and_factor_of_a_trend():
     found = table(lambda elements: 0.5 * elements**-0.1)
     for quantity, power, at in (("κ at u/h = 1", 2, 1 / 2), ("vt/h at X = 0.1", -1, np.sqrt(0.1))):
         rows = found.loc[quantity]
@@ -34,8 +34,8 @@ def test_values_and_factor_of_a_known_trend():
     assert found.loc["κ at u/h = 1", "factor"].iloc[0] == pytest.approx(10**-0.2, rel=1e-2)
 
 
-def test_interval_is_that_of_the_scatter_of_all_discs():
-    """Of means over 8, 6, 4 and 3 discs on a line in log₁₀ n, with the 17 degrees of freedom of all of them."""
+def test_interval_follows_from_the_scatter_of_all_discs():
+    """The means are over 8, 6, 4 and 3 discs, on a line in log₁₀ n, with 17 degrees of freedom in all."""
     found = table(lambda elements: 0.5, scatter=0.1).loc["vt/h at X = 0.1"]
     elements, number = np.log10([round(np.pi / 4 * across**2) for across in GRIDS]), np.array(list(GRIDS.values()))
     offset = elements - np.average(elements, weights=number)
@@ -44,7 +44,7 @@ def test_interval_is_that_of_the_scatter_of_all_discs():
     assert found["factor_low"].iloc[0] < 1 < found["factor_high"].iloc[0]
 
 
-def test_grids_on_which_few_elements_touch_do_not_count():
+def test_grids_with_few_elements_in_contact_do_not_count():
     found = table(lambda elements: 0.5, elements_min=1000).loc["κ at u/h = 2"]
     assert found["compared"].tolist() == [0, 0, 1, 1]
     assert found["factor"].isna().all()

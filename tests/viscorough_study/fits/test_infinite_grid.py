@@ -1,4 +1,4 @@
-"""One law fitted to all grids: known exponents, corrections and ranges."""
+"""One law fitted to all grids: given exponents, corrections and ranges."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ RANGES = {"elements_min": [10, 20], "x_high": {"power": [0.03], "corrected": [0.
 
 
 def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
-    """vt/h = A X^β exp(B X^ω) (or with another factor) + punch X on four grids; scatter from one curve to another."""
+    """Make ensembles of vt/h = A X^β exp(B X^ω) (or another factor) + punch X on four grids, with scatter."""
     generator, grids = np.random.default_rng(seed), []
     for number, realizations in ((65, 60), (257, 40), (1025, 30), (4097, 20)):
         x = 10 ** np.arange(np.ceil(20 * np.log10(2 * number ** -(1 + HURST))) / 20, 0, 0.05)
@@ -46,7 +46,7 @@ def test_joint_fit_returns_the_law_within_its_intervals(factor):
 
 
 def test_resamples_scatter_as_means_of_independent_realizations():
-    """By the standard deviation over √n; those of resamples of n, here 3, by √(2/3) of it."""
+    """A mean scatters by the standard deviation over √n; resamples of n curves, here 3, by √(2/3) of it."""
     generator, x = np.random.default_rng(1), np.geomspace(1e-3, 0.1, 9)
     logarithms = generator.standard_normal((3, 1))
     means = log_means(np.exp(logarithms) * x**BETA, "geometric", 4000, generator)
@@ -55,14 +55,14 @@ def test_resamples_scatter_as_means_of_independent_realizations():
     assert log_y[1:, 0].std() == pytest.approx(logarithms.std(ddof=1) / np.sqrt(3), rel=0.05)
 
 
-def test_the_interface_is_fitted_without_the_punch():
+def test_interface_is_fitted_without_the_punch():
     limits = limits_of(punch=1.0, scatter=0.02)
     interface = row(limits, "interface", "corrected")
     assert interface.beta_low - 1e-3 <= BETA <= interface.beta_high + 1e-3
     assert row(limits, "whole", "power").beta > row(limits, "interface", "power").beta
 
 
-def test_columns_ranges_and_findings():
+def test_fit_has_columns_ranges_and_findings():
     exact = row(limits_of(scatter=1e-9))
     assert (exact.amplitude, exact.beta, exact.correction, exact.omega) == pytest.approx((A, BETA, B, OMEGA), rel=1e-6)
     limits = limits_of(scatter=0.02)
@@ -70,14 +70,14 @@ def test_columns_ranges_and_findings():
     assert list(limits) == list(COLUMNS)
     assert (limits["ranges_low"] <= limits["beta_low"]).all()
     assert (limits["ranges_high"] >= limits["beta_high"]).all()
-    assert row(limits).finding == "agrees"  # 0.4 beside 0.375
+    assert row(limits).finding == "agrees"  # 0.4 and 0.375 agree
     for scatter, finding in ((0.002, "departs"), (0.5, "undecided")):
         assert row(limits_of(0.01, scatter=scatter)).finding == finding
 
 
 @pytest.mark.parametrize(("omega", "fitted_omega"), [(OMEGA, OMEGA), (0.05, 0.2), (2.5, 1.5)])
-def test_findings_are_undecided_where_the_data_do_not_tell_the_correction(omega, fitted_omega):
-    """A correction with an exponent outside of the range tried ends at an end of it."""
+def test_findings_are_undecided_if_the_correction_is_at_a_limit(omega, fitted_omega):
+    """If the fitted exponent of the correction lies outside the allowed range, it ends at an end of this range."""
     fitted = row(limits_of(scatter=1e-4, omega=omega))
     assert fitted.omega == pytest.approx(fitted_omega)
     assert (fitted.finding == "undecided") == (fitted_omega != OMEGA)

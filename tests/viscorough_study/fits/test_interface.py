@@ -1,4 +1,4 @@
-"""The interface and the punch in series, on curves whose interface is known."""
+"""Interface and punch in series, for curves with a given interface."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ LAW = (0.7, 0.35, 4.0, 2.0, 60.0)
 
 
 def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, elements=10**4, hurst=0.5):
-    """Discs of which the interface is a function of X, times a factor for each; one element touches below X = 1e-5."""
+    """Make discs whose interface is a function of X times a factor for each; one element touches below X = 1e-5."""
     factor = np.exp(scatter * np.random.default_rng(3).standard_normal((realizations, 1)))
     first = 1e-5
     at = np.maximum(X, first)
@@ -28,8 +28,8 @@ def examined(interface, **changes):
     return fit_interface(ensemble(interface, **changes).sel(rms_convention="disc"), PUNCH, **HOW)
 
 
-def test_plateau_is_given_back():
-    """A power law up to X = 0.1, and constant from there on."""
+def test_fit_returns_the_plateau():
+    """The interface is a power law up to X = 0.1, and constant from there on."""
     row, _ = examined(lambda x: np.minimum(0.51, 0.51 * (x / 0.1) ** 0.3))
     assert row["u0"] == pytest.approx(0.51, rel=0.02)
     assert row["u0_high"] - row["u0_low"] == pytest.approx(2 * 1.96 * 0.51 * 0.05 / np.sqrt(40), rel=0.3)
@@ -37,15 +37,15 @@ def test_plateau_is_given_back():
     assert row["plateau_high"] == pytest.approx(X[-1])
 
 
-def test_curves_are_those_of_the_interface():
+def test_fit_returns_the_curve_of_the_interface():
     row, curves = examined(lambda x: interface_velocity(x, *LAW), scatter=0.0)
     assert row["kappa_c"] == PUNCH
     np.testing.assert_allclose(curves["interface"], interface_velocity(curves["x"], *LAW), rtol=1e-4)
     assert curves["x"].min() == X[X >= 1e-5][0], "where more than one element touches"
 
 
-def test_tables_of_every_grid():
-    """Lines are those of the Hurst exponents of the discs."""
+def test_tables_have_rows_of_every_grid():
+    """Lines are included if their Hurst exponents occur among the discs."""
     grids = ((33, 797, 0.5), (33, 797, 0.7), (65, 3209, 0.5), (65, 3209, 0.9))
     sizes = [
         ensemble(lambda x: interface_velocity(x, *LAW), punch=punch_stiffness(n), elements=elements, hurst=h)

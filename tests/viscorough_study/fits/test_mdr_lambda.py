@@ -1,4 +1,4 @@
-"""λ of curves whose λ(X) is known."""
+"""λ of curves with a given λ(X)."""
 
 import numpy as np
 import pytest
@@ -12,16 +12,16 @@ GEOMETRIC = BOOTSTRAP | {"average": "geometric"}
 
 
 def scattered(beta, realizations, seed):
-    """vt/h = X^β, each with a different factor."""
+    """Return vt/h = X^β, each curve with a different factor."""
     factors = np.exp(0.3 * np.random.default_rng(seed).normal(size=(realizations, 1)))
     return factors * x**beta
 
 
-def test_lambda_of_a_line_stretched_in_height():
-    """Any curve: discs that are the lines with s times the rms height, y3(X) = s y1(X/s), give back s."""
+def test_fit_returns_the_lambda_of_stretched_lines():
+    """The discs are lines with s times the rms height, y3(X) = s y1(X/s), so the fit must return s for any curve."""
     steps = 7
     s = 10 ** (steps / 20)
-    lines = scattered(0.4, 12, seed=8) * (1 + 0.5 * x)  # bent
+    lines = scattered(0.4, 12, seed=8) * (1 + 0.5 * x)  # not a power law
     discs = s * np.roll(lines, steps, axis=1)
     value, low, high = match_lambda(x, discs, lines, (1e-4, 1e-2), average="arithmetic", **BOOTSTRAP)
     assert value == pytest.approx(np.pi * s**2, rel=1e-9)
@@ -35,19 +35,19 @@ def test_lambda_of_a_line_stretched_in_height():
 
 
 def test_best_stretch_makes_the_deviations_of_both_signs_equal():
-    """Lines with another exponent deviate at one end of the window as much as at the other, with the opposite sign."""
+    """Lines with another exponent deviate equally at both ends of the window, with opposite signs."""
     match = match_lines(x, scattered(0.5, 3, seed=1), scattered(0.4, 3, seed=1), **GEOMETRIC)
     window = (1e-4, 1e-2)
     inside = (x > 0.99e-4) & (x < 1.01e-2)
     deviation = match.deviation(match.best_stretch(window), inside)[0]
     assert deviation.max() == pytest.approx(-deviation.min(), rel=1e-9)
-    assert deviation.max() == pytest.approx(0.1 * np.log(10), rel=1e-6)  # half of 0.5 - 0.4 over two decades
+    assert deviation.max() == pytest.approx(0.1 * np.log(10), rel=1e-6)  # half of (0.5 − 0.4) over two decades
 
 
-def test_nothing_is_known_beyond_the_lines():
+def test_deviation_is_nan_beyond_the_lines():
     lines = scattered(0.4, 3, seed=1)
     lines[0, x > 1e-2] = np.nan
     match = match_lines(x, scattered(0.4, 3, seed=1), lines, **GEOMETRIC)
-    deviation = match.deviation(np.full(201, np.log(0.5)), np.full(x.size, True))[0]  # of the lines at 2X
+    deviation = match.deviation(np.full(201, np.log(0.5)), np.full(x.size, True))[0]  # stretches the lines to 2X
     assert np.isfinite(deviation[x < 4.9e-3]).all()
     assert np.isnan(deviation[x > 5.1e-3]).all()

@@ -1,4 +1,4 @@
-"""The test for a power law: what it makes of power laws, of curves that bend, and of a control, with real scatter."""
+"""The test for a power law, on power laws, bent curves and a control, with realistic scatter."""
 
 import numpy as np
 import pytest
@@ -20,24 +20,24 @@ HOW = {"half_width": HALF_WIDTH, "tolerance": 0.05, "resamples": 100}
 
 
 def scattered(mean, number, size, seed=0):
-    """Realizations around a mean, correlated along X over half a decade."""
+    """Return realizations around a mean, correlated along X over half a decade."""
     noise = np.random.default_rng(seed).standard_normal((number, X.size + 20))
     smooth = np.lib.stride_tricks.sliding_window_view(noise, 21, axis=1)[:, :, :10].sum(axis=2) / np.sqrt(10)
     return mean + size * smooth
 
 
 def control(x):
-    """A curve of slope 0.8 at both ends and 0.2 between, as one without a power law has."""
+    """Return a curve of slope 0.8 at both ends and 0.2 in between, which contains no power law."""
     return 0.8 * np.log(x) - 0.6 * 1.2 * np.arcsinh(np.log(x / 0.01) / 1.2)
 
 
-def test_longest_run_within_the_tolerance():
+def test_longest_plateau_is_the_longest_run_within_the_tolerance():
     slopes = np.array([[0.0, 0.2, 0.25, 0.3, 0.29, 0.4], [0.0, 0.2, 0.4, 0.6, 0.8, 1.0], [0.3] * 6])
     assert longest_plateau(slopes, 0.05000001).tolist() == [3, 0, 5]
 
 
-def test_plateau_of_a_curve_with_a_kink():
-    """Slope 0.4 up to X = 0.1 and 1 above: the longer plateau ends where local slopes begin to see the kink."""
+def test_plateau_ends_at_a_kink():
+    """The slope is 0.4 up to X = 0.1 and 1 above. The longer plateau ends where local slopes include the kink."""
     mean = np.where(X < 0.1, 0.4 * np.log(X / 0.1), np.log(X / 0.1))
     columns = plateau(np.log(X), scattered(mean, 30, 1e-4), random=np.random.default_rng(1), **HOW)
     assert 3.75 - 1.26 <= columns["decades"] <= 3.75 - 1.05
@@ -49,7 +49,7 @@ def test_curves_shorter_than_a_slope_are_refused():
         inner_slopes(np.log(X[:5]), np.log(X[None, :5]), HALF_WIDTH)
 
 
-def test_power_laws_pass_and_what_is_none_does_not():
+def test_power_laws_pass_and_other_curves_fail():
     random, residuals = np.random.default_rng(2), scattered(0.0, 200, 0.1)
     residuals = residuals - residuals.mean(axis=0)
     means = 0.3 * np.log(X), control(X), 0.05 * np.log(X) ** 2
@@ -70,7 +70,7 @@ def row(mean):
     return plateau_row(curve, none, resamples=100, draws=10, random=np.random.default_rng(4), **OPTIONS)
 
 
-def test_row_of_a_power_law_and_of_a_control():
+def test_row_distinguishes_a_power_law_from_a_control():
     law, none = row(0.3 * np.log(X) - 3), row(control(X))
     of_region = {"half_spread", "half_spread_low", "half_spread_high", "region_decades"}
     assert {"case_group", *law} == set(COLUMNS) - of_region
@@ -95,8 +95,8 @@ def spread_of(mean, region, size=1e-6):
     return half_spread(curves, region, half_width=HALF_WIDTH, resamples=100, random=np.random.default_rng(1))
 
 
-def test_spread_of_slopes_within_a_region():
-    """The slope of a parabola 0.05 ln²X changes by 0.1 ln(X_high/X_low) over the region; a power law has none."""
+def test_spread_of_slopes_is_half_their_range_in_the_region():
+    """The slope of the parabola 0.05 ln²X changes by 0.1 ln(X_high/X_low) over the region; a power law has none."""
     parabola = spread_of(0.05 * np.log(X) ** 2, (1e-3, 1e-2))
     assert parabola["half_spread"] == pytest.approx(0.05 * np.log(10), rel=1e-3)
     assert parabola["half_spread_low"] <= parabola["half_spread"] <= parabola["half_spread_high"]

@@ -1,4 +1,4 @@
-"""Scaling: ensembles of known power laws and regions, made without the module."""
+"""Fits of power laws and regions, on ensembles with given power laws, made without the module."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def curves(stiffness, **coords):
 
 
 def scattered(beta, prefactor, realizations, seed):
-    """vt/h of power laws, each of its own slope and prefactor; their geometric mean is the law."""
+    """Return vt/h of power laws with different slopes and prefactors; their geometric mean is the law."""
     rng = np.random.default_rng(seed)
     log_x = np.log(x)
     slopes = beta + 0.03 * rng.normal(size=(realizations, 1))
@@ -27,15 +27,15 @@ def scattered(beta, prefactor, realizations, seed):
     return np.exp(logs + 0.05 * rng.normal(size=logs.shape))
 
 
-def test_region_of_a_three_region_curve():
-    """Its ends are the outermost abscissae with 10 elements in contact and κ = 0.2."""
+def test_region_is_found_on_a_three_region_curve():
+    """The ends of the region are the outermost abscissae with 10 elements in contact and κ = 0.2."""
     low, high = find_region(curves(three_regions(x), elements=10**3), **LIMITS)
     assert low == x[x >= (10 / 10**3 / 1.2) ** (1 / 0.6)][0]
     assert high == x[x <= (0.2 / 1.2) ** (1 / 0.6)][-1]
 
 
-def test_region_ends_where_the_slope_is_that_of_a_fixed_contact():
-    """A plateau of κ below stiffness_max, such as a flat-topped asperity, is no region (b)."""
+def test_region_ends_before_a_contact_that_no_longer_grows():
+    """A plateau of κ below stiffness_max, for example of a flat-topped asperity, does not belong to region (b)."""
     _, high = find_region(curves(np.minimum(1.2 * x**0.6, 0.05)), **LIMITS)
     corner = (0.05 / 1.2) ** (1 / 0.6)
     assert corner / 10**0.25 < high < corner * 10**0.25
@@ -43,13 +43,13 @@ def test_region_ends_where_the_slope_is_that_of_a_fixed_contact():
 
 def test_region_needs_nearly_all_realizations():
     stiffness = np.tile(three_regions(x), (20, 1))
-    stiffness[:2, x > 1e-3] = np.nan  # 90 % left
+    stiffness[:2, x > 1e-3] = np.nan  # 90 % are left
     _, high = find_region(curves(stiffness), **LIMITS)
     assert high == x[x <= 1e-3][-1]
 
 
 @pytest.mark.parametrize("stiffness", [np.ones(x.size), np.full(x.size, np.nan)])
-def test_no_region_raises_and_its_windows_are_none(stiffness):
+def test_curve_without_a_region_has_no_windows(stiffness):
     mean = curves(three_regions(x))
     mean["stiffness_geometric"] = "abscissa", stiffness
     mean["velocity_geometric"] = "abscissa", x / stiffness
@@ -58,7 +58,7 @@ def test_no_region_raises_and_its_windows_are_none(stiffness):
     assert windows == dict.fromkeys(("default", "lower_half", "upper_half", "kappa"))
 
 
-def test_named_windows():
+def test_named_windows_follow_from_the_region():
     windows = named_windows(curves(three_regions(x)), stiffness_range=(0.03, 0.3), **LIMITS)
     low, high = windows["default"]
     middle = pytest.approx(np.sqrt(low * high))
@@ -78,7 +78,7 @@ def test_windows_of_fixed_x_need_elements_in_contact_and_realizations():
 
 
 def test_fit_is_least_squares_in_logarithms():
-    """Against numpy's polynomial fit, of the averages taken by numpy; window ends belong to it."""
+    """The reference is numpy's polynomial fit of numpy's averages. The ends of the window belong to it."""
     velocity = scattered(0.4, 0.7, 9, seed=2)
     inside = slice(60, 101)
     averages = {"arithmetic": np.log(velocity.mean(axis=0)), "geometric": np.log(velocity).mean(axis=0)}
@@ -90,7 +90,7 @@ def test_fit_is_least_squares_in_logarithms():
 
 @pytest.mark.parametrize("realizations", [8, 24])
 def test_intervals_cover_the_truth_95_times_in_100(realizations):
-    """200 ensembles; the number of hits lies in the 99.9 % range of the binomial distribution."""
+    """Of 200 ensembles, the number of hits is in the 99.9 % range of the binomial distribution."""
     hits = np.zeros(2)
     for seed in range(200):
         velocity = scattered(0.4, 0.7, realizations, seed=(realizations, seed))
@@ -101,19 +101,19 @@ def test_intervals_cover_the_truth_95_times_in_100(realizations):
     assert fewest <= hits.min() <= hits.max() <= most
 
 
-def test_partly_defined_realizations_count_where_they_are_defined():
+def test_partly_defined_realizations_count_at_their_abscissae():
     velocity = np.vstack([x**0.4, 3 * x**0.4])
     velocity[1, x > 1e-3] = np.nan
     betas, zetas = fit_power_law(x, velocity, (2e-3, 1e-1), average="arithmetic", **BOOTSTRAP)
     assert with_interval(betas, 2) == pytest.approx((0.4, 0.4, 0.4), abs=1e-12)
     assert zetas[0] == pytest.approx(1, rel=1e-12)
-    assert np.isnan(betas).any()  # resamples of nothing but the second curve
+    assert np.isnan(betas).any()  # some resamples contain only the second curve
     velocity[0, x > 1e-2] = np.nan
     with pytest.raises(ValueError, match="no realization"):
         fit_power_law(x, velocity, (2e-3, 1e-1), average="arithmetic", **BOOTSTRAP)
 
 
-def test_fit_refuses_and_has_no_interval_for_one_realization():
+def test_fit_of_one_realization_has_no_interval():
     velocity = np.tile(x**0.4, (3, 1))
     betas, _ = fit_power_law(x, velocity[:1], (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
     assert np.isnan(with_interval(betas, 1)[1:]).all()

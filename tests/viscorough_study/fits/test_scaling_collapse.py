@@ -1,4 +1,4 @@
-"""Collapse of curves that are known to follow one scaling law, or not."""
+"""Collapse of curves that follow one scaling law, or do not."""
 
 from dataclasses import replace
 
@@ -21,12 +21,12 @@ from viscorough_study.fits.scaling_collapse import (
 HURST = 0.6
 BETA = exponent_beta(HURST)
 STEP = np.log(10) / 10
-SCATTER, LENGTH = 0.25, 1.0  # of ln(vt/h) between realizations, and its correlation length in ln X
+SCATTER, LENGTH = 0.25, 1.0  # standard deviation of ln(vt/h) among realizations, and its correlation length in ln X
 X_HIGH = 0.05
 
 
 def grid(number, realizations, generator, *, beta=BETA, share=1.0):
-    """An ensemble with vt/h = X^β in units of h over all waves; scatter is a function of X N^(1+H)."""
+    """Make an ensemble with vt/h = X^β, h over all waves; the scatter is a function of X N^(1+H)."""
     log_x = STEP * np.arange(np.ceil(np.log(2 * number ** -(1 + HURST)) / STEP), np.log(0.3) / STEP)
     kept = np.exp(-STEP / LENGTH)
     noise = SCATTER * generator.standard_normal((realizations, log_x.size))
@@ -55,7 +55,7 @@ def test_one_law_is_accepted_in_95_percent(realizations):
     assert other <= 0.1
 
 
-def test_exponents_with_which_curves_collapse_contain_their_own():
+def test_exponents_that_collapse_curves_contain_the_true_one():
     beta = BETA + 0.06
     options = {"hurst": HURST, "quantity": "whole", "x_high": X_HIGH, "tolerance": 0.05}
     rows = [collapse(ensembles(seed, beta=beta), **options) for seed in range(9)]
@@ -67,9 +67,9 @@ def test_exponents_with_which_curves_collapse_contain_their_own():
 
 
 @pytest.mark.parametrize(("apart", "p", "finding"), [(0.965, 0.04, "does not collapse"), (0.945, 0.06, "undecided")])
-def test_p_value_is_that_of_the_distribution_of_spreads(apart, p, finding):
-    """Two grids to either side of their mean: of 101 resamples the spreads are 0 to 1, uniformly."""
-    resamples = np.concatenate([[0], np.linspace(0, 1, 101) * np.sqrt(9 / 10)])  # means of 10 scatter more
+def test_p_value_follows_from_the_distribution_of_spreads(apart, p, finding):
+    """Two grids lie on either side of their mean. The spreads of 101 resamples are uniform from 0 to 1."""
+    resamples = np.concatenate([[0], np.linspace(0, 1, 101) * np.sqrt(9 / 10)])  # the means of 10 scatter more
     log_x = STEP * np.arange(-30, 0)
     curves = [BETA * log_x + side * (apart + resamples[:, None]) for side in (-1, 1)]
     grids = [Grid(129, 10, log_x, curve, np.full(log_x.size, 100.0), 1.0, 1.0) for curve in curves]
@@ -79,8 +79,8 @@ def test_p_value_is_that_of_the_distribution_of_spreads(apart, p, finding):
     assert np.isfinite(row["beta_low"]) == (finding == "undecided"), "equal N: any exponent, or none"
 
 
-def test_the_height_over_all_waves_makes_one_law_of_many():
-    """Each grid has its share of the heights; at a large share of the scatter, only h of the spectrum collapses."""
+def test_rms_height_of_all_waves_collapses_the_grids():
+    """Each grid resolves a different share of the height variance. Only h over all waves collapses the curves."""
     generator = np.random.default_rng(3)
     shares = {33: 0.5, 129: 0.65, 513: 0.8}
     grids = [grid(number, 60, generator, share=share) for number, share in shares.items()]
@@ -89,8 +89,8 @@ def test_the_height_over_all_waves_makes_one_law_of_many():
 
 
 @pytest.mark.parametrize(("source", "hurst"), [("discs", 0.1), ("lines", 0.6), ("discs", 1.0)])
-def test_share_of_the_variance(source, hurst):
-    """Against sums over many waves; it rises to 1, the rest as N^(−2H)."""
+def test_variance_share_agrees_with_a_sum_over_waves(source, hurst):
+    """The reference is a sum over many waves. The share rises to 1, and the rest falls as N^(−2H)."""
     shares = [variance_share(hurst, number, source) for number in (33, 257, 2049, 16385)]
     assert np.all(np.diff(shares) > 0)
     rest = 1 - np.array(shares)
@@ -104,7 +104,7 @@ def test_share_of_the_variance(source, hurst):
 
 
 def pool(*realizations, scatter=0.0):
-    """Two grids of one Hurst exponent, with factors on vt/h of the same random numbers."""
+    """Make two grids of one Hurst exponent, with the same random factors on vt/h."""
     x = 10 ** np.arange(-4, 0, 0.1)
     members = []
     for elements, number in zip((ELEMENTS, 13049), realizations, strict=True):
@@ -117,14 +117,14 @@ OF_POOL = {"average": "geometric", "rms_convention": "disc", "elements_min": 10,
 
 
 def test_realizations_of_each_grid_are_drawn_independently():
-    """Resamples of equal curves on two grids are not correlated: 0.2 is four standard errors of 400 pairs."""
+    """Resamples of equal curves on two grids are uncorrelated: 0.2 is four standard errors of 400 pairs."""
     by_hurst = grids(pool(20, 20, scatter=0.1), "discs", **OF_POOL, resamples=400)
     coarse, fine = (member.log_velocity[1:, 0] for member in by_hurst[HURST])
     assert abs(np.corrcoef(coarse, fine)[0, 1]) < 0.2
 
 
-def test_grids_of_a_pool():
-    """One of which has too few realizations."""
+def test_grids_with_few_realizations_are_left_out():
+    """One of the grids has too few realizations."""
     by_hurst = grids(pool(4, 2), "discs", **OF_POOL, resamples=20)
     (member,) = by_hurst[HURST]
     assert (member.number, member.realizations, member.log_velocity.shape[0]) == (257, 4, 21)

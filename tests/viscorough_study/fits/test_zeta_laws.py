@@ -1,4 +1,4 @@
-"""Laws of the prefactor by one measure: known factors and shapes, differences, and what cannot be compared."""
+"""Laws of the prefactor by one measure: given factors and shapes, differences, and undefined comparisons."""
 
 import dataclasses
 
@@ -20,12 +20,12 @@ def compared(sample, *hurst_mins):
 
 
 def measures(table, quantity, law, hurst_min=0.0):
-    """Values of the three measures."""
+    """Return the values of the three measures."""
     return [measure_value(table, quantity, law, measure, hurst_min)[0] for measure in MEASURES]
 
 
-def test_a_common_factor_is_told_from_the_shape():
-    """1.3 times Eq. 4: the curves lie 1.3 times below the law, and their ratios are equal."""
+def test_measures_separate_a_common_factor_from_the_shape():
+    """With 1.3 times Eq. 4, the curves lie 1.3 times below the law, and their ratios are equal."""
     table = compared(evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst)))
     assert list(table) == list(COLUMNS)
     assert measures(table, "zeta", FOUR) == pytest.approx([np.log(1.3), 1.3, 0], abs=0.02)
@@ -39,7 +39,7 @@ def test_a_common_factor_is_told_from_the_shape():
 
 
 def test_realizations_of_each_hurst_exponent_are_drawn_independently():
-    """The common factor is a mean over Hurst exponents, whose errors add up as those of independent ensembles."""
+    """The common factor is a mean over Hurst exponents, so the errors of independent ensembles add up in it."""
     sample = evidence_with_factors(0.2)
     table = zeta_laws(sample.pooled, sample.regions, average="geometric", resamples=1000, seed=1)
     error = stats.t.ppf(0.975, 79) * 0.2 / np.sqrt(80) / np.sqrt(len(HURST))
@@ -48,21 +48,21 @@ def test_realizations_of_each_hurst_exponent_are_drawn_independently():
         assert np.log(high / low) / 2 == pytest.approx(error, rel=0.1)
 
 
-def test_spread_of_curves_is_that_at_equal_abscissae():
-    """With another exponent curves of all H drift from the law alike: the deviation grows, not the spread."""
+def test_spread_of_curves_is_taken_at_equal_abscissae():
+    """With another exponent, curves of all H drift from the law alike: the deviation grows, the spread does not."""
     straight, bent = (compared(evidence(bent=bent)) for bent in (0.0, 0.06))
     assert measures(bent, "curve", FOUR)[0] > measures(straight, "curve", FOUR)[0] + 0.1
     assert measures(bent, "curve", FOUR)[2] == pytest.approx(measures(straight, "curve", FOUR)[2], abs=0.01)
 
 
-def test_exponents_from_the_lowest_on():
+def test_smallest_exponent_limits_the_comparison():
     sample = evidence(lambda hurst: reference.zeta_elastic(hurst) * (1.5 if hurst < 0.5 else 1.0))
     table = compared(sample, 0.0, 0.6)
     assert measures(table, "zeta", FOUR, 0.6) == pytest.approx([0, 1, 0], abs=0.02)
     assert measures(table, "zeta", FOUR)[2] > 0.15
 
 
-def test_what_cannot_be_compared_is_undefined():
+def test_comparison_without_common_data_is_undefined():
     sample = evidence()
     nowhere = dataclasses.replace(sample, limits=LIMITS | {"elements_min": 10**9})
     assert compared(nowhere)["value"].isna().all()

@@ -1,4 +1,4 @@
-"""The answers at the top of the page: every sentence has the numbers of the claims whose verdicts it shows."""
+"""The answers at the top of the page: every sentence uses numbers of the claims whose verdicts it shows."""
 
 import re
 
@@ -12,13 +12,13 @@ from viscorough_study.page.results import Results
 
 TABLE = pd.read_csv(ROOT / "docs/claims.csv")
 FOUND = answers(Results({"claims": TABLE}, {}))
-# {claim: claim beyond the paper whose numbers follow its own in one sentence}
+# {claim: claim beyond the paper whose numbers follow in the same sentence}
 FOLLOWING = {"power_law": "power_law_control", "beta_lines": "exponent_small_hurst"}
 
 
 @pytest.fixture(scope="module")
 def text():
-    """The list of answers, with <claim> in place of a claim's verdict and {row column} in place of a number."""
+    """Return the list of answers with <claim> for a claim's verdict and {row column} for a number."""
     template = (ROOT / "workflow/page/page.html.jinja").read_text(encoding="utf-8")
     answer = template.split("<!DOCTYPE")[0] + re.search('<ol class="found">.*?</ol>', template, re.DOTALL)[0]
     marks = {name: f"<{name}>" for name in CLAIMS}
@@ -32,7 +32,7 @@ def text():
     return " ".join(re.sub("<.*?>", "", html).split()).replace("&lt;", "<").replace("&gt;", ">")
 
 
-def test_numbers_are_those_of_the_claims_whose_verdicts_stand_before_them(text):
+def test_numbers_belong_to_the_claims_named_before_them(text):
     parts = re.findall(r"((?:<\w+>[^{<]*)+)((?:\{\d+ \w+\}[^{<]*)+)", text)
     for verdicts, numbers in parts:
         rows, named = [int(row) for row in re.findall(r"\{(\d+)", numbers)], set(re.findall(r"<(\w+)>", verdicts))
@@ -40,12 +40,12 @@ def test_numbers_are_those_of_the_claims_whose_verdicts_stand_before_them(text):
     assert sum(numbers.count("{") for _, numbers in parts) == text.count("{")
 
 
-def test_verdicts_on_an_equation_are_those_of_the_claims_on_it(text):
+def test_verdicts_on_an_equation_belong_to_its_claims(text):
     named = re.findall(r"(Eq\. \d+)(?:, with Γ)?: <(\w+)>", text)
     assert [CLAIMS[claim]["where"] for _, claim in named] == [equation for equation, _ in named] == ["Eq. 4", "Eq. 11"]
 
 
-def test_intervals_and_cases_are_those_of_their_numbers(text):
+def test_intervals_and_cases_belong_to_their_numbers(text):
     intervals = re.findall(r"\{(\d+) value\} \[\{(\d+) low\}, \{(\d+) high\}\]", text)
     assert all(len(set(rows)) == 1 for rows in intervals)
     assert len(intervals) == text.count("[") > 2
@@ -62,7 +62,7 @@ def test_numbers_of_the_paper_are_the_expected_ones(text):
     assert len(columns_named) == text.count("the paper:") + text.count("the paper has")
 
 
-def test_least_largest_and_ends_are_those_of_all_cases():
+def test_least_largest_and_ends_cover_all_cases():
     by_claim = dict(list(TABLE.groupby("claim")))
     assert abs(FOUND["coincide"]["value"].value) == by_claim["coincide"]["value"].abs().max()
     ranges = {"power_law": [("value", "value")], "gamma": [("least", "largest"), ("expected", "expected")]}

@@ -1,4 +1,4 @@
-"""The text of the article: no number typed by hand, and results whose signs mean nothing in Typst."""
+"""The text of the article: no number typed by hand, and results whose characters are no markup of Typst."""
 
 import json
 import re
@@ -25,11 +25,11 @@ from viscorough_study.page.results import Number, Results
 
 SOURCE = read(ROOT / "workflow/article/article.typ.jinja")
 LAYOUT = r"chart\(\"\w+\.pdf\"|columns: \([^)]*\)|gutter: \w+|level: \d|#set text\(.*?\)|<[\w-]+>|@[\w-]+"
-REFERENCES = r"(?:Eqs?\.|Figures?) \d+(?: (?:to|and) \d+)?"  # of the paper
+REFERENCES = r"(?:Eqs?\.|Figures?) \d+(?: (?:to|and) \d+)?"  # references to the paper
 
 
 def numbers_typed(source):
-    """Digits in the running text and decimal numbers in formulas."""
+    """Return the digits in the running text and the decimal numbers in formulas."""
     text = re.sub(r"\{\{.*?\}\}|\{%.*?%\}", " ", source, flags=re.DOTALL)
     text = re.sub(f"{LAYOUT}|{REFERENCES}", " ", text)
     formulas = re.findall(r"\$[^$]*\$", text)
@@ -53,7 +53,7 @@ def test_results_are_no_markup():
 
 
 def test_control_compares_the_largest_values_with_and_without_a_roll_off():
-    """They lie at different X, so that values at one X would not compare like with like."""
+    """The values lie at different X, so values at a common X would not be comparable."""
     rows = [(0.6, x, np.nan, 8, g) for x, g in ((0.2, 0.1), (1.1, 0.5), (3.0, 0.2))]
     rows += [(0.6, x, 0.125, 8, g) for x, g in ((0.2, 0.1), (1.1, 0.3), (3.0, 0.4))]
     table = pd.DataFrame(rows, columns=["hurst", "x", "roll_off_wavelength", "surfaces", "g"])
@@ -80,7 +80,7 @@ CASES = pd.DataFrame(
 ).assign(low=0.0, high=1.0, conventions=8.0, agreeing=0.0)
 
 
-def test_cases_that_pass_are_apart_from_those_that_fail():
+def test_passing_and_failing_cases_are_separate():
     shown = cases_by_outcome(Results({"claims": CASES}, {}), "beta")
     cases = {outcome: [case["case"] for case in shown[outcome]["cases"]] for outcome in ("pass", "fail", "undecided")}
     assert cases == {"pass": ["H = 0.1"], "fail": ["H = 0.4"], "undecided": ["H = 0.6"]}
@@ -88,14 +88,14 @@ def test_cases_that_pass_are_apart_from_those_that_fail():
     assert shown["pass"]["cases"][0]["own_value"]
 
 
-def test_of_many_cases_those_farthest_from_the_paper_are_listed_in_order():
+def test_cases_farthest_from_the_paper_are_listed_in_order():
     shown = cases_by_outcome(Results({"claims": CASES}, {}), "depth")
     assert [case["case"] for case in shown["pass"]["cases"]] == ["H = 0.3", "H = 0.4", "H = 0.5", "H = 0.6"]
     assert (shown["pass"]["more"], shown["fail"]["cases"], shown["paper"].value) == (2, [], 1.0)
 
 
-def test_prefactors_stand_between_the_formulas_of_the_paper():
-    """At H = 1, where β = 1/2 and Γ(3/2) = √π/2: Eq. 4 is π/5, Eq. 11 without its factor √π/2."""
+def test_prefactors_are_listed_between_the_formulas_of_the_paper():
+    """At H = 1, β = 1/2 and Γ(3/2) = √π/2: Eq. 4 is π/5, and Eq. 11 without its factor is √π/2."""
     conventions = {"average": "geometric", "rms_convention": "disc", "window_rule": "default"}
     row = {"source": "discs", "case_group": "base", "hurst": 1.0, **conventions, "beta": 0.5, "beta_low": 0.4}
     row |= {"beta_high": 0.6, "zeta": 0.7, "zeta_low": 0.6, "zeta_high": 0.8}

@@ -1,4 +1,4 @@
-"""The calculator of the page computes what viscorough estimate does; in Chromium, and without a browser in Node."""
+"""The calculator of the page agrees with viscorough estimate, in Chromium and, without a browser, in Node."""
 
 import json
 import re
@@ -21,7 +21,7 @@ FIELDS = ("hurst", "rms", "diameter", "force", "viscosity", "time")
 
 
 def random_cases(count):
-    """Values in SI units, with X in the range of the law and beyond it."""
+    """Return values in SI units, with X inside and outside the range of the law."""
     random, cases = np.random.default_rng(1), []
     for _ in range(count):
         hurst, exponents = random.uniform(0.1, 1), random.uniform(-1, 1, 4)
@@ -56,18 +56,18 @@ def test_script_agrees_with_the_command():
 
 
 def mean_and_ends(estimated, name):
-    """The mean over many surfaces at the only time, and the ends of its interval."""
+    """Return the mean over many surfaces at the only time, and the ends of its interval."""
     mean, error = getattr(estimated, name)[0], getattr(estimated.law, f"{name}_error")
     return [mean, mean * (1 - error), mean * (1 + error)]
 
 
 def expected(case):
-    """The Estimate of the library."""
+    """Return the Estimate of the library."""
     return estimate(*(case[name] for name in FIELDS[:5]), [case["time"]])
 
 
 def shown(tmp_path, **entered):
-    """What the page shows for what is entered in the form, in a browser that does not complain."""
+    """Return the text that the page shows for the entered values, in a browser without an error message."""
     events = "".join(
         f'document.querySelector("[name={name}]").value = "{value}";'
         f'document.querySelector("[name={name}]").dispatchEvent(new Event("input", {{bubbles: true}}));'
@@ -79,7 +79,7 @@ def shown(tmp_path, **entered):
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
-def test_page_shows_what_the_command_computes_and_says_what_it_cannot_estimate(tmp_path):
+def test_page_agrees_with_the_command_and_explains_refusals(tmp_path):
     text = shown(tmp_path, hurst="0.7", rms="2", force="20")
     wanted = estimate(0.7, 2e-6, 0.01, 20.0, 1e9, [0.1])
     numbers = re.match(r"Depth (\S+) \[(\S+), (\S+)\] µm, velocity (\S+) \[(\S+), (\S+)\] µm/s", text).groups()

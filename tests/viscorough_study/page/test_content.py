@@ -1,4 +1,4 @@
-"""What the page says of the scale, the methods and other solvers."""
+"""Content of the page about the scale, the methods and other solvers."""
 
 import json
 from itertools import chain
@@ -15,7 +15,7 @@ from viscorough_study.page.results import Results
 
 
 def pool(path, description, realizations):
-    """A pool of two cases for each of two Hurst exponents."""
+    """Make a pool of two cases for each of two Hurst exponents."""
     cases = np.repeat(["h04_c1", "h04_c2", "h09_c1", "h09_c2"], realizations)
     variables = {
         "case": ("realization", cases.astype(object)),
@@ -35,7 +35,7 @@ def pool(path, description, realizations):
         (33, 80, 500, 4_000_000, "coarse"),
     ],
 )
-def test_scale_is_told_from_the_ensembles(tmp_path, elements, realizations, lines, points, name):
+def test_scale_follows_from_the_ensembles(tmp_path, elements, realizations, lines, points, name):
     discs = pool(tmp_path / "discs.nc", {"elements": elements}, realizations)
     lines_pool = pool(tmp_path / "lines.nc", {"points": points}, lines)
     content = scale(discs, lines_pool, NUMBERS)
@@ -44,7 +44,7 @@ def test_scale_is_told_from_the_ensembles(tmp_path, elements, realizations, line
     assert (content["discs"]["hurst"], content["discs"]["cases_per_hurst"]) == ([0.4, 0.9], 2)
 
 
-def test_the_fastest_method_that_reaches_an_error_is_named():
+def test_page_names_the_fastest_method_that_reaches_an_error():
     rows = [
         ("path", "path, at the depths", 1e-1, 0.1, 3e-2),
         ("path", "path, at the depths", 1e-3, 0.2, 5e-4),
@@ -65,7 +65,7 @@ def test_the_fastest_method_that_reaches_an_error_is_named():
     assert best_model(methods)["method"] == "MDR"
 
 
-def test_numbers_stand_in_the_rows_for_which_they_are_shown():
+def test_numbers_come_from_the_rows_that_the_page_names():
     conventions = {"rms_convention": "disc", "average": "geometric", "window_rule": "default"}
     levels = pd.DataFrame({"scene": ["a", "a", "b"], "choice": ["c", "d", "c"], "levels": [1, 2, 3]})
     fits = pd.DataFrame({"case_group": ["j", "k", "k"], **conventions, "beta": [0.1, 0.2, 0.3]})
@@ -86,7 +86,7 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     assert measured(Results({}, {}), conventions) == {"scans": [], "contacts": [], "groups": []}
 
 
-def test_worst_error_of_the_models_is_one_of_those_that_users_are_told():
+def test_worst_error_of_the_models_is_a_stated_error():
     rows = [("MDR", "stated", 0.3), ("MDR", "holds", 0.4), ("power law", "warned", 0.2), ("path", "warned", 0.5)]
     table = pd.DataFrame(rows, columns=["method", "verdict", "error"]).assign(group="a", case="b", reason="c")
     content = failures(Results({"failure_map": table}, {}))
@@ -96,7 +96,7 @@ def test_worst_error_of_the_models_is_one_of_those_that_users_are_told():
 
 
 def claims_table(*verdicts_of_cases):
-    """Cases of the claim on β with their verdicts, and with values ever farther from what the paper says."""
+    """Return cases of the claim on β with these verdicts, with values ever farther from the paper's."""
     table = pd.DataFrame({"verdict": verdicts_of_cases}).assign(claim="beta", kind="physics", where="Eq. 5")
     table = table.assign(case=[f"H = {i}" for i in range(len(table))], convention="", criterion="it is", reason="it is")
     table = table.assign(quantity="β", **dict.fromkeys(("conventions", "agreeing", "contradicting"), np.nan))
@@ -104,7 +104,7 @@ def claims_table(*verdicts_of_cases):
     return table.assign(value=0.1 * table.index, **numbers)
 
 
-def test_the_case_that_is_shown_has_the_verdict_of_the_claim_and_is_the_farthest_from_the_paper():
+def test_shown_case_has_the_verdict_of_the_claim_and_is_farthest():
     table = claims_table("reproduced", "undecided", "undecided", "reproduced")
     ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, table).values()
     assert (claim["verdict"], claim["deciding"]["case"]) == ("undecided", "H = 2")
@@ -114,7 +114,7 @@ def test_the_case_that_is_shown_has_the_verdict_of_the_claim_and_is_the_farthest
     assert claim["deciding"]["case"] == "H = 1"
 
 
-def test_a_verdict_that_the_full_scale_does_not_share_is_shown_with_its_case():
+def test_verdict_that_differs_at_full_scale_is_shown_with_its_case():
     table, full = claims_table("undecided", "reproduced"), claims_table("undecided", "not reproduced")
     ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, full).values()
     assert claim["full_scale"]["verdict"] == "not reproduced"
@@ -124,7 +124,7 @@ def test_a_verdict_that_the_full_scale_does_not_share_is_shown_with_its_case():
         assert claim["full_scale"] is None
 
 
-def test_media_are_named_and_their_exponents_taken_at_both_ends_and_near_x_of_one_hundredth():
+def test_media_have_exponents_at_both_ends_and_near_x_0_01():
     table = pd.DataFrame(
         {"medium": "kelvin_voigt", "hurst": 0.4, "x": [1e-4, 2e-2, 1e-2, 1.0], "exponent": [1.0, 0.5, 0.4, -9]}
     )

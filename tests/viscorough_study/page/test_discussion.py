@@ -9,8 +9,8 @@ from viscorough_study.page.results import Number, Results
 TABLE = pd.read_csv(ROOT / "docs/results/literature.csv")
 
 
-def test_numbers_of_others_stand_beside_ours():
-    """And every source is listed once, with how it is known."""
+def test_published_numbers_are_shown_next_to_ours():
+    """Every source is listed once, with a statement of how it is known."""
     sources, quantities = discussion(Results({"literature": TABLE}, {})).values()
     for name, rows in quantities.items():
         for row in rows:

@@ -1,4 +1,4 @@
-"""Numbers of the page: how they read, and where they stand."""
+"""Numbers of the page: their format, and the table cells that they come from."""
 
 import numpy as np
 import pandas as pd
@@ -19,7 +19,7 @@ def test_numbers_are_readable():
         assert abs(number - value) <= half_a_digit * 1.001
 
 
-def test_numbers_name_their_place():
+def test_numbers_name_their_table_cell():
     html = str(number(Number(0.123456, "claims", "value", 7)))
     html += str(number(Number(3, "claims", "verdict", counted="not <b>")))
     (_, place, text), (_, count, counted) = Page(html).numbers
@@ -31,7 +31,7 @@ def test_numbers_name_their_place():
     assert number(None) == number(Number(np.nan, "claims", "value", 0)) == "–"
 
 
-def test_results_give_numbers_with_their_places(tmp_path):
+def test_results_give_numbers_with_their_table_cells(tmp_path):
     table = pd.DataFrame({"kind": ["a", "b", "a"], "error": [0.3, 0.1, np.nan]})
     columns = {"kind": ("kind", ""), "error": ("error", "1")}
     files = tmp_path / "errors.csv", tmp_path / "errors.nc"
@@ -53,7 +53,7 @@ def test_captions_become_html_with_the_conventions_of_the_figures():
 
 
 def test_numbers_state_the_rule_and_the_source_file_of_their_table():
-    """That of the criterion for a claim, that of the script for a rule without a function."""
+    """The source file is the criterion's for a claim, and the script's for a rule without a function."""
     function = "viscorough_study.fits.fit_table.scaling_table"
     origins = table_origins(
         {"judge_claims": {"tables": ["claims"]}, "fit": {"function": function, "tables": ["scaling"]}}

@@ -10,11 +10,11 @@ TABLE = pd.DataFrame(
 )
 
 
-def test_no_row_beats_those_of_the_front():
+def test_no_row_beats_the_front():
     assert pareto_front(TABLE)["wall_s"].tolist() == [0.1, 1.0, 2.0, 5.0]
 
 
-def test_the_fastest_of_each_group_reach_the_error():
+def test_fastest_methods_of_each_group_reach_the_error():
     best = fastest(TABLE, 1e-2)
     assert {group: row["wall_s"] for group, row in best.items()} == {"path": 2.0, "marching": 3.0}
     assert fastest(TABLE, 1e-9) == {}

@@ -35,8 +35,8 @@ def test_every_case_is_in_one_pool(settings):
     assert cases.pool_batches(lines, "size_lines") == [("sizes", "0000-0239")]
 
 
-def test_a_batch_of_several_ensembles_holds_each_realization_once(settings):
-    """Batches that do not end where an ensemble ends: [ensemble, number] of all of them, in order."""
+def test_batches_of_several_ensembles_hold_each_realization_once(settings):
+    """Batches do not end where ensembles end. The test lists [ensemble, number] of all batches, in order."""
     settings["sizes"] |= {"hurst": [0.1, 0.9], "batch": 7}
     settings["sizes"]["discs"] = [{"elements": 33, "realizations": 9}, {"elements": 65, "realizations": 2}]
     case = cases.disc_cases(settings)["sizes"]
@@ -52,15 +52,15 @@ def test_a_batch_of_several_ensembles_holds_each_realization_once(settings):
     assert case["indentation"]["until_x"] == settings["sizes"]["until_x"] != settings["indentation"]["until_x"]
 
 
-def test_a_batch_has_the_same_realizations_of_all_combinations(settings):
-    """So that more realizations add batches, and change none."""
+def test_batch_has_the_same_realizations_of_all_combinations(settings):
+    """More realizations therefore add batches and change none."""
     batch = cases.batch_ensembles(cases.disc_cases(settings)["h04000"], "0002-0005")
     assert [ensemble["spawn_key"] for ensemble in batch] == [(1, 400000, number) for number in range(1, 10)]
     assert {(*ensemble["numbers"], ensemble["elements"]) for ensemble in batch} == {(2, 6, 257)}
 
 
-def test_a_tenth_combination_is_a_case_of_its_own(settings):
-    """So that it leaves the batches of the nine as they are, in whichever order the settings name them."""
+def test_tenth_combination_is_a_separate_case(settings):
+    """The batches of the nine combinations stay as they are, in whatever order the settings name them."""
     nine = cases.disc_cases(settings)
     combinations = settings["discs"]["combinations"]
     combinations.insert(4, combinations[0] | {"number": 10})
@@ -70,7 +70,7 @@ def test_a_tenth_combination_is_a_case_of_its_own(settings):
     assert [ensemble["name"] for ensemble in ten["h01000_10"]["ensembles"]] == ["h01000_c10"]
 
 
-def test_surfaces_that_are_compared_differ_only_in_what_the_paper_leaves_open(settings):
+def test_compared_surfaces_differ_only_in_open_choices_of_the_paper(settings):
     assert cases.surfaces_left_open(settings) == ["base"]  # without the control
     surfaces = cases.surfaces_left_open(merged(settings, read_settings("paper")))
     assert len(set(surfaces)) == len(surfaces) == 8

@@ -1,4 +1,4 @@
-"""The paper's data: every number has its place, and the settings at the paper's scale are its numbers."""
+"""The paper's data: every number states its place in the paper, and the settings of the full scale agree with them."""
 
 import yaml
 
@@ -6,7 +6,7 @@ from support.study import CLAIMS, NUMBERS, ROOT
 from viscorough_study.run.paper_data import read_paper
 
 
-def test_every_number_has_its_place():
+def test_every_number_states_its_place_in_the_paper():
     for section in NUMBERS.values():
         for entry in section.values():
             assert {"value", "where"} <= set(entry)
@@ -19,7 +19,7 @@ def test_numbers_and_claims_agree():
     assert f"{NUMBERS['agreement']['beta_hurst_min']['value']:g}" in CLAIMS["beta"]["statement"]
 
 
-def test_every_sentence_is_judged_by_claims_or_says_why_not():
+def test_every_sentence_has_claims_or_a_reason_for_none():
     sentences = read_paper(ROOT / "resources/paper", "sentences")
     assert {sentence["origin"] for sentence in sentences} == {"own", "quoted", "background"}
     for sentence in sentences:
@@ -29,7 +29,7 @@ def test_every_sentence_is_judged_by_claims_or_says_why_not():
     assert judged == {name for name, claim in CLAIMS.items() if claim["kind"] != "beyond"}
 
 
-def test_settings_of_the_paper_are_its_numbers():
+def test_settings_of_the_paper_agree_with_its_numbers():
     default, paper = (yaml.safe_load((ROOT / f"config/{name}.yaml").read_text()) for name in ("config", "paper"))
     numbers = {name: entry["value"] for name, entry in NUMBERS["boundary_elements"].items()}
     assert default["discs"]["elements"] == numbers["elements_across"]

@@ -10,7 +10,7 @@ from viscorough_study.run.rule_costs import COLUMNS, rule_costs
 HEADER = "s\th:m:s\tmax_rss\tmax_vms\n"
 
 
-def test_jobs_are_summed_up_by_rule(tmp_path):
+def test_jobs_are_summed_by_rule(tmp_path):
     (tmp_path / "indent/a").mkdir(parents=True)
     (tmp_path / "indent/a/0.tsv").write_text(HEADER + "10.0\t0:00:10\t200.0\t900\n")
     (tmp_path / "indent/b.tsv").write_text(HEADER + "30.0\t0:00:30\t100.4\t900\n")
@@ -23,7 +23,7 @@ def test_jobs_are_summed_up_by_rule(tmp_path):
 
 
 def shares(folder, **jobs):
-    """Shares of rules whose jobs ended at a time and took so many seconds, {rule: (end, seconds)}."""
+    """Return the shares of rules with these jobs, {rule: (time at the end, seconds)}."""
     for name, (end, seconds) in jobs.items():
         (folder / f"{name}.tsv").write_text(f"s\tmax_rss\n{seconds}\t\n")
         os.utime(folder / f"{name}.tsv", (end, end))
@@ -31,14 +31,14 @@ def shares(folder, **jobs):
     return table.set_index("rule")["share_s"].to_dict()
 
 
-def test_jobs_side_by_side_share_the_time_and_pauses_count_for_none(tmp_path, monkeypatch):
+def test_parallel_jobs_share_the_time_and_pauses_do_not_count(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "cpu_count", lambda: 4)
     times = shares(tmp_path, a=(1010, 10), b=(1012, 8), within=(1008, 2), next_day=(90000, 5))
     assert times == {"a": 6.67, "b": 4.67, "within": 0.67, "next_day": 5}
     assert sum(times.values()) == pytest.approx(12 + 5, abs=0.02)
 
 
-def test_shares_of_a_copied_folder_sum_up_to_the_time_of_all_jobs_over_the_cores(tmp_path, monkeypatch):
+def test_shares_of_a_copied_folder_sum_to_the_job_time_over_the_cores(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "cpu_count", lambda: 2)
     assert sum(shares(tmp_path, a=(1000, 10), b=(1000, 12), c=(1000, 14)).values()) == pytest.approx(18, abs=0.02)
 
@@ -48,7 +48,7 @@ def test_shares_of_a_copied_folder_sum_up_to_the_time_of_all_jobs_over_the_cores
     [b"", HEADER.encode(), b"s\th:m:s\n1\t0\n", b"\xff\xfe" + bytes(40), HEADER.encode() + b"-1.0\t0\t2.0\t3\n"],
     ids=["empty", "no job", "other columns", "bytes", "negative time"],
 )
-def test_a_damaged_file_is_named(tmp_path, content):
+def test_error_names_a_damaged_file(tmp_path, content):
     (tmp_path / "plot.tsv").write_bytes(content)
     with pytest.raises(ValueError, match=rf"^{re.escape(str(tmp_path))}/plot.tsv: not a benchmark of a job; delete"):
         rule_costs({"plot": [tmp_path / "plot.tsv"]})

@@ -1,4 +1,4 @@
-"""Files of measured surfaces that the settings name."""
+"""Files of measured surfaces named by the settings."""
 
 import pytest
 
@@ -14,7 +14,7 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_patterns_and_names(here):
+def test_settings_name_scans_by_files_and_patterns(here):
     entries = [{"name": "ground", "files": ["scans/*.txt"], "unit": "um"}, {"name": "other", "files": ["scans/b.npy"]}]
     by_name = scans(entries, {"until_x": 2.0})
     assert list(by_name) == ["ground_a_1", "ground_b", "other_b"]
@@ -34,6 +34,6 @@ def test_patterns_and_names(here):
     [("scans/c*.txt", "no file scans/c"), ("scans", "no file"), ("scans/b.*", "have the same name")],
 )
 @pytest.mark.usefixtures("here")
-def test_missing_and_ambiguous_files(files, message):
+def test_missing_and_ambiguous_files_are_refused(files, message):
     with pytest.raises(ValueError, match=message):
         scans([{"name": "ground", "files": [files]}], {})

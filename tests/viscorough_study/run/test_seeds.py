@@ -1,4 +1,4 @@
-"""Every stream of random numbers has its own keys, and published keys do not change."""
+"""Streams of random numbers have different keys, and published keys do not change."""
 
 import zlib
 

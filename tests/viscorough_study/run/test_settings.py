@@ -89,7 +89,7 @@ def test_wrong_settings_end_with_one_line(wrong, message):
     ],
 )
 def test_file_of_a_wrong_setting_is_named(change, names):
-    """Of a setting that several files give the last one; of settings that contradict each other all files."""
+    """If several files give a setting, the error names the last; if settings contradict each other, all their files."""
     default, other = read_settings("config"), {"lines": {"hurst": [0.1, 0.4, 0.6, 0.9]}, "discs": {"elements": 65}}
     sources = {"config.yaml": default, "other.yaml": other, "mine.yaml": change}
     with pytest.raises(ValueError, match=f"^{names}: "):
@@ -97,18 +97,18 @@ def test_file_of_a_wrong_setting_is_named(change, names):
 
 
 @pytest.mark.parametrize("name", ["config", "paper", "sizes", "methods", "test"])
-def test_settings_of_every_scale_are_right(name):
+def test_settings_of_every_scale_are_valid(name):
     check_settings(merged(read_settings("config"), read_settings(name)), SCHEMA)
 
 
-def test_settings_and_figures_know_the_same_conventions():
+def test_settings_and_figures_have_the_same_conventions():
     figures = SCHEMA["properties"]["figures"]["properties"]
     for name, values in VALUES.items():
         assert sorted(figures[name]["enum"]) == sorted(CONVENTION_LABELS[name]) == sorted(values)
 
 
 def leaves(rule, definitions, path=""):
-    """(key, schema) of every setting, lists of mappings as key[]."""
+    """Yield (key, schema) of every setting; lists of mappings have the key `key[]`."""
     if "$ref" in rule:
         rule = definitions[rule["$ref"].split("/")[-1]]
     if path:

@@ -17,7 +17,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize(("content", "message"), BROKEN.values(), ids=BROKEN)
-def test_broken_file_is_one_line(tmp_path, monkeypatch, capsys, content, message):
+def test_broken_file_is_reported_in_one_line(tmp_path, monkeypatch, capsys, content, message):
     monkeypatch.chdir(tmp_path)
     if content is not None:
         (tmp_path / "mine.yaml").write_bytes(content)
@@ -30,7 +30,7 @@ def test_broken_file_is_one_line(tmp_path, monkeypatch, capsys, content, message
     assert text.count("\n") == 1
 
 
-def test_readable_file(tmp_path, capsys):
+def test_valid_file_is_read(tmp_path, capsys):
     path = tmp_path / "mine.yaml"
     path.write_bytes(b"\xef\xbb\xbfdiscs: {elements: 9}\nlines: {<<: {batch: 2}, batch: 3}\n")
     assert read_settings_file(path) == {"discs": {"elements": 9}, "lines": {"batch": 3}}
@@ -38,8 +38,8 @@ def test_readable_file(tmp_path, capsys):
     assert capsys.readouterr() == ("", "")
 
 
-def test_files_on_a_command_line(tmp_path, monkeypatch, capsys):
-    """The values of other options, and targets, are no files of settings."""
+def test_files_of_settings_are_found_on_a_command_line(tmp_path, monkeypatch, capsys):
+    """Values of other options, and targets, are not files of settings."""
     monkeypatch.chdir(tmp_path)
     for name in ("a.yaml", "b.yaml"):
         (tmp_path / name).write_text("seed: 1\n")

@@ -1,4 +1,4 @@
-"""Digests follow what a script uses, and nothing else."""
+"""Digests follow exactly the sources that a script uses."""
 
 import textwrap
 
@@ -58,7 +58,7 @@ def project(tmp_path):
 
 
 def digests(project, *functions):
-    """Of each script, the same with what an earlier run kept as without it."""
+    """Return the digest of each script; results kept by an earlier run must not change it."""
     kept, result = project / ".snakemake/sources.json", []
     for file in (kept, project / "none.json"):
         sources = SourceDigests(project / "src", file)
@@ -70,7 +70,7 @@ def digests(project, *functions):
 
 
 def changed_by(project, name, old, new, *functions):
-    """Scripts whose digest an edit changes; functions : that all of them import by a name"""
+    """Return the scripts whose digest an edit changes; functions : functions that all scripts import by name"""
     before, path = digests(project, *functions), project / name
     text = path.read_text()
     assert text.count(old) == 1
@@ -94,8 +94,8 @@ def changed_by(project, name, old, new, *functions):
         ("scripts/direct.py", "def main():", 'def main():  # a comment\n    """Say what it does."""', set()),
     ],
 )
-def test_a_change_counts_where_it_is_used(project, name, old, new, scripts):
-    """Wording and layout count nowhere."""
+def test_change_counts_for_the_scripts_that_use_it(project, name, old, new, scripts):
+    """Wording and layout do not count."""
     assert changed_by(project, name, old, new) == scripts
 
 

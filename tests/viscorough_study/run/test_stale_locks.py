@@ -1,4 +1,4 @@
-"""Locks of killed runs are removed, those of living ones never."""
+"""Locks of killed runs are removed; locks of living runs are kept."""
 
 import os
 import subprocess
@@ -10,7 +10,7 @@ REMOVE = "from viscorough_study.run.stale_locks import remove_stale_locks; alive
 
 
 def test_locks_are_kept_while_any_other_process_lives(tmp_path, monkeypatch, capfd):
-    """And removed with one line when it has been killed."""
+    """After the other process is killed, its lock is removed with one line."""
     monkeypatch.chdir(tmp_path)
     lock = tmp_path / ".snakemake/locks/0.input.lock"
     command = [sys.executable, "-c", REMOVE + "print(flush=True); input()"]
@@ -30,7 +30,7 @@ def test_locks_are_kept_while_any_other_process_lives(tmp_path, monkeypatch, cap
     assert capfd.readouterr().err.count("\n") == 1
 
 
-def test_folder_that_cannot_be_made(tmp_path, monkeypatch):
+def test_folder_that_cannot_be_made_is_no_error(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / ".snakemake").touch()
     assert remove_stale_locks() is None

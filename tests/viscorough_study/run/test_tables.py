@@ -13,7 +13,7 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.run.tables import read_table, write_table
 
 
-def test_table_survives_both_files_exactly(tmp_path):
+def test_table_is_read_exactly_from_both_files(tmp_path):
     table = pd.DataFrame({"source": ["discs", "lines"], "beta": [0.1 + 0.2, np.nan], "realizations": [8, 50]})
     table["passed"] = [True, False]
     columns = {name: (f"{name} in words", "1") for name in table} | {"source": ("origin of the curves", None)}
@@ -31,7 +31,7 @@ def test_table_survives_both_files_exactly(tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["fits.csv", "fits.nc"]
 
 
-def test_table_without_rows_keeps_what_its_columns_hold(tmp_path):
+def test_table_without_rows_keeps_the_types_of_its_columns(tmp_path):
     columns = {"source": ("origin of the curves", ""), "beta": ("exponent", "1")}
     files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc")]
     write_table(pd.DataFrame(columns=list(columns)), *files, columns=columns, dimension="fit", title="Fits")
@@ -40,7 +40,7 @@ def test_table_without_rows_keeps_what_its_columns_hold(tmp_path):
 
 @pytest.fixture
 def files(tmp_path):
-    """The two files of a table of three rows, the last of which is a whole number."""
+    """Write the two files of a table of three rows."""
     table = pd.DataFrame({"source": ["discs", "lines", "discs"], "beta": [0.125, 0.25, 0.5]})
     columns = {"source": ("origin of the curves", ""), "beta": ("exponent", "1")}
     files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc")]
@@ -58,7 +58,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("change", CHANGES)
-def test_a_table_that_is_cut_short_or_changed_is_refused(files, change):
+def test_truncated_or_changed_table_is_refused(files, change):
     csv, nc = files
     assert read_table(csv)["beta"].tolist() == [0.125, 0.25, 0.5]
     csv.write_text(CHANGES[change](csv.read_text()))
@@ -71,7 +71,7 @@ def test_a_table_that_is_cut_short_or_changed_is_refused(files, change):
         read_table(csv)
 
 
-def test_missing_texts_are_read_as_asked(files):
+def test_missing_texts_are_read_as_requested(files):
     csv, _ = files
     write_table(
         pd.DataFrame({"reason": ["", "NA"], "beta": [0.5, np.nan]}),

@@ -26,7 +26,7 @@ ROWS = [
 TABLE = pd.DataFrame(ROWS, columns=["claim", "case", "value", "expected", "verdict"])
 
 
-def test_answer_states_what_holds_where_and_by_how_much_the_rest_differs():
+def test_answer_states_agreements_and_sizes_of_differences():
     assert answer(TABLE) == (
         "The curves of each Hurst exponent collapse. With boundary elements the exponent is H/(1 + H) at H = 0.6 and "
         "0.9 (the paper: above 0.4), and larger by 0.05 at 0.4 and by 0.16 at 0.1. The method of dimensionality "
@@ -51,7 +51,7 @@ def test_answer_states_what_holds_where_and_by_how_much_the_rest_differs():
         ("zeta_viscous", "H = 0.1", "reproduced", "nearly coincide. The factor 1/Γ(2 − α) is an error"),
     ],
 )
-def test_answer_follows_a_verdict(claim, case, verdict, text):
+def test_answer_changes_with_a_verdict(claim, case, verdict, text):
     changed = TABLE.copy()
     changed.loc[(changed["claim"] == claim) & (changed["case"] == case), "verdict"] = verdict
     assert text in answer(changed)

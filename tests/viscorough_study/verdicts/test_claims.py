@@ -1,4 +1,4 @@
-"""Verdicts: on ensembles that obey a law exactly, that miss it, and that obey it under one convention only."""
+"""Verdicts on ensembles that obey a law exactly, that miss it, and that obey it under one convention only."""
 
 import dataclasses
 
@@ -62,13 +62,13 @@ def test_verdicts_on_surfaces_that_obey_equation_4(table):
 
 
 def test_factor_of_equation_9_belongs_to_equation_11():
-    """ζ = 2 − H with the factor in the law is (2 − H) Γ(2 − α) without it."""
+    """With the factor Γ in the law ζ = 2 − H; without the factor the same curves have ζ = (2 − H) Γ(2 − α)."""
     sample = evidence(lambda hurst: (2 - hurst) * gamma_function(2 - reference.exponent_alpha(hurst)))
     verdicts = overall(judge({name: CLAIMS[name] for name in LAWS}, sample))
     assert verdicts == dict.fromkeys(LAWS, "reproduced") | {"zeta_elastic": "not reproduced"}
 
 
-def test_conventions_are_named_under_which_a_claim_holds():
+def test_verdict_names_the_conventions_under_which_a_claim_holds():
     sample = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst), square=1 / 1.3)
     rows = judge(ELASTIC, sample)
     assert overall(rows) == {"zeta_elastic": "reproduced under a stated convention"}
@@ -87,8 +87,8 @@ def test_surfaces_are_among_the_conventions_under_which_a_claim_holds():
     assert rows["convention"].str.endswith("surfaces longer_period").all()
 
 
-def test_laws_up_to_a_common_factor():
-    """1.4 times Eq. 4: its shape holds, its value and the shape of Eq. 11 do not; nor does any for a constant ζ."""
+def test_shape_of_a_law_is_judged_without_a_common_factor():
+    """1.4 times Eq. 4 meets the shape of Eq. 4, but not its value or the shape of Eq. 11. A constant ζ meets none."""
     names = "zeta_elastic", "zeta_elastic_shape", "zeta_viscous_shape"
     claims = {name: CLAIMS[name] for name in names}
     scaled = judge(claims, evidence(lambda hurst: 1.4 * reference.zeta_elastic(hurst)))
@@ -98,22 +98,22 @@ def test_laws_up_to_a_common_factor():
 
 
 @pytest.mark.parametrize(("claim", "factor"), [("collapse", 0 * X + 0.5), ("hurst_only", X**0.2)])
-def test_scatter_of_combinations_is_seen(claim, factor):
+def test_scatter_of_combinations_is_detected(claim, factor):
     wide = evidence()
     first = wide.discs["case"] == "c0"
     wide.discs["stiffness"] = wide.discs["stiffness"] * xr.where(first, xr.DataArray(factor, dims="abscissa"), 1)
     assert overall(judge({claim: CLAIMS[claim]}, wide)) == {claim: "not reproduced"}
 
 
-def test_scatter_of_few_realizations_is_not_taken_for_that_of_combinations():
-    """20 realizations that scatter by 0.5 shift means of combinations by 0.1, a third of what Hurst exponents do."""
+def test_scatter_of_few_realizations_does_not_count_for_combinations():
+    """20 realizations that scatter by 0.5 shift means of combinations by 0.1, a third of the effect of H."""
     few = judge({"collapse": CLAIMS["collapse"]}, evidence(scatter=0.5))
     assert overall(few) == {"collapse": "undecided"}
     assert (few["low"] == 0).all()
 
 
-def test_interval_decides():
-    """Of a tolerance of 0.03: what lies inside holds, what lies outside fails, what reaches over its end is open."""
+def test_interval_decides_the_verdict():
+    """The tolerance is 0.03: intervals inside hold, intervals outside fail, and intervals across its end are open."""
     sample = evidence()
     scaling = sample.tables["scaling"]
     rows = scaling["source"] == "discs"
@@ -160,17 +160,17 @@ def test_every_claim_that_fails_belongs_to_a_finding(table):
     assert findings(one, CLAIMS) == {FINDINGS["gamma"]: ["gamma"]}
 
 
-def test_without_region_nothing_is_claimed():
+def test_claims_without_a_region_are_undecided():
     few = dataclasses.replace(evidence(), limits=LIMITS | {"elements_min": 10**9})
     names = ("collapse", "depth", "master_curve")
     rows = judge({name: CLAIMS[name] for name in names}, few)
-    rows = rows[~rows["case"].str.endswith("lines")]  # whose fits are in the table
+    rows = rows[~rows["case"].str.endswith("lines")]  # the fits of lines are in the table
     assert set(rows["verdict"]) == {"undecided"}
     assert rows["value"].isna().all()
     assert overall(rows) == dict.fromkeys(names, "undecided")
 
 
-def test_a_claim_that_fails_in_other_conventions_is_reproduced_under_those_of_the_figures():
+def test_claim_may_fail_outside_the_conventions_of_the_figures():
     found = evidence()
     scaling, law = found.tables["scaling"], reference.exponent_beta(0.9)
     other = (scaling["source"] == "discs") & (scaling["hurst"] == 0.9) & (scaling["average"] == "arithmetic")
@@ -190,7 +190,7 @@ def test_scoreboard_counts_the_claims_on_physics(table):
     assert verdicts == sorted(verdicts, key=VERDICTS.index)
 
 
-def test_markdown_has_a_row_for_every_claim_and_sums_up_many_cases(table):
+def test_markdown_has_a_row_for_every_claim_and_few_cases(table):
     lines = markdown(table, CLAIMS).splitlines()
     assert [line.removeprefix("### ") for line in lines if line.startswith("###")] == list(KINDS.values())
     assert sum(line.startswith("| **") for line in lines) == len(CLAIMS)
@@ -203,8 +203,8 @@ def test_markdown_has_a_row_for_every_claim_and_sums_up_many_cases(table):
 
 
 @pytest.mark.parametrize(("across", "trial"), [(129, 0), (127, 1)])
-def test_scale_attributes(across, trial):
-    fewer = evidence().discs.isel(realization=slice(6, None))  # of the first Hurst exponent
+def test_attributes_state_the_scale_and_mark_trial_runs(across, trial):
+    fewer = evidence().discs.isel(realization=slice(6, None))  # fewer realizations of the first Hurst exponent
     attributes = scale_attributes(dataclasses.replace(evidence(), across=across, discs=fewer))
     names = ("elements_across", "paper_elements_across", "realizations")
     assert [attributes[name] for name in names] == [across, 257, 74]

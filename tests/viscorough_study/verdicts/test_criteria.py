@@ -39,11 +39,11 @@ def sample():
     return evidence()
 
 
-def test_variance_between_groups_is_covered_at_the_stated_rate():
-    """Of 1000 draws, each end of the 95 % interval misses the true ratio of variances in 2.5 %, the median in half.
+def test_interval_of_the_variance_between_groups_has_its_stated_coverage():
+    """In 1000 draws, each end of the 95 % interval misses the true ratio of variances in 2.5 %, the median in half.
 
     The counts must lie in the 99.99 % range of the binomial distribution: 8 to 47 of 1000 for the ends. The groups
-    scatter so much that the least upper end does not matter.
+    scatter so much that the smallest allowed upper end has no effect.
     """
     random, draws, between, within = np.random.default_rng(7), 1000, 2.0, 2.0
     beyond = np.zeros(3)
@@ -66,16 +66,16 @@ def test_variance_between_groups_is_never_negative_and_needs_two_groups():
     assert np.isnan([excess_variance([same[:1]]), excess_variance([[np.zeros(1)] * 4])]).all()
 
 
-def test_variance_between_groups_of_several_sets_leaves_out_that_between_the_sets():
-    """Four sets tell the component four times as well as one, by the freedom 32 and 284 in place of 8 and 71."""
+def test_variance_between_groups_excludes_the_variance_between_sets():
+    """Four sets narrow the interval as much as 32 and 284 degrees of freedom, instead of 8 and 71 for one set."""
     groups = np.random.default_rng(5).standard_normal((4, 9, 80))
     apart = excess_variance([list(group + 10 * i) for i, group in enumerate(groups)])
     np.testing.assert_allclose(apart, excess_variance([list(group) for group in groups]), rtol=1e-9)
     assert apart[2] < 0.5 * np.mean([excess_variance([list(group)])[2] for group in groups])
 
 
-def test_number_of_cases_and_of_realizations_enter_a_verdict():
-    """1.05 to 1.35 lies outside of -1 to 1, of four cases from 1.01 on, of fifty from 0.95 on."""
+def test_verdict_depends_on_the_numbers_of_cases_and_realizations():
+    """For four cases, 1.05 to 1.35 lies outside of -1 to 1 (outside begins at 1.01); for fifty cases at 0.95."""
     sample, values = evidence(), (1.2, 1.05, 1.35)
     assert sample.within(values, -1.0, 1.0, realizations=80, cases=4) is False
     assert sample.within(values, -1.0, 1.0, realizations=80, cases=50) is None
@@ -88,7 +88,7 @@ def test_number_of_cases_and_of_realizations_enter_a_verdict():
 
 
 def test_claims_on_ensembles_of_few_realizations_are_undecided():
-    """40 discs for every Hurst exponent: the same evidence decides with 80."""
+    """The evidence has 40 discs for every Hurst exponent; with 80 discs it decides."""
     many, few = evidence(scatter=0.1), evidence(scatter=0.1)
     for name in ("scaling", "plateaus", "zeta_laws"):
         few.tables[name]["realizations"] = 40
@@ -100,14 +100,14 @@ def test_claims_on_ensembles_of_few_realizations_are_undecided():
         assert {case["verdict"] for case in JUDGES[name](few, tolerance)} == {"undecided"}, name
 
 
-def test_a_convention_counts_where_the_data_do_not_decide_but_not_without_a_value():
+def test_convention_counts_only_for_cases_with_a_value():
     undecided, undefined = (judged("a", (value, 0.9, 1.1), 1.0, None, "square") for value in (1.0, np.nan))
     assert (undecided["verdict"], undecided["convention"]) == ("reproduced under a stated convention", "square")
     assert (undefined["verdict"], undefined["convention"]) == ("undecided", "")
 
 
-def test_all_errors_of_bodies_of_revolution_are_held_to_the_tolerance(sample):
-    """Also those of the stiffness, of which the finest grid decides."""
+def test_all_errors_of_bodies_of_revolution_must_meet_the_tolerance(sample):
+    """The errors of the stiffness are included. The finest grid decides."""
     rows = [("depth", 65, 1e-2), ("depth", 129, 1e-5), ("stiffness", 65, 3e-2), ("stiffness", 129, 3e-3)]
     validation = pd.DataFrame(rows, columns=["quantity", "elements", "error"]).assign(case="cone_reduction")
     sample.tables["validation"] = validation
@@ -135,8 +135,8 @@ def test_settings_decide_how_long_a_power_law_must_be(sample):
     assert {case["verdict"] for case in power_law_decades(changed, 0.05)} == {"undecided"}, "the test loses power laws"
 
 
-def test_spread_of_slopes_in_region_b_decides_both_for_discs_and_for_the_control(sample):
-    """The intervals are 0.01 to 0.03; the control has no power law, so it should not pass."""
+def test_spread_of_slopes_decides_for_discs_and_for_the_control(sample):
+    """The intervals are 0.01 to 0.03. The control has no power law, so it should not pass."""
     control = sample.tables["plateaus"].assign(case_group="roll_off")
     sample.tables["plateaus"] = pd.concat([sample.tables["plateaus"], control], ignore_index=True)
     for tolerance, near, told in ((0.05, "reproduced", "not reproduced"), (0.02, *["undecided"] * 2)):
@@ -146,7 +146,7 @@ def test_spread_of_slopes_in_region_b_decides_both_for_discs_and_for_the_control
 
 
 def test_lines_belong_to_the_master_curve(sample):
-    """Lines that equal the discs have their ratio to Eq. 12; twice their ζ is half the ratio."""
+    """Lines that equal the discs have the same ratio to Eq. 12; doubling their ζ halves the ratio."""
     discs, lines = np.split(np.array(list(master_curve(sample, 0.15))), 2)
     for disc, line in zip(discs, lines, strict=True):
         assert line["case"] == f"{disc['case']}, lines"
@@ -159,7 +159,7 @@ def test_lines_belong_to_the_master_curve(sample):
 
 
 def test_exponents_up_to_the_limit_of_the_claim_are_shown_apart(sample):
-    """Of H = 0.4, 0.6 and 0.9 the paper claims H/(1 + H) for those above 0.4."""
+    """Of H = 0.4, 0.6 and 0.9, the paper claims H/(1 + H) only above 0.4."""
     assert [case["case"] for case in exponent_small_hurst(sample, 0.03)] == ["H = 0.4, discs", "H = 0.4, lines"]
     scaling = sample.tables["scaling"]
     first = (scaling["source"] == "discs") & (scaling["hurst"] == 0.4)
@@ -179,8 +179,8 @@ def test_curves_that_leave_the_first_region_sooner_separate_first(sample):
         assert case["verdict"] == "reproduced"
 
 
-def test_interval_of_the_separation_is_that_of_independent_ensembles():
-    """ln X at the end of region (a) scatters by 1/α of ln κ, and the variances of both Hurst exponents add up."""
+def test_interval_of_the_separation_assumes_independent_ensembles():
+    """ln X at the end of region (a) scatters by 1/α of ln κ. The variances of both Hurst exponents add up."""
     sample = dataclasses.replace(evidence_with_factors(0.2), resamples=1000)
     error = stats.t.ppf(0.975, 79) * 0.2 / np.sqrt(80)
     for case, pair in zip(separation(sample, 0.0), pairwise(HURST), strict=True):
@@ -188,8 +188,8 @@ def test_interval_of_the_separation_is_that_of_independent_ensembles():
         assert np.log(case["high"] / case["low"]) / 2 == pytest.approx(expected, rel=0.1)
 
 
-def test_contact_is_complete_only_where_most_elements_touch(sample):
-    """These discs have κ² of their elements in contact, and all of them where κ is 1."""
+def test_contact_is_complete_only_if_most_elements_touch(sample):
+    """The contact fraction of these discs is κ², so it is 1 where κ is 1."""
     assert {case["verdict"] for case in complete_contact(sample, 0.1)} == {"reproduced"}
     halved = sample.discs.assign(contact_count=sample.discs["contact_count"] / 2)
     cases = list(complete_contact(dataclasses.replace(sample, discs=halved), 0.1))
@@ -197,8 +197,8 @@ def test_contact_is_complete_only_where_most_elements_touch(sample):
     assert all(case["value"] == pytest.approx(0.5, abs=0.01) for case in cases)
 
 
-def test_contact_at_the_end_of_the_curves_is_shown_beside_that_at_the_start_of_the_last_region(sample):
-    """Here elements still join after the slope has become 1, as if 0.5 of them touched there and 0.95 at the end."""
+def test_contact_at_the_end_of_the_curves_is_judged_separately(sample):
+    """Elements still join after the slope has become 1: a fraction of 0.5 touches there, and 0.95 at the end."""
     start = {case["case"].split(", ")[0]: case["value"] for case in complete_contact(sample, 0.1)}
     late = xr.where(sample.discs["x"] > 20, 0.95, 0.5)
     discs = sample.discs.assign(contact_count=sample.discs["contact_count"] * late)
@@ -211,7 +211,7 @@ def test_contact_at_the_end_of_the_curves_is_shown_beside_that_at_the_start_of_t
 
 
 def test_change_of_stiffness_with_the_grid_is_judged_at_given_depths(sample):
-    """Not at given forces, and over the grids only on which enough elements touch."""
+    """The comparison is not at given forces, and only over grids with enough elements in contact."""
     cases = list(no_grid(sample, 0.12))
     assert [case["verdict"] for case in cases] == ["not reproduced", "undecided", "reproduced"]
     assert [(case["least"], case["largest"]) for case in cases] == [(0.2, 0.3)] * 3
@@ -219,7 +219,7 @@ def test_change_of_stiffness_with_the_grid_is_judged_at_given_depths(sample):
     assert [case["verdict"] for case in no_grid(sample, 0.12)] == ["undecided"]
 
 
-def test_interval_of_the_exponent_that_250_indentations_give():
+def test_interval_of_the_exponent_from_250_indentations():
     sample = evidence(scatter=0.0)
     random = np.random.default_rng(5).standard_normal(sample.discs.sizes["realization"])
     exponent = xr.DataArray(0.1 * random, dims="realization")
@@ -247,7 +247,7 @@ def test_limit_of_the_exponent_needs_lines_and_discs_of_that_exponent(sample):
 
 
 def test_contact_problems_are_changes_of_the_contact_and_explicit_steps(sample):
-    """Every disc is fully in contact at the end; 256 steps are the fewest with an error below 1 %."""
+    """Every disc is in complete contact at the end. 256 is the smallest number of steps with an error below 1 %."""
     changes, steps = contact_problems(sample, 1e7)
     assert (changes["value"], changes["verdict"]) == (ELEMENTS, "reproduced")
     assert (steps["value"], steps["verdict"]) == (256, "reproduced")
@@ -258,8 +258,8 @@ def test_contact_problems_are_changes_of_the_contact_and_explicit_steps(sample):
     assert [case["verdict"] for case in contact_problems(sample, 1e7)] == ["reproduced", "undecided"]
 
 
-def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():
-    """A parabola of ln(vt/h) over ln X has the least-squares slope of its middle: a quarter of a decade, five steps."""
+def test_slope_and_prefactor_of_the_last_region_follow_the_curve():
+    """A parabola of ln(vt/h) over ln X has a least-squares slope equal to its slope in the middle of the five steps."""
     log_x = np.log(X)
     stiffness = np.tile(X / np.exp(0.2 + 0.7 * log_x + 0.05 * log_x**2), (3, 1))
     sample = dataclasses.replace(evidence_of_curves(stiffness, stiffness), rules={"end_decades": 0.26})
@@ -268,13 +268,13 @@ def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():
 
 
 def test_interval_of_the_depth_contains_the_scatter_of_the_exponent():
-    """Of power laws of exponents β_i the ratio is ⟨β⟩⟨1/β⟩ on these discs: far more certain than ⟨1/β⟩ for a given ⟨β⟩.
+    """For power laws with exponents β_i the ratio is ⟨β⟩⟨1/β⟩, which is known far better than ⟨1/β⟩ for a given ⟨β⟩.
 
-    It is close to 1 for every draw of discs, so an interval that left the exponent fixed would be several times wider.
+    The ratio is close to 1 for every draw of discs. An interval with a fixed exponent would be several times wider.
     """
     exponents = 0.4 * np.exp(0.2 * np.random.default_rng(4).standard_normal((60, 1)))
     stiffness = 0.5 * X ** (1 - exponents)
-    count = np.where(X < 1e-3, 2, 20) * np.ones_like(stiffness)  # region (b) far from the first abscissa
+    count = np.where(X < 1e-3, 2, 20) * np.ones_like(stiffness)  # region (b) begins far from the first abscissa
     (case,) = depth(evidence_of_curves(stiffness, count), 0.1)
     assert case["value"] == pytest.approx(exponents.mean() * (1 / exponents).mean(), rel=0.015)
     with_fixed_exponent = 2 * 1.96 * 0.2 / np.sqrt(60)

@@ -1,4 +1,4 @@
-"""Criteria of claims on lines that stand for surfaces, by tables made up for them."""
+"""Criteria for claims on the MDR of lines, applied to tables with given values."""
 
 import dataclasses
 
@@ -10,7 +10,7 @@ from viscorough_study.verdicts import mdr_criteria
 
 
 def verdicts(claim, tolerance, **tables):
-    """Verdicts on the cases of a claim by tables of `mdr_tables`, or by these."""
+    """Return verdicts on the cases of a claim by tables of `mdr_tables`, or by the given tables."""
     good = evidence()
     made = dataclasses.replace(good, tables=good.tables | tables)
     return [case["verdict"] for case in getattr(mdr_criteria, claim)(made, tolerance)]
@@ -28,13 +28,13 @@ def verdicts(claim, tolerance, **tables):
         ("single_surface", 1, 1.0, 1.5),
     ],
 )
-def test_equal_quantities_are_reproduced_and_unlike_ones_are_not(claim, windows, drift, ratio):
+def test_equal_quantities_are_reproduced_and_different_ones_are_not(claim, windows, drift, ratio):
     single = {"ratio": 1.02} if claim == "single_surface" else {}
     assert verdicts(claim, 0.1, **mdr_tables(**single)) == ["reproduced"] * windows * len(HURST)
     assert verdicts(claim, 0.1, **mdr_tables(drift, ratio)) == ["not reproduced"] * windows * len(HURST)
 
 
-def test_intervals_that_reach_over_the_tolerance_are_undecided():
+def test_intervals_across_the_tolerance_are_undecided():
     assert set(verdicts("lambda_constant", 0.1, **mdr_tables(drift=1.1))) == {"undecided"}
     few = mdr_tables(ratio=1.2)["reduction"].assign(realizations=3)
     assert set(verdicts("single_surface", 0.1, reduction=few)) == {"undecided"}

@@ -1,4 +1,4 @@
-"""The grid solver alone: its solution, tangent, rounding bounds and box, against dense matrices."""
+"""The grid solver: its solution, tangent, rounding bounds and box, against dense matrices."""
 
 from dataclasses import replace
 
@@ -22,15 +22,15 @@ def whole_grid(indenter, tolerance, options=DEFAULT):
 
 
 def contact_on(grid, indenter, depth):
-    """The contact at a reduced depth, from the unloaded state."""
+    """Solve the contact at a reduced depth, starting without load."""
     start = ContactSolver(indenter, 1e-6).unloaded_state()
     return grid.solve(replace(start, fields=grid.fields(start)), depth)
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
 @pytest.mark.parametrize("hurst", [0.1, 0.9])
-def test_tangent_has_an_energy_error_within_the_limit(hurst, tolerance):
-    """|q − q*|/|q*| in energy is at most √tolerance and at most 0.01; its square is the relative error of k."""
+def test_energy_error_of_the_tangent_is_within_the_limit(hurst, tolerance):
+    """The energy norm of q − q* over q* is at most √tolerance and 0.01; its square is the relative error of k."""
     disc = self_affine_disc(hurst, 33, seed=5)
     elements, _, grid = whole_grid(disc, tolerance)
     allowed = min(1e-2, tolerance**0.5)
@@ -46,8 +46,8 @@ def test_tangent_has_an_energy_error_within_the_limit(hurst, tolerance):
         assert total == pytest.approx(exact.sum(), rel=allowed**2)
 
 
-# In single precision without recomputation the error of the gap grows, and its bound with it. Where initial gaps are of
-# very different size, single precision must not lose what small depths change in large gaps.
+# In single precision without recomputation the error of the gap grows, and its bound grows with it. If initial gaps
+# differ by orders of magnitude, small changes of large gaps must not be lost in single precision.
 ROUNDED = {
     "never recomputed": (
         self_affine_disc(0.6, 25, seed=2),
@@ -94,7 +94,7 @@ def test_double_precision_does_not_change_the_solution():
 
 
 def test_levels_far_apart_need_few_applications_of_the_operator():
-    """It was 140 with the predicted sets, no conjugacy while elements leave, and recomputations apart from steps."""
+    """It was 140 with predicted contact sets, no conjugacy in the release phase, and separate recomputations."""
     applications = 0
     for hurst in (0.4, 0.8):
         for seed in (1, 2):

@@ -21,7 +21,7 @@ def influence(places, width=WIDTH, aspect=1.0):
 
 
 def approximate_inverse(inside, aspect=1.0, precision=np.float64, before=()):
-    """The places of a set, and M on it as a matrix, column by column; prepared for other sets before."""
+    """Return the places of a set and the matrix of M on it, column by column, after preparation for other sets."""
     preconditioner = Preconditioner(*inside.shape, aspect=aspect, precision=precision)
     for of_set in (*before, inside):
         preconditioner.prepare(of_set.ravel(), np.count_nonzero(of_set))
@@ -39,7 +39,7 @@ def assert_close_to_the_inverse(inside, largest=1.4, aspect=1.0, precision=np.fl
     """Steps of length one and the error estimate of the tangent rely on these bounds of the eigenvalues of M K."""
     places, inverse = approximate_inverse(inside, aspect=aspect, precision=precision, before=before)
     np.testing.assert_allclose(inverse, inverse.T, atol=1e-13 if precision == np.float64 else 1e-6)
-    # With K = R Rᵀ the eigenvalues of M K are those of Rᵀ M R.
+    # With K = R Rᵀ, M K has the same eigenvalues as Rᵀ M R.
     root = scipy.linalg.cholesky(influence(places, inside.shape[1], aspect), lower=True)
     values = scipy.linalg.eigvalsh(root.T @ (inverse + inverse.T) @ root / 2)
     assert values[0] > LEAST_EIGENVALUE
@@ -60,7 +60,7 @@ def test_sparse_part_is_exact_for_sets_within_reach(present, aspect):
 
 
 def sets():
-    """Contact sets on 96 × 96 elements and strips, enough for blocks of blocks, few enough for eigenvalues."""
+    """Yield contact sets on 96 × 96 elements and on strips: large enough for three levels of the preconditioner."""
     row, column = np.mgrid[:96, :96]
     random = np.random.default_rng(1).random(row.shape)
     hills = sum(np.hypot(row - a, column - b) < 6 for a, b in np.random.default_rng(2).integers(8, 88, (14, 2))) > 0
@@ -79,7 +79,7 @@ def sets():
     yield "full strip", np.ones((400, 1), bool)
 
 
-# Sets of rectangular elements: those with the smallest and the largest eigenvalues among all sets above.
+# The rectangular elements with the smallest and the largest eigenvalues among all sets above.
 RECTANGLES = [("scattered", 2.0), ("lattice", 0.2), ("lattice", 5.0), ("square", 5.0), ("hills with holes", 5.0)]
 CASES = [(*case, np.float64) for case in [(name, 1.0) for name, _ in sets()] + RECTANGLES]
 ROUNDED_TO_BYTES = [("scattered", 1.0), ("square", 5.0), ("lattice", 5.0), ("strip", 1.0)]
@@ -87,16 +87,17 @@ CASES += [(*case, np.float32) for case in ROUNDED_TO_BYTES]
 
 
 @pytest.mark.parametrize(("name", "aspect", "precision"), CASES)
-def test_symmetric_and_close_to_the_inverse_for_any_set(name, aspect, precision):
+def test_preconditioner_is_symmetric_and_close_to_the_inverse(name, aspect, precision):
     inside = np.pad(dict(sets())[name], REACH)
     assert_close_to_the_inverse(inside, 1.4 if aspect in (1, 2) else 1.6, aspect, precision)
 
 
 @pytest.mark.parametrize("precision", [np.float64, np.float32])
-def test_it_follows_the_set_on_any_number_of_threads(precision):
-    """Where few elements join and leave, only their rows of G are renewed; where many do, all are.
+def test_preconditioner_follows_the_set_on_any_number_of_threads(precision):
+    """After few changes only the affected rows of G are renewed, after many changes all rows.
 
-    Between parts of the grid, elements that join change rows of G of the next part; in the first part all are renewed.
+    Between bands of the grid, elements that join change rows of G of the next band. All rows of the first band are
+    renewed.
     """
     row, random = np.arange(600)[:, None], np.random.default_rng(9).random((600, 600))
     former = np.pad(random < 0.6, REACH)
@@ -119,7 +120,7 @@ def test_it_follows_the_set_on_any_number_of_threads(precision):
     np.testing.assert_array_equal(*results)
 
 
-def test_coarse_levels_follow_the_set_to_as_many_other_blocks():
+def test_coarse_levels_follow_a_set_that_moves_to_other_blocks():
     left = np.zeros((68, 68), dtype=bool)
     left[REACH:-REACH, REACH : REACH + 30] = True
     right = left[:, ::-1]
@@ -128,8 +129,8 @@ def test_coarse_levels_follow_the_set_to_as_many_other_blocks():
 
 
 @pytest.mark.parametrize("name", ["square", "scattered"])
-def test_coarse_levels_of_a_slightly_other_set_serve(name):
-    """Up to a share of the elements may join or leave before the coarse levels are prepared again."""
+def test_coarse_levels_of_a_similar_set_are_kept(name):
+    """A small share of the elements may join or leave before the coarse levels are prepared again."""
     inside = np.pad(dict(sets())[name], REACH)
     members, former = np.flatnonzero(inside), inside.copy()
     left = np.random.default_rng(6).choice(members, int(0.019 * members.size), replace=False)
@@ -138,11 +139,11 @@ def test_coarse_levels_of_a_slightly_other_set_serve(name):
 
 
 @pytest.mark.parametrize("aspect", [1.0, 3.0])
-def test_load_redistribution_stencil_is_elimination_among_the_neighbours(aspect):
+def test_load_redistribution_stencil_eliminates_an_element(aspect):
     row, column = np.divmod(np.arange(25), 5)
     inverse = np.linalg.inv(influence(row * WIDTH + column, aspect=aspect))
     others = np.arange(25) != 12
-    # Without the element the others solve their own system; the change is the load that they take over from it.
+    # Without the element the others solve a smaller system. The change is the load that they take over from it.
     matrix = influence(row * WIDTH + column, aspect=aspect)
     deflection = np.random.default_rng(2).random(25)
     load = inverse @ deflection

@@ -8,8 +8,8 @@ from viscorough.viscous.integration.events import march_events
 
 
 @pytest.mark.parametrize(("hurst", "spacings"), [(0.2, 1 / 33), (0.8, 1 / 33), (0.6, (1.0, 2.0)), (0.6, (5.0, 1.0))])
-def test_agrees_with_the_correspondence_over_the_whole_curve(hurst, spacings):
-    """t(u) under constant force: F/G of the elastic curve is F t/η. Common code: contact.halfspace alone."""
+def test_depths_agree_with_the_correspondence_over_the_whole_curve(hurst, spacings):
+    """Under constant force F/G of the elastic curve is F t/η. The only common code is contact.halfspace."""
     disc = Indenter(self_affine_disc(hurst, 33, seed=3).heights, spacings)
     events = march_events(disc)
     assert events.contact_count[-1] == disc.elements
@@ -24,7 +24,7 @@ def test_too_many_elements_for_the_memory_are_refused():
         march_events(Indenter(np.random.default_rng(1).random((600, 600)), 1.0))
 
 
-def test_refuses():
+def test_invalid_arguments_are_refused():
     with pytest.raises(ValueError, match="two-dimensional"):
         march_events(Indenter(np.zeros(3), 1.0))
     with pytest.raises(ValueError, match="until"):

@@ -1,4 +1,4 @@
-"""Direct integration with internal variables, against the correspondence, which it never uses, and closed forms."""
+"""Direct integration with internal variables, against closed forms and the correspondence, which it never uses."""
 
 import re
 
@@ -21,7 +21,7 @@ END = 2.0
 
 @pytest.fixture(scope="module")
 def curve():
-    """Every contact event is a level: exact in between."""
+    """Return a curve whose levels are all contact events, so it is exact in between."""
     return indent(DISC, until_fraction=0.05, tolerance=1e-10)
 
 
@@ -44,8 +44,8 @@ def test_events_under_a_ramp_a_step_and_a_hold(curve, name):
     assert result.contact_count[-1] > 80
 
 
-def test_events_end_where_contact_recedes(curve):
-    """Maxwell: Z' = F'/G + F/η, which is zero at F = η |F'|/G."""
+def test_events_end_when_contact_recedes(curve):
+    """In a Maxwell medium Z' = F'/G + F/η, which is zero at F = η |F'|/G."""
     medium = MEDIA["maxwell"]
     force = largest_force(curve, medium) * np.array([0.5, 0.1])
     with refused(
@@ -59,9 +59,9 @@ def test_events_end_where_contact_recedes(curve):
 
 
 def test_events_find_contact_that_recedes_between_the_times():
-    """The depth at the last time is above the first one, and the contact has receded in between.
+    """The depth at the last time is above the depth at the first time, but the contact has receded in between.
 
-    J' F₀ + J F' = 0 with J = (1 − 0.99 exp(−t/5)) is at exp(t/5) = (0.198 F₀/|F'| + 0.99).
+    J' F₀ + J F' = 0 with J = (1 − 0.99 exp(−t/5)) holds at exp(t/5) = (0.198 F₀/|F'| + 0.99).
     """
     disc = self_affine_disc(0.7, 9, rms=0.05, seed=2)
     medium, times, force = StandardLinearSolid(100, 1, 0.05), [0, 10], np.array([0.1, 0.003])
@@ -74,7 +74,7 @@ def test_events_find_contact_that_recedes_between_the_times():
 
 
 def test_events_recede_at_the_time_that_kinetics_reports():
-    """Random forces in random media. Under most of them the contact recedes, under some between the times."""
+    """Forces and media are random. The contact recedes under most forces, sometimes between the times."""
     random, disc = np.random.default_rng(4), self_affine_disc(0.7, 5, rms=1.0, seed=2)
     curve, within = indent(disc), 0
     for _ in range(60):
@@ -106,8 +106,8 @@ def test_events_with_relaxation_times_many_decades_apart(curve, decades):
 
 
 @pytest.mark.parametrize("name", MEDIA)
-def test_orders(curve, name):
-    """The largest error of the depth at ten times."""
+def test_steps_are_of_second_order(curve, name):
+    """The error is the largest error of the depth at ten times."""
     medium, errors = MEDIA[name], []
 
     def smooth_force(number):
@@ -127,8 +127,8 @@ def test_orders(curve, name):
 
 
 @pytest.mark.parametrize("name", SPRINGY)
-def test_a_step_is_elastic_and_relaxes_with_the_modulus(curve, name):
-    """At once: the elastic problem with G₀; dead load in one long step stays compressive.
+def test_step_is_elastic_and_relaxes_with_the_modulus(curve, name):
+    """At once, a step is the elastic problem with G₀. Dead load in one long step stays compressive.
 
     A step of depth and its hold: F = f(u) ψ(t), exactly.
     """
@@ -146,7 +146,7 @@ def test_a_step_is_elastic_and_relaxes_with_the_modulus(curve, name):
 
 
 def test_unloading_recedes_and_recovers():
-    """A solid that is unloaded: fewer elements in contact, none under tension, a surface that comes back in time."""
+    """A solid is unloaded: fewer elements are in contact, none is under tension, and the surface recovers in time."""
     disc = self_affine_disc(0.7, 17, seed=1)
     medium, curve = MEDIA["solid"], indent(disc, until_fraction=0.4)
     force = 0.5 * curve.force[-1] * 1.5
@@ -167,15 +167,15 @@ def test_unloading_recedes_and_recovers():
     assert np.nanmin(long_after.pressure) >= 0
 
 
-# ---- dashpots side by side with the rest: the surface stays, or recovers, without the indenter
+# ---- parallel dashpots: without the indenter, the surface stays or recovers
 
 FLAT = Indenter(np.zeros((3, 3)), 1.0)
 PUNCH = indent(FLAT).stiffness[-1]
 
 
 @pytest.mark.parametrize(("medium", "last"), [(Newtonian(1.0), 0.05), (KelvinVoigt(1.0, 1.0), 0.01)])
-def test_an_indenter_above_the_surface_has_no_force(medium, last):
-    """Pressed in, moved out, and back to a depth above the surface: e⁻¹ and e⁻² of 0.1 in a Kelvin-Voigt medium."""
+def test_indenter_above_the_surface_has_no_force(medium, last):
+    """The indenter is pressed in, moved out, and set above the surface: e⁻¹ and e⁻² of 0.1 in a Kelvin-Voigt medium."""
     motion = stepped(FLAT, medium, [0, 1, 2, 3], depth=[0, 0.1, 0, last])
     np.testing.assert_array_equal(motion.force[2:], 0)
     np.testing.assert_array_equal(motion.contact_count, [0, 9, 0, 0])
@@ -184,10 +184,10 @@ def test_an_indenter_above_the_surface_has_no_force(medium, last):
     assert motion.receding_from == 2
 
 
-def test_an_indenter_touches_again_where_it_meets_the_recovering_surface():
-    """Kelvin-Voigt, θ = 1: after 0.1 at time 1 the free surface is at 0.1 exp(1 − t); the indenter comes at 0.01 t.
+def test_indenter_touches_again_when_it_meets_the_recovering_surface():
+    """Kelvin-Voigt, θ = 1: after 0.1 at time 1 the free surface is at 0.1 exp(1 − t); the indenter is at 0.01 t.
 
-    They meet at 2.23; from there on F = k (G u + η u').
+    They meet at 2.23; from then on F = k (G u + η u').
     """
     times = np.append([0, 1, 1], np.linspace(1.5, 4, 26))
     depth = np.append([0, 0.1, 0], 0.01 * times[3:])
@@ -199,7 +199,7 @@ def test_an_indenter_touches_again_where_it_meets_the_recovering_surface():
     np.testing.assert_array_equal(motion.force[2:][~after[2:]], 0)
 
 
-def test_a_step_of_the_depth_lifts_the_indenter_off_a_dashpot_and_no_more():
+def test_step_of_the_depth_lifts_the_indenter_off_a_dashpot():
     times, depth = [0, 1, 1, 2, 2], np.array([0, 0.1, 0.05, 0.05, 0.08])
     motion = stepped(FLAT, Newtonian(1.0), times, depth=depth)
     np.testing.assert_array_equal(motion.contact_count, [0, 9, 0, 0, 0])
@@ -210,7 +210,7 @@ def test_a_step_of_the_depth_lifts_the_indenter_off_a_dashpot_and_no_more():
 
 
 def test_a_newtonian_indenter_rests_in_its_imprint():
-    """Without a force, or at a constant depth, its contact stays as it is: evented says the same."""
+    """Without a force, or at a constant depth, the contact does not change; the event method agrees."""
     disc = self_affine_disc(0.7, 9, rms=0.05, seed=2)
     times, force = [0, 1, 2, 3, 4], np.array([1.0, 1, 0, 0, 0])
     motion, exact = stepped(disc, 1.0, times, force=force), evented(disc, 1.0, times, force=force)
@@ -221,7 +221,7 @@ def test_a_newtonian_indenter_rests_in_its_imprint():
     np.testing.assert_array_equal(held.contact_count[1:], held.contact_count[1])
     np.testing.assert_allclose(held.force[2:], 0, atol=1e-12 * held.force[1])
     assert np.isnan(held.receding_from)
-    # A step of the force after the rest presses all of them again.
+    # A step of the force after the rest presses all elements again.
     again = stepped(disc, 1.0, [*times, 4], force=[*force, 2.0])
     assert np.count_nonzero(np.nan_to_num(again.pressure)) == motion.contact_count[-1]
 
@@ -230,9 +230,9 @@ def test_a_newtonian_indenter_rests_in_its_imprint():
 
 
 def test_sphere_in_and_out_follows_lee_and_radok_and_ting():
-    """While it is moved out of a Maxwell medium, contact and force are those up to an earlier time t₁ (Ting 1966).
+    """While it is moved out of a Maxwell medium, contact and force equal those at an earlier time t₁ (Ting 1966).
 
-    It follows from exp(−(t − t₁)/τ) = 2 exp(−(t − t_m)/τ) − 1, with the time t_m of the turn.
+    The time t₁ follows from exp(−(t − t₁)/τ) = 2 exp(−(t − t_m)/τ) − 1, with the time t_m of the turn.
     """
     medium, speed, turn = MEDIA["maxwell"], 0.1, 1.0
     sphere, tau = reference.sphere(1.0), medium.relaxation.times[0]
@@ -254,7 +254,7 @@ def test_sphere_in_and_out_follows_lee_and_radok_and_ting():
     assert result.force[-1] == 0
 
 
-# ---- what is refused
+# ---- refusals
 
 
 @pytest.mark.parametrize(
@@ -272,7 +272,7 @@ def test_sphere_in_and_out_follows_lee_and_radok_and_ting():
         ),
     ],
 )
-def test_refusals(arguments, message):
+def test_invalid_motions_are_refused(arguments, message):
     call = {"indenter": Indenter(np.eye(3), 1.0), "medium": Maxwell(1.0, 1.0), "times": [0.0, 1.0, 2.0]}
     call |= {"force": [1.0, 1.0, 1.0]} | arguments
     with refused(message):

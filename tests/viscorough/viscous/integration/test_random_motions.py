@@ -2,9 +2,9 @@
 
     MOTIONS=2000 python -m pytest -s tests/viscorough/viscous/integration/test_random_motions.py
 
-tries that many and prints the largest deviation. Contact recedes and returns, and there are rests and steps of force
+runs 2000 motions and prints the largest deviation. Contact recedes and returns, and there are rests and steps of force
 and depth. One solver integrates all elements of the half-space, the other a row of independent springs with the same
-loading curve. In exact arithmetic both have the same motion as march.
+loading curve. In exact arithmetic both give the same motion as march.
 """
 
 import os
@@ -26,7 +26,7 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Case:
-    """An indenter, a medium, the same one for the other solvers, and `force` or `depth` over time, by its name."""
+    """An indenter, a medium in the form of both solvers, and `force` or `depth` over time, by its name."""
 
     indenter: Indenter
     medium: Medium
@@ -53,7 +53,7 @@ def random_case(number):
 
 
 def random_heights(random):
-    """Up to 3 x 4 heights: rough, on terraces, all equal, or with missing elements."""
+    """Return up to 3 x 4 heights: rough, on terraces, all equal, or with missing elements."""
     heights = random.standard_normal((random.integers(1, 4), random.integers(1, 5)))
     kind = random.choice(["rough", "terraces", "flat", "holes"])
     if kind == "terraces":
@@ -66,7 +66,7 @@ def random_heights(random):
 
 
 def random_medium(random):
-    """A medium of the package, the same one as SpringsAndDashpots, and a time of it."""
+    """Return a medium of the package, the same medium as SpringsAndDashpots, and one of its relaxation times."""
     kind = random.choice(["newtonian", "maxwell", "kelvin-voigt", "solid", "prony"])
     decades = random.choice([1.0, 6.0])
     modulus, time = 10.0 ** random.uniform(-decades, decades, 2)
@@ -89,7 +89,7 @@ def random_medium(random):
 
 
 def random_times(random, own_time):
-    """Times at equal distances or at distances many decades apart, some of them given twice."""
+    """Return times at equal distances or at distances many decades apart; some of them occur twice."""
     count = random.integers(3, 30)
     equal = np.full(count, 10.0 ** random.uniform(-1.5, 0.5))
     times = own_time * np.cumsum(equal if random.random() < 0.5 else 10.0 ** random.uniform(-5, 3, count))
@@ -98,7 +98,7 @@ def random_times(random, own_time):
 
 
 def random_shape(random, times):
-    """A load from 0 to about 1, with ramps, cycles, holds and rests; a step where a time is given twice."""
+    """Return a load from 0 to about 1, with ramps, cycles, holds and rests; a repeated time has a step."""
     number = np.arange(times.size)
     kind = random.choice(["random", "ramps", "cycles", "pulses"])
     if kind == "random":
@@ -111,14 +111,14 @@ def random_shape(random, times):
     else:
         shape = np.repeat(random.random(times.size) * random.integers(0, 2, times.size), 3)[: times.size]
     if random.random() < 0.3:
-        shape = np.round(4 * shape) / 4  # the same values again and again
+        shape = np.round(4 * shape) / 4  # so that values repeat
     if random.random() < 0.5:
         shape[0] = 0.0
     return shape
 
 
 def without_steps_up(shape, times):
-    """The load that starts at 0 and steps down only, as a dashpot allows."""
+    """Return the load with a start at 0 and without steps up, as a dashpot requires."""
     shape = np.append(0.0, shape[1:])
     for n in np.flatnonzero(np.diff(times) == 0) + 1:
         shape[n] = min(shape[n], shape[n - 1])
@@ -126,11 +126,11 @@ def without_steps_up(shape, times):
 
 
 def deviation(case, *, by_springs):
-    """Largest deviation of depths, forces and loads; AssertionError if contact differs, or the time when it recedes.
+    """Return the largest deviation of depths, forces and loads; require equal contact and equal times of receding.
 
-    It is relative to the value itself plus a thousandth of the largest one.
+    The deviation is relative to the value itself plus a thousandth of the largest value.
 
-    by_springs : whether the row of springs is asked
+    by_springs : compare with the row of springs
     """
     indenter = case.indenter
     result = stepped(indenter, case.medium, case.times, **case.load)
@@ -154,7 +154,7 @@ def deviation(case, *, by_springs):
 
 
 def outcome(number, *, by_springs):
-    """Deviation of a case, and what is wrong with it, "" if nothing is; any exception is a fault."""
+    """Return the deviation of a case and its fault, "" if there is none; any exception is a fault."""
     try:
         found = deviation(random_case(number), by_springs=by_springs)
     except Exception as error:
@@ -163,15 +163,15 @@ def outcome(number, *, by_springs):
 
 
 @pytest.mark.parametrize("by_springs", [False, True], ids=["half-space", "row of springs"])
-def test_random_motions(by_springs):
+def test_random_motions_agree_with_independent_solvers(by_springs):
     outcomes = {number: outcome(number, by_springs=by_springs) for number in range(COUNT)}
     wrong = {number: text for number, (_, text) in outcomes.items() if text}
     print(f"{COUNT} motions, {len(wrong)} wrong, largest deviation {max(found for found, _ in outcomes.values()):.2g}")
     assert wrong == {}
 
 
-def test_cases_have_what_they_are_for():
-    """Contact recedes in most of them and returns in many, and there are steps with every kind of medium and load."""
+def test_cases_cover_receding_returning_and_steps():
+    """Contact recedes in most cases and returns in many. Every kind of medium and load has steps."""
     cases = [random_case(number) for number in range(60)]
     receded = returned = 0
     for case in cases:

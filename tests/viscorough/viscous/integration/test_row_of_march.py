@@ -19,7 +19,7 @@ from viscorough.viscous.integration.events import march_events
 
 COUNT = int(os.environ.get("ROWS", "0"))
 SIZES = (17, 25, 33) if COUNT else (9,)
-TOLERANCE = 1e-12  # of the largest force or depth
+TOLERANCE = 1e-12  # relative to the largest force or depth
 
 
 def rough(across, hurst, seed):
@@ -37,7 +37,7 @@ def towers(across):
 
 
 def heights_of(kind, across, seed):
-    """Heights of one of twelve kinds of maps."""
+    """Return heights of one of twelve kinds of maps."""
     random = np.random.default_rng(seed)
     rows, columns = np.indices((across, across)) - across // 2
     if kind.startswith("self-affine"):
@@ -62,7 +62,7 @@ KINDS += ["checkerboard", "towers", "sphere", "cone", "waves"]
 
 
 def random_load(random, control, scale, *, rigid):
-    """Times, and values from 0 to a scale: ramps, holds and rests, with steps unless a dashpot forbids them."""
+    """Return a load from 0 to a scale: ramps, holds and rests, and steps unless a dashpot forbids them."""
     corners = np.cumsum(10 ** random.uniform(-1, 0.5, random.integers(4, 9)))
     shape = random.random(corners.size) * random.choice([0.0, 1.0, 1.0, 1.0], corners.size)
     held = np.flatnonzero(random.random(corners.size - 1) < 0.3)
@@ -81,7 +81,7 @@ def with_steps(load, parts):
 
 
 def difference(indenter, medium, load):
-    """Difference of the row from march, over the largest depth or force."""
+    """Return the difference of the row from march, over the largest depth or force."""
     events = march_events(indenter)
     row = events.depth, np.diff(events.resistance, prepend=0.0)
     marched = march(indenter, load, medium)
@@ -93,7 +93,7 @@ def difference(indenter, medium, load):
 
 @pytest.mark.parametrize("control", ["force", "depth"])
 @pytest.mark.parametrize("kind", KINDS)
-def test_march_moves_as_the_row_of_springs_with_its_steps(kind, control):
+def test_march_equals_the_row_of_springs_with_the_same_steps(kind, control):
     largest = 0.0
     for number in range(max(COUNT, 1)):
         across = SIZES[number % len(SIZES)]
@@ -114,7 +114,7 @@ def test_march_moves_as_the_row_of_springs_with_its_steps(kind, control):
 @pytest.mark.parametrize("control", ["force", "depth"])
 @pytest.mark.parametrize("name", ["maxwell", "solid", "prony"])
 def test_kinetics_is_the_limit_of_march(name, control):
-    """March, as the row with its steps, extrapolated to steps of no length; its error is of second order."""
+    """March, as a row with the same steps, is extrapolated to steps of length 0; its error is of second order."""
     across, parts = (17, 4096) if COUNT else (9, 1024)
     indenter, medium = Indenter(heights_of("self-affine 0.7", across, 1), 1.0), SPRINGS_AND_DASHPOTS[name]
     curve, events = indent(indenter, tolerance=1e-11, until_fraction=1.0), march_events(indenter)

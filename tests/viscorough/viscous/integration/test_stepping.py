@@ -16,7 +16,7 @@ def events():
 
 
 @pytest.mark.parametrize("steps", [1, 15])
-def test_implicit_steps_are_exact_whatever_their_size(events, steps):
+def test_implicit_steps_of_any_size_are_exact(events, steps):
     last = events.impulse[700]
     impulses = np.geomspace(last / 300, last, steps) if steps > 1 else np.array([last])
     result = march_steps(DISC, impulses, scheme="implicit", tolerance=1e-8)
@@ -26,15 +26,15 @@ def test_implicit_steps_are_exact_whatever_their_size(events, steps):
     np.testing.assert_allclose(result.contact_count, touching, atol=2)
 
 
-def test_implicit_steps_find_depths_where_loose_contacts_make_the_force_jump():
-    """Contacts of this sphere at a tolerance of 1e-2 differ by a ring of elements from one depth to the next."""
+def test_implicit_steps_find_depths_at_jumps_of_the_force():
+    """At a tolerance of 1e-2, contacts of this sphere differ by a ring of elements from one depth to the next."""
     sphere = reference.sphere(1.0)
     forces = sphere.force(sphere.mdr_profile(np.geomspace(0.1, 0.45, 12)))
     steps = march_steps(sphere.indenter(257), forces, scheme="implicit", tolerance=1e-2)
     np.testing.assert_allclose(steps.depth[-1], sphere.mdr_profile(0.45), rtol=1e-2)
 
 
-def test_mean_velocities_of_a_step_are_more_accurate_than_those_at_its_start(events):
+def test_heun_steps_are_more_accurate_than_explicit_ones(events):
     errors = {"explicit": [], "heun": []}
     for steps in (32, 64, 128, 256):
         impulses = np.geomspace(events.impulse[1] / 10, events.impulse[700], steps)
@@ -48,14 +48,14 @@ def test_mean_velocities_of_a_step_are_more_accurate_than_those_at_its_start(eve
 
 
 def test_long_explicit_steps_overlap_the_surface_deeply(events):
-    """The known failure of the scheme occurs, warns, and is reported in `overlap`."""
+    """The scheme fails as known, warns, and reports the overlap."""
     with pytest.warns(AccuracyWarning, match=r"overlaps the surface by up to \d"):
         result = march_steps(DISC, np.linspace(0, events.impulse[700], 11)[1:])
     assert result.overlap[0] > 0.5
     assert result.depth[0] > 2 * events.depth_at(result.impulse[0])
 
 
-def test_refuses():
+def test_invalid_arguments_are_refused():
     for change, message in (
         ({"scheme": "magic"}, "scheme must be one of explicit, heun, implicit"),
         ({"impulses": [2.0, 1.0]}, "each larger than the one before"),
@@ -67,8 +67,8 @@ def test_refuses():
 
 
 @pytest.mark.parametrize(("scheme", "tolerance"), [("explicit", 1e-6), ("heun", 5e-2)], ids=["double", "single"])
-def test_depths_beyond_measure(scheme, tolerance):
-    """There is no surface beyond the map that a deep indenter could touch, and what overflows is refused."""
+def test_depths_that_overflow_are_refused(scheme, tolerance):
+    """A deep indenter touches no surface beyond the map. Depths that overflow are refused."""
     indenter = Indenter(np.random.default_rng(0).random((3, 3)), 1.0)
     with pytest.warns(AccuracyWarning):
         steps = march_steps(indenter, [1.0, 1e31], scheme=scheme, tolerance=tolerance)

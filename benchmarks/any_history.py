@@ -2,10 +2,10 @@
 
     python benchmarks/any_history.py --output results/any_history.json
 
-1. Cost: 1000 times on the default curve of a disc in a Prony series of five branches, and as many steps of direct
-   integration with about 2000 elements in contact, from a few of them.
-2. Levels: the force on the default curve against the curve of many levels, for peaks at shares of the last depth, over
-   the largest force.
+1. Cost: 1000 times on the default curve of a disc in a Prony series of five branches. The same number of steps of
+   direct integration with about 2000 elements in contact is extrapolated from a few steps.
+2. Levels: the difference between the forces on the default curve and on a curve of many levels, over the largest force,
+   for peaks at shares of the last depth.
 """
 
 from pathlib import Path
@@ -29,10 +29,10 @@ def history(peak):
 
 
 def cost(across, direct_across, contact):
-    """Processor time of a motion of 1000 times, levels of its curve, and the ratio of direct integration to it."""
+    """Return the processor time of 1000 times, levels of its curve, and the time ratio of direct integration."""
     curve = indent(self_affine_disc(HURST, across, rms=0.01, seed=5))
     load, times = history(0.9 * curve.depth[-1]), np.linspace(0, SHAPE.time[-1], TIMES)
-    kinetics(curve, load, MEDIUM, times)  # compiles
+    kinetics(curve, load, MEDIUM, times)  # compiles the functions
     seconds = []
     for _ in range(REPEATS):
         start = process_time()
@@ -41,7 +41,7 @@ def cost(across, direct_across, contact):
     disc = self_affine_disc(HURST, direct_across, rms=0.01, seed=5)
     touched = indent(disc, until_fraction=min(1.0, 1.1 * contact / disc.elements))
     depth = np.interp(contact, touched.contact_count, touched.depth)
-    # Steps at the turn: contact is largest there.
+    # The steps are at the turn, where contact is largest.
     steps = np.append(0.0, np.linspace(1.0, 1.02, DIRECT_STEPS))
     loads = depth * np.append(0.0, np.linspace(1.0, 0.98, DIRECT_STEPS))
     start = process_time()
@@ -57,7 +57,7 @@ def cost(across, direct_across, contact):
 
 
 def levels(across, number):
-    """Largest difference of the force on the default curve from the one on the curve of many levels, for each peak."""
+    """Return, for each peak, the largest difference of forces between the default curve and one of many levels."""
     disc = self_affine_disc(HURST, across, rms=0.01, seed=5)
     curve = indent(disc)
     fine = indent(disc, tolerance=1e-7, depths=np.geomspace(curve.depth[0], curve.depth[-1], number))

@@ -2,13 +2,13 @@
 
     python benchmarks/campaign.py --output results/campaign.json
 
-Families of cases are checked against the direct integration in time: levels at given depths, also against the dense
+Most families of cases are checked against direct integration in time: levels at given depths, also against the dense
 influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels at
-given forces, once more as on large maps. The curves of another one are checked by the two integrals that linear
-solutions give (viscorough.sum_rules), and whole curves of ordinary discs by the depth of complete contact: 257 elements
-across at a tolerance of 1e-2, and 65 or 129 across at random tolerances from 1e-1 to 1e-5. Random histories of force
-and depth in all kinds of media are checked by inequalities that hold for each of them.
-`make stability` runs it. A failure is printed with the command that repeats it.
+given forces, also with the methods for large maps. Curves of a further family are checked by the two integrals that
+linear solutions give (viscorough.sum_rules). Whole curves of ordinary discs are checked by the depth of complete
+contact: 257 elements across at a tolerance of 1e-2, and 65 or 129 across at random tolerances from 1e-1 to 1e-5. Random
+histories of force and depth in all kinds of media are checked by inequalities that hold for every history. `make
+stability` runs it. A failure is printed with the command that repeats it.
 """
 
 from functools import partial
@@ -38,7 +38,7 @@ from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 
 def as_on_large_maps(case):
-    """Failure of the curve of a case with restricted operators, estimates from blocks and few elements ranked."""
+    """Check the curve of a case with tiled operators, estimates from blocks and few ranked elements."""
     with (
         patch.multiple(ranking, _LEAST=50, _LEAST_OF_CURVES=50, _FIRST=50),
         patch.multiple(prescribed_force, _LARGE=1, _FEWEST_BLOCKS=1),
@@ -66,7 +66,7 @@ FAMILIES = {
 
 
 def failure(family, seed, case):
-    """Failure of one case of a family, as text; "" if there is none. Any exception counts as a failure."""
+    """Return the failure of one case of a family, "" if there is none. Any exception counts as a failure."""
     draw, check, _ = FAMILIES[family]
     generator = np.random.default_rng(realization_seed(seed, *random_indenter_key(case)))
     try:
@@ -83,7 +83,7 @@ def failure(family, seed, case):
 @click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
 @click.option("--output", type=click.Path(path_type=Path), help="File to write, JSON.")
 def main(cases, seed, family, case, cores, output):
-    """Count silent failures; exit code 1 if there is any."""
+    """Count silent failures; the exit code is 1 if there is any."""
     counts, failures = {}, []
     for name in [family] if family else FAMILIES:
         numbers = [case] if case is not None else range(max(1, round(FAMILIES[name][2] * cases)))

@@ -1,12 +1,12 @@
-"""Kill the workflow repeatedly, and compare its final results with those of an undisturbed run.
+"""Kill the workflow repeatedly, and compare its final results with an undisturbed run.
 
     python benchmarks/chaos.py --kills 60 --seed 1 --output results/chaos.json
 
 A run of the small settings, which starts without results, is disturbed after a random time: in half of the cases the
 whole run is killed (SIGKILL), in a quarter one of its jobs, and in a quarter the run is interrupted (SIGINT to its
 group, as by Ctrl-C). The same command alone is then repeated (config/README.md, Interrupted runs) until it finishes.
-Its figures, tables, ensembles and curves must then equal those of an undisturbed run to the last byte. Of files with
-measured times, such as logs and the page, only names must agree.
+Its figures, tables, ensembles and curves must then equal an undisturbed run's to the last byte. Files with measured
+times, such as logs and the page, must only have the same names.
 """
 
 import contextlib
@@ -27,10 +27,10 @@ from measuring import output_option, save
 from project_copy import copy_project, environment
 
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
-# The longest wait for a kill, as a share of the time of an undisturbed run: most runs are killed several times, and
-# their ends as often as their beginnings.
+# The longest wait for a kill, as a share of the time of an undisturbed run. Most runs are killed several times, and
+# near their end as often as near their beginning.
 LONGEST_WAIT = 1 / 3
-HANGS = 3600  # seconds after which a run is taken to hang, even on a busy machine
+HANGS = 3600  # seconds after which a run counts as hanging, even on a busy machine
 
 
 def remove_results(folder):
@@ -39,7 +39,7 @@ def remove_results(folder):
 
 
 def wait_for(condition, what, seconds=120):
-    """Wait until the condition is true; return its value."""
+    """Wait until the condition is true, and return its value."""
     end = time.monotonic() + seconds
     while not (value := condition()):
         if time.monotonic() > end:
@@ -50,7 +50,7 @@ def wait_for(condition, what, seconds=120):
 
 @contextlib.contextmanager
 def started(folder, *arguments):
-    """Snakemake in its own session, all of whose processes are killed afterwards; it writes to a log in the folder."""
+    """Start Snakemake in a new session, with output to a log; afterwards kill all processes of the session."""
     with (folder / "run.log").open("w") as log:
         run = subprocess.Popen(
             [*SNAKEMAKE, *arguments],
@@ -59,7 +59,7 @@ def started(folder, *arguments):
             stdout=log,
             stderr=log,
             start_new_session=True,
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored in what runs in the background
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # background processes ignore SIGINT
         )
     try:
         yield run
@@ -70,7 +70,7 @@ def started(folder, *arguments):
 
 
 def run_to_end(folder, *arguments, disturb=None):
-    """Seconds of a run that may be disturbed, and must end without an error."""
+    """Return the seconds of a run that may be disturbed and must end without an error."""
     start = time.perf_counter()
     with started(folder, *arguments) as run:
         if disturb:
@@ -85,7 +85,7 @@ def log_tail(folder):
 
 
 def disturb(run, random):
-    """Kill the whole run, kill one of its jobs (if it has none, the whole run) or interrupt it; return which."""
+    """Kill the run, kill one of its jobs (or the run, if it has none), or interrupt it; return the kind."""
     everything = psutil.Process(run.pid).children(recursive=True)
     draw = random.random()
     if draw < 0.25:
@@ -93,7 +93,7 @@ def disturb(run, random):
         return "interrupt"
     if draw < 0.5 and everything:
         with contextlib.suppress(psutil.NoSuchProcess):
-            everything[-1].kill()  # which has no children: the process that runs a script, not a shell around it
+            everything[-1].kill()  # it has no children, so it is the process of a script, not a shell around it
         return "job"
     os.killpg(run.pid, signal.SIGKILL)
     psutil.wait_procs(everything, timeout=10)
@@ -101,25 +101,25 @@ def disturb(run, random):
 
 
 def contents(folder):
-    """{name: bytes} of all files in results/, without the bytes of files that hold times."""
+    """Return {name: bytes} of all files in results/, without the bytes of files that hold times."""
     results = folder / "results"
     names = sorted(path.relative_to(results) for path in results.rglob("*") if path.is_file())
     return {str(name): b"" if holds_times(name) else (results / name).read_bytes() for name in names}
 
 
 def compare(folder, expected):
-    """One line per file in results/ that differs from the expected contents."""
+    """Return one line for each file in results/ that differs from the expected contents."""
     actual = contents(folder)
     lines = [f"{name}: is missing or left over" for name in sorted(actual.keys() ^ expected.keys())]
     return lines + [f"{name}: differs" for name in expected if actual.get(name, expected[name]) != expected[name]]
 
 
 def chaos(folder, kills, seed):
-    """Runs with `kills` kills in total, as a dictionary for the file.
+    """Return runs with `kills` kills in total, as a dictionary for the file.
 
-    A run that is killed is repeated with the results that it has; one that ends by itself, without any.
+    A killed run is repeated with its results so far. A run that ends by itself is followed by one without results.
     """
-    run_to_end(folder)  # compiles what is not in numba's caches
+    run_to_end(folder)  # compiles functions that are missing in numba's caches
     wanted = contents(folder)
     remove_results(folder)
     seconds = run_to_end(folder)
@@ -137,7 +137,7 @@ def chaos(folder, kills, seed):
                     raise
                 log.append(disturb(run, random))
                 click.echo(f"kill {len(log)} of {kills}: {log[-1]}")
-                run.wait(HANGS)  # a run that has lost a job finishes its other one and ends with an error
+                run.wait(HANGS)  # a run that has lost a job finishes its other job and ends with an error
                 continue
         runs += 1
         lines = [f"ends with {code}: {log_tail(folder)}"] if code else compare(folder, wanted)

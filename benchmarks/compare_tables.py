@@ -2,9 +2,9 @@
 
     python benchmarks/compare_tables.py OLD NEW --allow "tables/literature.csv*" --allow "curves/*, residual"
 
-OLD and NEW are folders of results. Numbers must agree to 1e-12 relative and texts must be equal; files and columns that
-only one of them has are differences, too, except those that --allow names. Files that hold measured times are not
-compared. The exit code is 1 if there is any difference.
+OLD and NEW are folders of results. Numbers must agree to 1e-12 relative, and texts must be equal. A file or column that
+exists in only one run is a difference, too, unless --allow names it. Files that hold measured times are not compared.
+The exit code is 1 if there is any difference.
 """
 
 import fnmatch
@@ -16,12 +16,12 @@ import pandas as pd
 import xarray as xr
 from measured_times import holds_times
 
-COMPARED = "tables/*.csv", "ensembles/**/*.nc", "curves/**/*.nc", "surfaces/**/*.nc"  # tables are NetCDF files as well
-TOLERANCE = 1e-12  # relative: rounding of another order of operations, far below any tolerance of a computation
+COMPARED = "tables/*.csv", "ensembles/**/*.nc", "curves/**/*.nc", "surfaces/**/*.nc"  # tables are NetCDF files, too
+TOLERANCE = 1e-12  # relative: allows a different order of operations, and is far below any tolerance of a computation
 
 
 def content(path):
-    """{column or variable: values} of a table or a NetCDF file, with the groups of the variables."""
+    """Return {column or variable: values} of a table or a NetCDF file, with the groups of the variables."""
     if path.suffix == ".csv":
         return dict(pd.read_csv(path))
     with xr.open_datatree(path, decode_times=False) as tree:
@@ -33,7 +33,7 @@ def content(path):
 
 
 def difference(old, new):
-    """Difference between the values of a column in OLD and NEW, None where it is absent, as text; "" if none."""
+    """Return the difference of a column's values in OLD and NEW (None: no such column) as text; "" if there is none."""
     if old is None or new is None:
         return "only in NEW" if old is None else "only in OLD"
     try:

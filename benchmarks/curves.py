@@ -3,7 +3,7 @@
     python benchmarks/curves.py --output results/benchmarks.json
 
 The file has one key for each function below: parts, columns, line, rectangles, large_map, curve.
-Times are medians of repeats in one run; the repeats of what is compared are interleaved. `make bench` runs it.
+Times are medians of repeats in one run. Repeats of compared computations are interleaved. `make bench` runs it.
 """
 
 import contextlib
@@ -26,8 +26,8 @@ from viscorough.surfaces import self_affine_square
 from viscorough_study.performance import timing
 
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
-POINTS = 4_000_000  # of a line
-# {function whose share of the time is measured: part of the computation that it is}
+POINTS = 4_000_000  # points of a line
+# {function: name of the part of the computation that it does}
 PARTS_OF_CURVE = {
     "viscorough.contact.halfspace.operator.Halfspace.apply": "operator",
     "viscorough.contact.preconditioner.multilevel.Preconditioner.prepare": "preconditioner",
@@ -40,12 +40,12 @@ PARTS_OF_CURVE = {
 
 
 def whole_curve(disc):
-    """Function that computes the loading curve of a disc."""
+    """Return a function that computes the loading curve of a disc."""
     return partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
 
 
 def curve(hurst, seed, repeats):
-    """Loading curve of a disc: cost, and the error of the force against levels solved to 1e-6."""
+    """Measure a loading curve of a disc: cost, and the error of the force against levels solved to 1e-6."""
     disc = self_affine_disc(hurst, ELEMENTS, seed=seed)
     computed, (wall, _) = whole_curve(disc)(), medians({"curve": whole_curve(disc)}, repeats)["curve"]
     several = computed.contact_count > 1
@@ -60,14 +60,14 @@ def curve(hurst, seed, repeats):
 
 
 def curve_of_line(lines):
-    """Loading curve of one of the lines, as in the workflow."""
+    """Compute the loading curve of a line as the workflow does."""
     return reduce_heights(lines.heights_in_any_order(1), lines.spacing, until_force=4 * UNTIL_X)
 
 
 def lines(hursts, repeats, points=POINTS):
-    """Loading curves of lines by the method of dimensionality reduction, generation of the lines included.
+    """Measure loading curves of lines by dimensionality reduction, including the generation of the lines.
 
-    `over_transform`: over the time of a real Fourier transform of as many points by ducc0, in single precision.
+    `over_transform`: time over the time of a single-precision real Fourier transform of equal length by ducc0.
     """
     noise = np.random.default_rng(1).standard_normal(points, np.float32)
     options = {"real2hermitian": False, "forward": False, "out": np.empty_like(noise)}
@@ -82,7 +82,7 @@ def lines(hursts, repeats, points=POINTS):
 
 
 def rectangles(aspects, repeats, elements=ELEMENTS):
-    """{dy/dx: processor time over that on squares} of curves of the same heights on elements of the same area."""
+    """Return {dy/dx: processor time over squares} of curves with the same heights on elements of the same area."""
     heights = self_affine_square(0.8, elements, seed=3)
     maps = {aspect: Indenter(heights, (aspect**-0.5, aspect**0.5)) for aspect in aspects}
     measured = medians({aspect: partial(indent, surface) for aspect, surface in maps.items()}, repeats)
@@ -109,7 +109,7 @@ def repeated(function, times):
 
 
 def large_map(points):
-    """The curve of a map similar to measured ones up to 50 % contact, and the contact at the force of about 10 %."""
+    """Measure the curve of a map like measured ones up to 50 % contact, and the contact at the force of about 10 %."""
     surface = Indenter(self_affine_square(0.8, points, seed=1), 1 / points)
     questions = {"curve": partial(indent, surface, until_fraction=0.5)}
     questions["contact"] = partial(contact_at, surface, force=9)
@@ -117,14 +117,14 @@ def large_map(points):
 
 
 def medians(functions, repeats):
-    """{name: (wall, processor) seconds}, medians over interleaved repeats, after a first call of each function."""
+    """Return {name: (wall, processor) seconds}, medians over interleaved repeats after a first call of each."""
     for function in functions.values():
         function()
     return timing.interleaved(functions, repeats)
 
 
 def parts():
-    """Processor seconds of curves, and the share of each part in them: medians over five repeats, after a first run."""
+    """Return processor seconds of curves and the share of each part: medians over five repeats after a first run."""
     result = {}
     for across in (ELEMENTS, 1025):
         compute = whole_curve(self_affine_disc(0.6, across, seed=1))
@@ -134,7 +134,7 @@ def parts():
 
 
 def shares(compute):
-    """Processor seconds of a function, and the share of each part in them."""
+    """Return the processor seconds of a function, and the share of each part."""
     seconds = dict.fromkeys(PARTS_OF_CURVE.values(), 0.0)
 
     def measured(part, function):

@@ -1,12 +1,13 @@
-"""Damage files of results at random, and count those that load with another content.
+"""Damage files of results at random, and count damaged files that load with different content.
 
     python benchmarks/damaged_files.py --curves 400 --others 200 --seed 1 --output results/damaged_files.json
 
-The files are a loading curve, a batch of curves, a pool of ensembles, a file of surfaces, and a table of a run, CSV and
-NetCDF. A damage changes 1 to 8 random bytes, sets a block of bytes to zero, or cuts the file short. A damaged file must
-be refused by a ValueError of one line that names it, or must load with the same content, if the damage lies where
-nothing is stored. Damage can also crash the HDF5 library or make it run without end, so another process reads the
-files, and is ended if it takes too long. Exit code 1 if a file loads with another content or another error is raised.
+The files are a loading curve, a batch of curves, a pool of ensembles, a file of surfaces, and a table of a run as CSV
+and NetCDF. A damage changes 1 to 8 random bytes, sets a block of bytes to zero, or cuts the file short. A damaged file
+must be refused by a ValueError of one line that names it, or must load with the same content, if the damage is in an
+unused part of the file. Damage can also crash the HDF5 library or make it run without end. Therefore a separate process
+reads the files, and is ended if it takes too long. The exit code is 1 if a file loads with different content or raises
+a different error.
 """
 
 import contextlib
@@ -36,19 +37,19 @@ from viscorough_study.ensembles.pool import pool_batches
 from viscorough_study.ensembles.surface_files import read_surfaces, write_surfaces
 from viscorough_study.run.tables import read_table, write_table
 
-TIME_LIMIT = 20  # seconds; a whole file is read in milliseconds
+TIME_LIMIT = 20  # seconds; an undamaged file is read in milliseconds
 SAME, REFUSED, ANOTHER, WRONG = "same content", "refused", "another content", "another error"
 CRASHED, UNENDING = "crashed", "not read in time"
-_WAYS = multiprocessing.get_context("fork")  # a copy of this process has everything imported
+_WAYS = multiprocessing.get_context("fork")  # a fork of this process has everything imported
 
 
 # ---- the files
 
 
 def write_files(folder):
-    """Write one file of each kind.
+    """Write one file of each kind, and return {kind: (reading function, names)}.
 
-    Returns {kind: (function that reads it from a folder, names of its files, the last of which is to be damaged)}.
+    The function reads from a folder. The last of the names is the file to damage.
     """
     disc = viscorough.self_affine_disc(0.7, 33, rms=0.01, seed=1)
     viscorough.indent(disc).save(folder / "curve.nc")
@@ -77,7 +78,7 @@ def write_files(folder):
 
 
 def damaged(whole, random):
-    """(kind of damage, bytes) of a damaged file, which differ from the whole one."""
+    """Return (kind of damage, bytes) of a damaged file; the bytes differ from the original."""
     kind, content = random.choice(["bytes", "block", "cut"], p=[0.6, 0.2, 0.2]), bytearray(whole)
     if kind == "cut":
         return kind, bytes(whole[: random.integers(len(whole))])
@@ -95,7 +96,7 @@ def damaged(whole, random):
 
 
 class ReadingProcess:
-    """A process that reads files from folders; if it crashes or takes too long, a new one is started."""
+    """Process that reads files from folders; if it crashes or takes too long, a new process is started."""
 
     def __init__(self, read):
         self.read, self.child = read, None
@@ -107,7 +108,7 @@ class ReadingProcess:
         self._end()
 
     def answer(self, folder):
-        """(SAME, pickled result), (REFUSED, error), (WRONG, error), (CRASHED, exit code) or (UNENDING, "")."""
+        """Return (SAME, pickled result), (REFUSED, error), (WRONG, error), (CRASHED, exit code) or (UNENDING, "")."""
         if self.child is None:
             self.pipe, theirs = _WAYS.Pipe()
             self.child = _WAYS.Process(target=_answer_requests, args=(self.read, theirs), daemon=True)
@@ -125,7 +126,7 @@ class ReadingProcess:
         child, self.child = self.child, None
         if child is not None:
             self.pipe.close()
-            child.join(1)  # one that has crashed keeps its exit code
+            child.join(1)  # wait, so that a crashed process keeps its exit code
             child.kill()
             child.join()
         return child and child.exitcode
@@ -145,7 +146,7 @@ def _answer_requests(read, pipe):
 
 
 def outcome(process, files, content, expected):
-    """(outcome, detail) of reading copies of files, the last of which gets this content; expected : pickled result."""
+    """Return (outcome, detail) of reading copies of files, the last with this content; expected : pickled result"""
     with tempfile.TemporaryDirectory(dir=files[0].parent) as folder:  # HDF5 may keep a damaged file open
         *_, damaged_file = (Path(shutil.copy(file, folder)) for file in files)
         damaged_file.write_bytes(content)
@@ -156,7 +157,7 @@ def outcome(process, files, content, expected):
 
 
 def outcomes(read, files, seed, numbers):
-    """Iterator over (number, outcome, kind of damage, detail) of numbered damages to the last of the files."""
+    """Yield (number, outcome, kind of damage, detail) for numbered damages to the last of the files."""
     whole = files[-1].read_bytes()
     with ReadingProcess(read) as process:
         _, expected = process.answer(files[-1].parent)

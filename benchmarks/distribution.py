@@ -1,10 +1,10 @@
-"""Build sdist and wheel, and run what users run from the wheel in an empty environment.
+"""Build sdist and wheel, and run README's examples from the wheel in an empty environment.
 
     python benchmarks/distribution.py --output build/dist
 
-The wheel is built from the sdist, and both from a copy, in which nothing of earlier builds lies. Its requirements are
-installed in the versions of requirements.lock, for which a package index is needed. README's lines in Python and every
-example then run in a folder of their own, where they must make a figure.
+The wheel is built from the sdist, and the sdist from a copy of the sources without files of earlier builds. Its
+requirements are installed in the versions of requirements.lock, from a package index. README's lines in Python and
+every example then run in an empty folder, where they must make a figure.
 """
 
 import os
@@ -23,7 +23,7 @@ BUILD_SDIST = "import sys, setuptools.build_meta as backend; backend.build_sdist
 
 
 def build(folder):
-    """Paths of the sdist and of the wheel, which are built in a folder."""
+    """Build sdist and wheel in a folder, and return their paths."""
     folder = Path(folder).resolve()
     with TemporaryDirectory() as copy:
         for name in ("pyproject.toml", "README.md", "LICENSE"):
@@ -38,7 +38,7 @@ def build(folder):
 
 
 def scripts():
-    """{name: text} of README's lines in Python and of the examples."""
+    """Return {name: text} of README's lines in Python and of the examples."""
     (snippet,) = re.findall(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(encoding="utf-8"), re.M | re.S)
     return {"README": snippet} | {path.stem: path.read_text("utf-8") for path in (ROOT / "examples").glob("*.py")}
 

@@ -1,19 +1,19 @@
-"""Read text files of known maps of heights, with their ordinary variations, and find those misread.
+"""Write text files of given maps of heights with ordinary variations, and find files that are misread.
 
     python benchmarks/file_campaign.py --files 10000 --seed 1 --output results/file_campaign.json
 
-Each file is made from a known map, spacing and unit (text_files.py), and read with viscorough.read_heights. It must be
-read exactly, with nan where points are missing, or be refused by a ValueError of one line that names the file.
-A profile must be read exactly by viscorough.read_line, or be refused, and viscorough.read_heights must refuse it.
-Everything else is wrong: another number, spacing or unit, a missing point that is dropped, another error, a warning
-other than AccuracyWarning, printed text. Files that do not hold a single map, or are contradictory, must be refused.
+Each file is made from a given map, spacing and unit (text_files.py), and read with viscorough.read_heights. It must be
+read exactly, with nan at missing points, or be refused by a ValueError of one line that names the file. A profile must
+be read exactly by viscorough.read_line, or be refused, and viscorough.read_heights must refuse it. Everything else
+counts as wrong: a different number, spacing or unit, a dropped missing point, a different error, a warning other than
+AccuracyWarning, or printed text. Files that do not hold a single map, or are contradictory, must be refused.
 
 A file is marked *unambiguous* if its variations are ordinary and a human reader would give it one meaning: numbers in
 rows of equal length, one of the usual delimiters and decimal marks that cannot be confused with each other, the usual
 marks of missing points, comments after #, %, // or as text, and headers that name one quantity per line with its unit,
-as common programs write them. These must be read; their refusals are counted separately, and also are failures.
+as common programs write them. Such files must be read; refusals of them are counted separately, as failures.
 
-`--only I` repeats one file of a seed, and prints it.
+`--only I` repeats one file of a seed and prints it.
 """
 
 import contextlib
@@ -41,7 +41,7 @@ READ, REFUSED, UNREAD, WRONG = "read", "refused", "refused though unambiguous", 
 
 
 def cases(seed, numbers):
-    """(number, case) of the cases with these numbers."""
+    """Yield (number, case) of the cases with these numbers."""
     for number, random in generators(seed, numbers):
         yield number, KINDS[random.choice(len(KINDS), p=SHARES)](random)
 
@@ -50,7 +50,7 @@ def cases(seed, numbers):
 
 
 def outcome(case, folder):
-    """(READ, REFUSED, UNREAD or WRONG, why) of a case, whose file is written to the folder."""
+    """Return (READ, REFUSED, UNREAD or WRONG, why) of a case, whose file is written to the folder."""
     path, printed = Path(folder) / case.name, io.StringIO()
     path.write_bytes(case.content)
     with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), warnings.catch_warnings():
@@ -75,7 +75,7 @@ def outcome(case, folder):
 
 
 def read_as_map(path, options):
-    """Whether read_heights reads a file."""
+    """Return True if read_heights reads the file."""
     try:
         viscorough.read_heights(path, **options)
     except ValueError:
@@ -84,7 +84,7 @@ def read_as_map(path, options):
 
 
 def difference(case, indenter):
-    """Difference of what was read from the truth of a case, as text; "" if there is none."""
+    """Return the difference between the result and the truth of a case as text; "" if there is none."""
     unit = None if indenter.length_unit == "1" else metres(indenter.length_unit)
     if case.draft.bad:
         return f"read, though it must be refused: shape {indenter.heights.shape}, unit {unit} m"
@@ -105,7 +105,7 @@ def difference(case, indenter):
 @click.option("--only", type=click.IntRange(0), help="Number of the one file to try.")
 @click.option("--output", type=click.Path(path_type=Path), help="File to write, JSON.")
 def main(files, seed, only, output):
-    """Count files that are read as another map; exit code 1 if there is any, or an unambiguous one is refused."""
+    """Count files that are read as a different map; exit code 1 if there is any, or an unambiguous file is refused."""
     began, counts, failures = time.perf_counter(), {}, []
     numbers = range(files) if only is None else [only]
     with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""A file of a known map of heights, and the random choices that make it; for file_campaign.py."""
+"""Random choices for a file of a given map of heights; for file_campaign.py."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ UNITS |= {"micrometer": 1e-6, "cm": 1e-2, "Å": 1e-10, "pm": 1e-12}
 
 
 def generators(seed, numbers):
-    """(number, random generator) of numbered cases; each depends on the seed and its number only."""
+    """Yield (number, random generator) of numbered cases; each depends on the seed and its number only."""
     for number in numbers:
         yield number, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
 
@@ -29,13 +29,13 @@ class Draft:
         return self.random.random() < share
 
     def one_of(self, choices):
-        """One of the choices, without recording it."""
+        """Return one of the choices without recording it."""
         return choices[self.random.integers(len(choices))]
 
     def pick(self, clear, unclear=(), bad=(), odd=0.12):
-        """A value of tables {name: value}, or of names alone; mostly a clear one. Its name becomes a trait.
+        """Draw a value from tables {name: value} or from names, mostly a clear one, and record its name as a trait.
 
-        Files with `unclear` ones may be refused, files with `bad` ones must be.
+        A file with an `unclear` value may be refused; a file with a `bad` value must be refused.
         """
         roll = self.random.random()
         table = bad if bad and roll < odd / 3 else unclear if unclear and roll < odd else clear
@@ -58,9 +58,9 @@ class Case:
     kind : of file
     heights : the numbers, nan where missing, in `unit`
     unit : of the heights, in metres; None if neither file nor arguments state it
-    spacing : (dx, dy) in metres, or plain numbers where the unit is not known
+    spacing : (dx, dy) in metres, or plain numbers if the unit is unknown
     accuracy : relative, of the spacing that the file states
-    is_line : whether the file holds a profile, which read_line reads and read_heights must refuse
+    is_line : True for a profile, which read_line reads and read_heights must refuse
     """
 
     draft: Draft
@@ -76,18 +76,18 @@ class Case:
 
 
 def distances(draft, square=False):
-    """(dx, dy), short decimal numbers of moderate aspect."""
+    """Draw (dx, dy): short decimal numbers of moderate aspect."""
     dx = draft.one_of([0.5, 0.25, 1.5, 2.0, 0.37, 12.5, 0.125, 0.08])
     return dx, dx if square or draft.chance(0.3) else round(dx * draft.one_of([0.8, 1.6, 2.0, 0.5, 3.0]), 6)
 
 
 def map_shape(draft):
-    """(rows, columns) of a small map."""
+    """Draw (rows, columns) of a small map."""
     return tuple(int(n) for n in draft.random.integers(2, 13 if draft.chance(0.7) else 5, 2))
 
 
 def missing_points(draft, shape):
-    """Mask of missing points: none, single ones, those outside a disc, or entire rows or columns."""
+    """Draw a mask of missing points: none, single points, all outside a disc, or entire rows or columns."""
     y, x = (np.indices(shape).T / (np.array(shape) - 1) - 0.5).T
     row, column = (int(draft.random.integers(n)) for n in shape)
     masks = {

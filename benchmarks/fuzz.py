@@ -4,8 +4,8 @@
 
 The contract allows two ends of a run. Either the exit code is 0, the output file can be read and holds finite numbers,
 and standard error holds only warnings of one line; or the exit code is 1 or 2, standard error holds one line, standard
-output is empty, and no file was made or changed, which also shows that no code in a file was run. `make fuzz` runs it.
-A failure is printed with the command that repeats it.
+output is empty, and no file was made or changed. The latter also shows that no code in a file was run. `make fuzz` runs
+it. A failure is printed with the command that repeats it.
 """
 
 import contextlib
@@ -33,7 +33,7 @@ from viscorough.io.curves import OVER_LEVELS
 from viscorough.io.media import read_medium
 
 FIGURES = {".png": b"\x89PNG", ".svg": b"<?xml"}  # first bytes
-LONGEST = 120  # seconds that a run may take
+LONGEST = 120  # longest time of a run in seconds
 
 # ---- the contract
 
@@ -43,7 +43,7 @@ def contents(folder):
 
 
 def run(arguments):
-    """Exit code, stdout and stderr of the command line in a child process, which starts as a copy of this one."""
+    """Return exit code, stdout and stderr of the command line in a child process, which is a fork of this process."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         child = multiprocessing.get_context("fork").Process(target=_run_in_child, args=(arguments, out, err))
         child.start()
@@ -64,7 +64,7 @@ def _run_in_child(arguments, out, err):
 
 
 def result_of(arguments, files):
-    """Exit code of a run in a new folder with these files, and its breach of the contract as text, "" if none."""
+    """Return the exit code of a run in a new folder with these files, and its breach of the contract, "" if none."""
     with new_folder({"older.nc": b"older"} | files) as folder:
         (folder / "folder").mkdir()
         os.mkfifo(folder / "pipe")
@@ -77,7 +77,7 @@ def result_of(arguments, files):
 
 @contextlib.contextmanager
 def new_folder(files):
-    """The working folder for the context, with these files alone."""
+    """Work in a new folder that contains only these files."""
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         for name, content in files.items():
             Path(name).write_bytes(content)
@@ -85,7 +85,7 @@ def new_folder(files):
 
 
 def breach(arguments, result, before, after):
-    """Breach of the contract by the result of a run and the files before and after it, as text; "" if there is none."""
+    """Return the breach of the contract by a run, from the files before and after it; "" if there is none."""
     code, out, err = result
     changed = [path for path in sorted({*before, *after}) if before.get(path) != after.get(path)]
     if any(path.name == STARTED for path in after):
@@ -111,7 +111,7 @@ def breach(arguments, result, before, after):
 
 
 def fault_of_medium(changed):
-    """Fault of the file of a medium, with its creep table if it has one, as text; "" if there is none."""
+    """Return the fault of the file of a medium, with its creep table if it has one; "" if there is none."""
     media = [path for path in changed if path.suffix in (".yaml", ".yml")]
     if len(media) != 1 or {path.stem for path in changed} != {media[0].stem}:
         return f"success, and {len(changed)} files changed"
@@ -123,7 +123,7 @@ def fault_of_medium(changed):
 
 
 def fault_of_output(path):
-    """Fault of an output file, as text; "" if it has none."""
+    """Return the fault of an output file; "" if there is none."""
     if path.suffix in FIGURES:
         return "" if path.read_bytes().startswith(FIGURES[path.suffix]) else "the figure is damaged"
     if path.suffix.lower() == ".csv":
@@ -133,9 +133,9 @@ def fault_of_output(path):
     except ValueError as error:
         return f"the output cannot be read: {error}"
     variables = content.variables
-    if "depth_low" in variables or "levels" in variables:  # estimates and stacks of curves, which hold nan
+    if "depth_low" in variables or "levels" in variables:  # estimates and stacks of curves contain nan
         return ""
-    # A depth before the curve's first level is missing, and an unbounded velocity; a warning says so.
+    # Depths before the curve's first level are missing, and velocities may be infinite; a warning says so.
     may_be_missing = {"depth", "velocity"} if "are missing" in str(content.attributes.get("warnings")) else set()
     for name in {*OVER_LEVELS, "time", "velocity", "overlap"} & set(variables):
         values = variables[name].values
@@ -149,7 +149,7 @@ def fault_of_output(path):
 
 
 def breaches(seed, numbers):
-    """The runs that break the contract, as in the file of results, and the number of runs by exit code."""
+    """Return the runs that break the contract, as in the file of results, and the number of runs by exit code."""
     failures, codes = [], Counter()
     for number, random in generators(seed, numbers):
         arguments, files = case(random)
@@ -175,7 +175,7 @@ def load():
 @click.option("--only", type=click.IntRange(0), help="Number of the one run to try.")
 @click.option("--output", type=click.Path(path_type=Path), help="File to write, JSON.")
 def main(runs, seed, only, output):
-    """Count runs that break the contract; exit code 1 if there is any."""
+    """Count runs that break the contract; the exit code is 1 if there is any."""
     began, numbers = time.perf_counter(), range(runs) if only is None else [only]
     load()
     failures, codes = breaches(seed, tqdm(numbers, unit="run", mininterval=2))

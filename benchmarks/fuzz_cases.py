@@ -1,7 +1,7 @@
-"""Random command lines and the files that they name, many of them invalid; for fuzz.py.
+"""Random command lines and their files, many of them invalid; for fuzz.py.
 
-A command line is one of a list of valid ones, with random numbers, of which words are replaced, inserted or left out.
-Its files are valid ones, now and then damaged. Maps of heights in text are those of file_campaign.py.
+A command line is one of a list of valid lines with random numbers; words of it are replaced, inserted or left out. Its
+files are valid, and some of them are then damaged. Maps of heights in text come from file_campaign.py.
 """
 
 import io
@@ -16,7 +16,7 @@ import tifffile
 import viscorough
 from viscorough.cli import cli
 
-STARTED = "code-was-run"  # the file that code in a file would make
+STARTED = "code-was-run"  # name of the file that code in a file would make
 
 
 def one_of(random, choices):
@@ -32,7 +32,7 @@ ODD_FIELDS += [f"!!python/object/apply:open ['{STARTED}', w]".encode(), b"\nx: 1
 
 
 def damaged(random, whole):
-    """Bytes with a field replaced, bytes changed, a part or a line missing or repeated, or others altogether."""
+    """Return bytes with a field replaced, bytes changed, a part or a line missing or repeated, or unrelated bytes."""
     fields = [field.span() for field in re.finditer(rb"[^\s,;:]+", whole)] or [(0, 0)]
     lines = whole.splitlines(keepends=True)
     line, (begin, end) = int(random.integers(len(lines) + 1)), one_of(random, fields)
@@ -70,7 +70,7 @@ TYPES = [*["f8"] * 20, "f4", "f2", ">f8", ">f4", "g", "i1", "u1", "i2", ">i4", "
 
 
 def npy(shape):
-    """Function that draws heights: rough, terraced, with extreme entries, of any type, or not to be loaded."""
+    """Draw a .npy file of heights: rough, terraced, with extreme entries, of any type, or not loadable."""
 
     def draw(random):
         values = one_of(random, [random.standard_normal(shape), random.integers(0, 4, shape) + 0.0])
@@ -88,7 +88,7 @@ def npy(shape):
 
 
 def saved(result):
-    """The bytes of a file of a result."""
+    """Return the bytes of a file of a result."""
     with tempfile.TemporaryDirectory() as folder:
         result.save(path := Path(folder) / "saved.nc")
         return path.read_bytes()
@@ -99,7 +99,7 @@ def netcdf_file(random):
 
 
 def tiff_file(random):
-    """A map, or pages or colours; of ImageJ with a unit, or of any program."""
+    """Return a TIFF file of a map, of pages or of colours, with a unit as from ImageJ, or of any program."""
     file, kind = io.BytesIO(), one_of(random, ["f4", "u2", "u1"])
     options = one_of(random, [{}, {}, {"imagej": True, "resolution": (2, 4), "metadata": {"unit": "um"}}])
     values = (99 * random.random(random.integers(1, 7, one_of(random, [2, 2, 2, 3])))).astype(kind)
@@ -113,7 +113,7 @@ def curve_file(random):
 
 
 def columns(*headings):
-    """Function that draws two columns that never decrease, below a heading with units or none."""
+    """Return a function that draws two columns that never decrease, below a heading with or without units."""
 
     def draw(random):
         rows = np.cumsum(random.random((random.integers(2, 7), 2)), axis=0) * [1.0, one_of(random, [0.02, 1.0, 1e-7])]
@@ -149,7 +149,7 @@ FILES = {
 
 # ---- command lines
 
-# Valid ones; N stands for a number, S for an increasing series, F for a fraction.
+# Valid command lines: N stands for a number, S for an increasing series, F for a fraction.
 COMMAND_LINES = (
     *("indent heights.npy --spacing 1 -o out.nc", "indent heights.npy --spacing 1,2 --unit um --depths S -o out.csv"),
     *("indent heights.npy --spacing 1 --until-fraction F -o out.nc", "indent heights.nc --forces S -o out.nc"),
@@ -194,12 +194,12 @@ DRAWN = {"N": number, "S": series, "F": lambda random: repr(random.random())}
 
 
 def valid_arguments(random, line):
-    """The words of a command line, with its random numbers."""
+    """Draw the words of a command line, with its random numbers."""
     return [DRAWN[word](random) if word in DRAWN else word for word in line.split()]
 
 
 def changed(random, arguments):
-    """A command line with a word replaced, inserted or left out, or an option more."""
+    """Return a command line with a word replaced, inserted or left out, or with a further option."""
     place, word = int(random.integers(1, len(arguments))), one_of(random, one_of(random, WORDS))
     before, after = arguments[:place], arguments[place:]
     # The second of these options may print.
@@ -211,7 +211,7 @@ def changed(random, arguments):
 
 
 def case(random):
-    """A command line, and those files that it names, or that a medium may name."""
+    """Draw a command line, and the files that it names or that a medium may name."""
     arguments = valid_arguments(random, one_of(random, COMMAND_LINES))
     while random.random() < 0.4:
         arguments = changed(random, arguments)
@@ -219,7 +219,7 @@ def case(random):
 
 
 def files_of(random, arguments, faults):
-    """{name: bytes} of the files that a command line names; faults: the share of damaged ones."""
+    """Return {name: bytes} of the files that a command line names; faults : share of damaged files"""
     named = {*arguments, *(["table.csv"] if "medium.yaml" in arguments else [])}
     whole = {name: draw(random) for name, draw in FILES.items() if name in named}
     return {name: damaged(random, b) if random.random() < faults else b for name, b in whole.items()}

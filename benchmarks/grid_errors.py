@@ -1,4 +1,4 @@
-"""Measure how often the stated error of the grid covers the true one, and what curves to a requested error cost.
+"""Measure how often the stated error of the grid covers the true error, and the cost of requested errors.
 
     python benchmarks/grid_errors.py coverage --surfaces 200 --cores 2 --output build/grid_coverage.csv
     python benchmarks/grid_errors.py requests --surfaces 100 --cores 2 --output build/grid_requests.csv
@@ -6,11 +6,11 @@
         --output build/grid_large.csv
 
 - `coverage`: the true error is the deviation from the same map sampled four times finer. It is compared with the stated
-  error at given X = F/(4GhL), where both are root mean squares over half a decade of force to either side, and over all
-  forces from X = 0.01 on. Maps are discs of odd and of even numbers of elements across, discs with holes, and discs of
-  rectangular elements. The safety factors of viscorough.contact.grid_error were calibrated on the sample "calibration";
-  the sample "test" has other surfaces.
-- `requests`: the error against the curve of all points over X = 0.01 to 3, and the processor time over that of this
+  error at given X = F/(4GhL), as root mean squares over half a decade of force to either side, and over all forces from
+  X = 0.01 on. Maps are discs with odd and even numbers of elements across, discs with holes, and discs of rectangular
+  elements. The safety factors of viscorough.contact.grid_error were calibrated on the sample "calibration"; the sample
+  "test" has different surfaces.
+- `requests`: the error against the curve of all points over X = 0.01 to 3, and the processor time over the time of this
   curve. A request is met if the error is within it.
 """
 
@@ -90,7 +90,7 @@ def case(number, across):
 
 
 def coverage_of(sample, across, number):
-    """Rows of stated and true errors of a surface, one for each X and one for all forces (x = 0), and the cost."""
+    """Return rows of stated and true errors of a surface, for each X and for all forces (x = 0), and the cost."""
     hurst, size, kind = case(number, across)
     fine = fine_disc(hurst, size, kind, seed_of(sample, number))
     coarse = sampled(fine, FINER)
@@ -124,7 +124,7 @@ def coverage_of(sample, across, number):
 
 
 def _with_cost(indenter):
-    """Return the curve with its grid error, and the time of the estimate over that of the curve."""
+    """Return the curve with its grid error, and the time of the estimate over the time of the curve."""
     times = []
     for _ in range(3):
         for estimate in (False, True):
@@ -141,7 +141,7 @@ def _beyond(curve, force):
 
 
 def summary_of_coverage(table):
-    """Table of the share of covered errors and of the median and the 90 % quantile of stated over true errors."""
+    """Return the share of covered errors, and the median and 90 % quantile of stated over true errors, as a table."""
     parts = {"all": table, **{f"{name} {value}": rows for name in ("kind", "hurst", "across", "x")
                               for value, rows in table.groupby(name)}}  # fmt: skip
     lines = []
@@ -159,7 +159,7 @@ def summary_of_coverage(table):
 
 
 def requests_of(sample, across, hurst, errors, number):
-    """Rows of sampling, errors and cost of curves to requested errors, on one disc."""
+    """Return rows of sampling, errors and cost of curves to requested errors, on one disc."""
     exponent = hurst[number % len(hurst)]
     heights = cut_disc(self_affine_square(exponent, across, seed=seed_of(sample, number)), across)
     disc = Indenter(heights / np.nanstd(heights), 1.0)
@@ -184,7 +184,7 @@ def requests_of(sample, across, hurst, errors, number):
 
 
 def summary_of_requests(table):
-    """Table of the share of met requests and of the cost, for each requested error and Hurst exponent."""
+    """Return the share of met requests and the cost, for each requested error and Hurst exponent, as a table."""
     groups = [table.assign(hurst="all"), table]
     grouped = pd.concat(groups).groupby(["requested", "hurst"], sort=False)
     columns = {"met": ("met", "mean"), "out of reach": ("out_of_reach", "mean"), "median cost": ("cost", "median")}
@@ -201,7 +201,7 @@ def main():
 
 
 def measured(function, surfaces, first, cores):
-    """Table of the rows that a function returns for each number of a surface."""
+    """Return a table of the rows that a function returns for each number of a surface."""
     numbers = range(first, first + surfaces)
     with Pool(cores) as pool:
         done = tqdm(pool.imap(function, numbers), "surfaces", len(numbers), mininterval=10)

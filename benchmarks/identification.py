@@ -1,4 +1,4 @@
-"""Coverage of the 95 % intervals of identified media, for media, numbers of rows and sizes of the noise.
+"""Measure the coverage of the 95 % intervals of fitted media, by medium, number of rows and noise level.
 
     python benchmarks/identification.py --output results/tables/identification.csv
 
@@ -67,7 +67,7 @@ COLUMNS = {
 
 
 def sphere_curve():
-    """Loading curve of a sphere of radius 1, beyond the depths of all records."""
+    """Return the loading curve of a sphere of radius 1, beyond the depths of all records."""
     body, depth = sphere(1.0), np.geomspace(1e-9, 20, 300)
     count = 10 * np.arange(1, depth.size + 1)
     force, stiffness = body.force(depth), body.stiffness(depth)
@@ -101,7 +101,7 @@ def with_wrong_zero(load, times, values):
 
 
 def coverage(case, *, trials, wrong_zero=False):
-    """Row of `COLUMNS` for one case (medium, load, rows, noise)."""
+    """Return the row of `COLUMNS` for one case (medium, load, rows, noise)."""
     name, load, rows, noise = case
     curve, medium = sphere_curve(), MEDIA[name]
     history, times, values = noiseless(curve, medium, rows, load)

@@ -1,4 +1,4 @@
-"""Cost of the loading curve of one disc on grids from coarse to fine: time and memory, as a table and a figure.
+"""Measure time and memory of the loading curve of one disc on grids from coarse to fine.
 
     python benchmarks/large_discs.py --output results/tables/large.csv --figure results/figures/large.png
 
@@ -21,10 +21,10 @@ from viscorough_study.figures import style
 from viscorough_study.performance import timing
 from viscorough_study.run.seeds import large_disc_key, realization_seed
 
-# Elements across the discs, and across one that is indented first to load the compiled functions.
+# Elements across the discs, and across a small disc that is indented first to load the compiled functions.
 ELEMENTS, WARM_UP = (129, 257, 513, 1025, 2049, 4097, 8193), 129
 HURST, TOLERANCE, SEED = 0.7, 1e-3, 2013
-ROUNDS, MAX_REPEATED = 3, 20.0  # rounds of a run on one thread and one on several; longest run that is repeated [s]
+ROUNDS, MAX_REPEATED = 3, 20.0  # rounds of a run on one thread and a run on several; longest run that is repeated [s]
 COLUMNS = {
     "across": ("elements across the disc", "1"),
     "elements": ("elements of the disc", "1"),
@@ -40,11 +40,11 @@ COLUMNS = {
 
 
 def measure_disc(across, *, until_fraction, threads):
-    """Cost of the loading curve of a disc of diameter and rms height 1, {column of `COLUMNS`: value}.
+    """Measure the loading curve of a disc of diameter and rms height 1; return {column of `COLUMNS`: value}.
 
     across : elements across the disc
-    threads : of a second run, which alternates with the first in ROUNDS rounds, or in one round if runs take long
-    Memory is the peak memory of this process.
+    threads : threads of a second run, which alternates with the first in ROUNDS rounds, or in one round if runs take
+    long Memory is the peak memory of this process.
     """
     indent(self_affine_disc(HURST, WARM_UP, seed=0), tolerance=TOLERANCE)
     disc = self_affine_disc(HURST, across, seed=realization_seed(SEED, *large_disc_key(across)))
@@ -70,7 +70,7 @@ def measure_disc(across, *, until_fraction, threads):
 
 @style.figure
 def plot_large(table):
-    """Time (a) and memory (b) of one curve over the elements, with exponents fitted to the larger half.
+    """Plot time (a) and memory (b) of one curve over the elements, with exponents fitted to the larger half.
 
     table : costs of the discs of at least two sizes, by ascending number of elements
     """
@@ -86,7 +86,7 @@ def plot_large(table):
         for across, *at in zip(table["across"], elements, values, strict=True):
             axes.annotate(f"{across}", at, (-5, 3), textcoords="offset points", ha="right")
         axes.set(xscale="log", yscale="log", xlabel="elements of the disc")
-        axes.margins(x=0.2, y=0.12)  # room for the number at the first marker
+        axes.margins(x=0.2, y=0.12)  # space for the number at the first marker
         axes.legend(loc="upper left", bbox_to_anchor=(0, 0.95))
     time.set(title="(a) time", ylabel="time (s)")
     memory.set(title="(b) memory", ylabel="memory of the process (GB)")

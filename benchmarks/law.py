@@ -1,9 +1,9 @@
-"""Calibrate the penetration law: curves of discs to complete contact, some of them to fit it, others to test it.
+"""Calibrate the penetration law on curves of discs to complete contact, and test it on other discs.
 
     python benchmarks/law.py --cores 2 --output results/tables/law.csv
 
-For every Hurst exponent and grid, the law is fitted to so many discs and tested on as many others, which were drawn
-after its form had been chosen. The table has the columns of law_calibration.COLUMNS.
+For every Hurst exponent and grid, the law is fitted to some discs and tested on the same number of other discs, which
+were drawn after its form had been chosen. The table has the columns of law_calibration.COLUMNS.
 """
 
 from functools import partial
@@ -19,11 +19,11 @@ from tqdm import tqdm
 from viscorough_study.run.seeds import law_disc_key, realization_seed
 
 HURST, ACROSS, SEED, RESAMPLES = (0.1, 0.4, 0.6, 0.9, 1.0), (257, 129), 2013, 200
-FIRST_OTHER = 1000  # number of the first disc for the test; those before were in view when the form was chosen
+FIRST_OTHER = 1000  # number of the first disc for the test; earlier discs were seen when the form was chosen
 
 
 def disc(hurst, across, number):
-    """The curve of one disc, and its control variates."""
+    """Return the curve of one disc, and its control variates."""
     return complete_curve(hurst, across, realization_seed(SEED, *law_disc_key(hurst, across, number)))
 
 

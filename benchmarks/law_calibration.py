@@ -1,14 +1,14 @@
-"""Calibration of the penetration law, by loading curves of discs up to complete contact.
+"""Calibrate the penetration law by loading curves of discs up to complete contact.
 
 The law of g, the interface's part of vt/h (viscorough.calibrated_law), has five constants for each Hurst exponent and
-grid. Two conditions are exact: its integrals over ln X and over X are the means of those of the discs, which follow
-from linear solutions (viscorough.complete_contact). The other three make it closest to the mean of g. How far the law
-is from g is measured on other discs, which also give the range in which it holds. Means over discs are arithmetic.
+grid. Two conditions are exact: its integrals over ln X and over X equal the means over the discs, which follow from
+linear solutions (viscorough.complete_contact). The remaining freedom is used to fit the mean of g. Other discs measure
+the deviation of the law from g, and the range of its validity. Means over discs are arithmetic.
 
 Some properties of a disc are known exactly, without its curve: both integrals, and the distribution of its heights.
 They serve as control variates: by linear regression, the curves of the other discs are adjusted to the mean properties
-of the discs of the fit, which removes a good part of the chance difference between the two. The table also has the
-deviation without this.
+of the discs of the fit. This removes a good part of the chance difference between the two samples. The table also has
+the deviation without this adjustment.
 """
 
 import numpy as np
@@ -24,13 +24,13 @@ from viscorough_study.fits.interface import run_around
 from viscorough_study.fits.intervals import described, mean_with_interval, resampled_means, three_columns, with_interval
 
 X = abscissa(1e-6, 1e3, 10)
-TOLERANCE = 1e-5  # of the curves: at X = 30 few elements are left, and g is small
-# The law is fitted from this X on, up to where the relative standard error of the mean of g exceeds the second number;
-# deviations count in units of the standard error, or of the third number where this is larger.
+TOLERANCE = 1e-5  # tolerance of the curves: at X = 30 few elements are left, and g is small
+# The law is fitted from this X on, up to the X at which the relative standard error of the mean of g exceeds the second
+# number. Deviations count in units of the standard error, or of the third number if that is larger.
 FIT_LOW, LARGEST_ERROR, LEAST_ERROR = 10**-2.7, 0.1, 0.02
 # Quantiles of the heights among the control variates.
 _QUANTILES = (0.5, 0.9, 0.99, 1.0)
-# Weight of the two integrals in the fit, so large that they are exact to 1e-6; abscissae of their quadrature, in ln X.
+# Weight of the two integrals in the fit, so large that they are exact to 1e-6; abscissae of their quadrature in ln X.
 _EXACT, _LOG_X = 1e5, np.linspace(np.log(1e-9), np.log(3e3), 1501)
 _START = (0.6, 0.3, 3.0, 1.0, 40.0)
 
@@ -55,7 +55,7 @@ COLUMNS = {
 
 
 def complete_curve(hurst, across, seed, x=X):
-    """g and the interface's part of u/h of a disc at the abscissae x, (2, abscissae), and its control variates.
+    """Return g and the interface's part of u/h of a disc at x, shape (2, abscissae), and its control variates.
 
     hurst, across, seed : arguments of self_affine_disc
 
@@ -76,9 +76,9 @@ def complete_curve(hurst, across, seed, x=X):
 
 
 def fit_constants(interface, integrals, error, across):
-    """Constants of the law, in the order of `CONSTANTS`.
+    """Fit the constants of the law, in the order of `CONSTANTS`.
 
-    interface : mean of g at `X`; integrals : means of both; error : relative standard error of `interface`
+    interface : mean of g at `X`; integrals : mean of each integral; error : relative standard error of `interface`
     """
     fitted = (X >= FIT_LOW * (1 - 1e-9)) & (error <= LARGEST_ERROR)
     weight = 1 / np.maximum(error[fitted], LEAST_ERROR)
@@ -94,13 +94,13 @@ def fit_constants(interface, integrals, error, across):
 
 
 def law_integrals(constants, across):
-    """∫ g dX/X and ∫ g dX of the law."""
+    """Return ∫ g dX/X and ∫ g dX of the law."""
     law = interface_velocity(np.exp(_LOG_X), *constants, across=across)
     return [simpson(values, _LOG_X) for values in (law, law * np.exp(_LOG_X))]
 
 
 def calibrate(fitted, unused, across, *, resamples, seed):
-    """Columns of `COLUMNS` from "discs" on.
+    """Return the columns of `COLUMNS` from "discs" on.
 
     fitted, unused : (parts of shape (discs, 2, abscissae), controls of shape (discs, variates)) of `complete_curve`
     """
@@ -118,20 +118,20 @@ def calibrate(fitted, unused, across, *, resamples, seed):
 
 
 def relative_error(values):
-    """Relative standard error of the mean, infinite where the mean is 0; values : shape (discs, abscissae)."""
+    """Return the relative standard error of the mean, inf if the mean is 0; values : shape (discs, abscissae)"""
     mean = values.mean(axis=0)
     return np.where(mean > 0, values.std(axis=0, ddof=1) / np.sqrt(len(values)) / np.where(mean > 0, mean, 1), np.inf)
 
 
 def adjusted(values, controls, wanted):
-    """Values less what linear regression attributes to other controls than those wanted; first axis : discs."""
+    """Return the values adjusted by linear regression from their controls to target controls; first axis : discs"""
     centred = controls - controls.mean(axis=0)
     slopes = np.linalg.lstsq(centred, values.reshape(len(values), -1), rcond=None)[0]
     return values - ((controls - wanted) @ slopes).reshape(values.shape)
 
 
 def tested(constants, parts, controls, wanted, across):
-    """Range of the law and its deviations in it, by discs that were not used for it: columns from "x_low" on.
+    """Return the range of the law and its deviations, by discs not used for the fit: columns from "x_low" on.
 
     wanted : mean controls of the discs of the fit
     """

@@ -28,12 +28,12 @@ from viscorough_study.run.seeds import law_disc_key, realization_seed
 SEED = 2013
 # Every second abscissa of the calibration, from the lowest X of any law to the highest.
 ABSCISSAE = X[(X >= FIT_LOW * (1 - 1e-9)) & (X <= 10**2.4)][::2]
-# Test the law up to this X; beyond it, the body sinks nearly like a flat punch, and the scatter is below 5 %.
+# Test the law up to this X. Beyond it the body sinks almost like a flat punch, and the scatter is below 5 %.
 TESTED = ABSCISSAE[ABSCISSAE <= 13]
 ACROSS = (129, 257)
 # Numbers of the first disc of each sample; the discs before number 2000 belong to the calibration of the law.
 FIRST_SCATTER, FIRST_TEST = 2000, 3000
-# {Hurst exponent: discs on the two grids}, for --discs 100: more on the coarse grid, which takes a quarter of the time.
+# {Hurst exponent: discs on the two grids}, for --discs 100: more on the coarse grid, which needs a quarter of the time.
 SCATTER = dict.fromkeys((0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0), (120, 40))
 TEST = dict.fromkeys((0.1, 0.25, 0.5, 0.75, 0.9), (200, 100))
 
@@ -60,9 +60,9 @@ def disc(hurst, across, x, number):
 
 
 def errors(hurst, across, parts, tested, scatter):
-    """Rows of `COLUMNS` for discs of one Hurst exponent and grid, within the range of the law.
+    """Return rows of `COLUMNS` for discs of one Hurst exponent and grid, within the range of the law.
 
-    parts, tested : of all discs, and of those for the coverage, at `TESTED`, shape (discs, 2, abscissae)
+    parts, tested : parts of all discs, and of the discs for the coverage, at `TESTED`, shape (discs, 2, abscissae)
     scatter : table of law_scatter
     """
     law = penetration_law(hurst)
@@ -83,7 +83,7 @@ def errors(hurst, across, parts, tested, scatter):
 
 
 def all_errors(fitted, tested, scatter):
-    """Table with `COLUMNS`, for all Hurst exponents and grids of two samples.
+    """Return a table with `COLUMNS`, for all Hurst exponents and grids of two samples.
 
     fitted, tested : {(hurst, across): parts, shape (discs, 2, abscissae)}, at `ABSCISSAE` and at `TESTED`
     scatter : table of law_scatter

@@ -1,10 +1,10 @@
-"""Time one light load on square maps, as on a scan: growth of the cost with the size of the map, and other solvers.
+"""Time a light load on square maps like scans, by the size of the map, and compare other solvers.
 
     python benchmarks/light_contact.py --output results/light_contact.csv --figure results/light_contact.png
 
-The whole map is read, and pressure and gap are computed everywhere. The time that no solver can do without is that of
-reading the map and ranking the elements that can touch. Solvers that `make peers` has not installed are left out. The
-table has the columns of COLUMNS; a NetCDF file beside it also records settings and machine. `make light` runs it.
+The whole map is read, and pressure and gap are computed everywhere. Every solver needs at least the time to read the
+map and to rank the elements that can touch. Solvers that `make peers` has not installed are left out. The table has the
+columns of COLUMNS; a NetCDF file next to it also records settings and machine. `make light` runs it.
 """
 
 from functools import partial
@@ -24,18 +24,18 @@ from viscorough_study.figures import style
 from viscorough_study.performance import timing
 from viscorough_study.run.seeds import light_map_key, realization_seed
 
-# Elements across the maps, one map of each size, and contact fractions that the loads on them are chosen for.
+# Elements across the maps, one map of each size, and contact fractions for which the loads are chosen.
 ELEMENTS, FRACTIONS = (256, 512, 1024, 2048, 4096, 8192), (5e-4, 5e-3)
-# Those that other solvers compute, too: solvers or their modes, maps, and fractions of the loads on these.
+# Maps and loads for the comparison: solvers or their modes, maps, and contact fractions of the loads.
 SOLVERS = ("Tamaas", "ContactMechanics", "ASPHER active set")
 RACE_ELEMENTS, RACE_FRACTIONS = (2048, 4096), (5e-4, 5e-3, 0.025, 0.3)
-# Exponent of the maps, residual to be reached, root seed, pairs of runs of this and another solver, their threads.
+# Exponent of the maps, residual to be reached, root seed, pairs of runs of this solver and another, their threads.
 HURST, RESIDUAL, SEED, PAIRS, THREADS = 0.8, 3e-5, 2013, 3, (1, 2)
 # Other solvers are stopped after this many times our time, or after the shortest time.
 SLOWER, SHORTEST = 20, 2.0  # [s]
-# Most repetitions of our own solutions, of which a small map takes as many as last SHORTEST.
+# Largest number of repetitions of our solutions; a small map is repeated until SHORTEST has passed.
 MOST_REPEATS = 40
-# Corrections of the force towards a contact fraction, and the tolerance of the contacts that tell it.
+# Corrections of the force towards a contact fraction, and the tolerance of the contacts used for them.
 CORRECTIONS, TOLERANCE = 3, 1e-2
 COLUMNS = {
     "fraction": ("contact fraction that the load was chosen for", "1"),
@@ -46,29 +46,29 @@ COLUMNS = {
 
 
 class LightLoad(solver_race.Task):
-    """A load on a map, the only one of `forces`; depths : of the contact, shape (1,)."""
+    """A load on a map, the only one of `forces`; depths : depth of the contact, shape (1,)"""
 
     def solve(self, threads):
-        """The Contact under the load, with its maps."""
+        """Return the Contact under the load, with its maps."""
         return contact_at(self.indenter, force=self.forces[0], tolerance=self.residual, threads=threads)
 
     def rank(self):
-        """What no solution can do without: the elements that can touch, in order."""
+        """Rank the elements that can touch, the least that any solution needs."""
         ranking = Ranking(self.indenter)
         return ranking.first(self.depths[0] / ranking.units.length)
 
     def outcome(self, solution):
-        """Residual, by the measure of all solvers, and force; the number of iterations is not reported."""
+        """Return residual, by the measure of all solvers, and force; the number of iterations is not reported."""
         gap = self.indenter.initial_gap / self.indenter.spacing
         residual = other_solvers.contact_residual(gap, np.nan_to_num(solution.pressure))
         return np.array([residual]), np.array([solution.force]), -1
 
 
 def light_load(indenter, fraction):
-    """The LightLoad for a contact fraction, which nearly is proportional to the force.
+    """Return the LightLoad for a contact fraction, which is almost proportional to the force.
 
-    The first guess is that of light contact between rough surfaces, F = ½ E* h′ A with E* = 4G, contact area A and rms
-    slope h′ (Persson 2001, Hyun et al. 2004).
+    The first guess is the law of light contact between rough surfaces, F = ½ E* h′ A with E* = 4G, contact area A and
+    rms slope h′ (Persson 2001, Hyun et al. 2004).
     """
     force = 2 * indenter.rms_slope * fraction * indenter.elements * indenter.spacing**2
     for _ in range(CORRECTIONS):
@@ -81,7 +81,7 @@ def light_load(indenter, fraction):
 
 @style.figure
 def plot_light_contact(table):
-    """Wall time on one thread against the elements of the map, with the time of ranking them.
+    """Plot wall time on one thread against the elements of the map, with the time of ranking them.
 
     table : with the columns of `COLUMNS`
     Exponents are fitted to the larger half of the sizes.
@@ -119,7 +119,7 @@ def main(output, figure):
             names = [name for name in solvers if fraction in raced and (name, fraction) not in stopped]
             racing, limit = {name: solvers[name] for name in names}, max(SHORTEST, SLOWER * seconds)
             table = solver_race.compare_solvers(load, racing, pairs=PAIRS, time_limit=limit)
-            # One that did not finish is not waited for again on a larger map.
+            # A solver that did not finish is not tried on a larger map.
             stopped |= {(name, fraction) for name in racing if name not in set(table["solver"])}
             at_depth = partial(contact_at, indenter, depth=load.depths[0], tolerance=RESIDUAL)
             own = {"force": partial(load.solve, 1), "depth": at_depth, "ranking": load.rank}

@@ -1,4 +1,4 @@
-"""Files of a run that hold measured times, and therefore differ from run to run."""
+"""Names of result files that hold measured times, and therefore differ from run to run."""
 
 from pathlib import Path
 
@@ -12,9 +12,9 @@ _FIGURES = {
     for name, figure in _RESULTS["figures"].items()
     if _TABLES & {Path(path).stem for path in figure["input"].values()}
 }
-NAMES = _TABLES | _FIGURES | {"index"}  # of tables and figures with any suffix, and of the page
+NAMES = _TABLES | _FIGURES | {"index"}  # names of tables and figures with any suffix, and of the page
 
 
 def holds_times(path):
-    """Whether a file, by its path below the folder of results, holds measured times."""
+    """Return True if a file, by its path below the folder of results, holds measured times."""
     return path.parts[0] in FOLDERS or path.stem in NAMES

@@ -1,4 +1,4 @@
-"""Common parts of the benchmarks: environment of what is timed, output option and file, and growth of a cost."""
+"""Common parts of the benchmarks: environment of timed runs, output option and file, and growth of a cost."""
 
 import json
 import os
@@ -13,19 +13,19 @@ from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
 from viscorough_study.run.tables import recorded, write_table
 
-# One thread, and the settings of the allocator of the workflow, both of which a process reads when it starts.
+# One thread, and the allocator settings of the workflow; a process reads both when it starts.
 ENVIRONMENT = {
     **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"),
     "MALLOC_MMAP_THRESHOLD_": str(2**25),
     "MALLOC_TRIM_THRESHOLD_": str(10**9),
 }
-LARGE_PAGES = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}  # where the system has them; also of the workflow
+LARGE_PAGES = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}  # large pages, if the system has them; as in the workflow
 
 output_option = click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write.")
 
 
 def run_timed(main, **variables):
-    """Run a command with ENVIRONMENT and further variables, in a process that takes the place of this one if needed."""
+    """Run a command with ENVIRONMENT and further variables, in a process that replaces this one if needed."""
     wanted = ENVIRONMENT | variables
     if any(os.environ.get(name) != value for name, value in wanted.items()):
         os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | wanted)
@@ -33,7 +33,7 @@ def run_timed(main, **variables):
 
 
 def write_json(content, path):
-    """Write a mapping as a JSON file, atomically; its folder is made if needed."""
+    """Write a mapping as a JSON file, atomically; make its folder if needed."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(path) as temporary:
         temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
@@ -54,9 +54,9 @@ def save_table(table, output):
 
 
 def save_times(table, output, columns, title, settings):
-    """Write a table of times as a CSV file, and beside it as a NetCDF file with settings and machine, each atomically.
+    """Write a table of times as CSV, and next to it as NetCDF with settings and machine, each atomically.
 
-    columns : as of write_table
+    columns : columns for write_table
     """
     output.parent.mkdir(parents=True, exist_ok=True)
     attributes = recorded(settings=settings, machine=timing.machine())
@@ -66,7 +66,7 @@ def save_times(table, output, columns, title, settings):
 
 
 def fit_cost(number, cost):
-    """(a, c) of cost = c·number^a, by least squares of the logarithms; nan for fewer than two sizes."""
+    """Return (a, c) of cost = c·number^a, by least squares of the logarithms; nan for fewer than two sizes."""
     if len(number) < 2:
         return np.nan, np.nan
     exponent, logarithm = np.polyfit(np.log(number), np.log(cost), 1)

@@ -1,14 +1,14 @@
-"""Change the sources at random places, one at a time in a copy of the project, and count the changes that tests detect.
+"""Change the sources at random places in a copy of the project, and count the changes that tests detect.
 
     python benchmarks/mutants.py --mutants 200 --seed 1 --cores 2 --output results/mutants.json [--only NUMBER ...]
 
-cosmic-ray makes the mutants: another operator, comparison or number, a negated condition, a loop without iterations. A
-module of src/ or workflow/scripts/ is drawn with a probability in proportion to its lines, then a place in it, then a
-change there. Each mutant meets the tests that `make check` runs for its module (tests/changed.py); if it survives, also
-the other tests of that folder and those that import the module. A script meets the tests that load it, or a run of the
-workflow. A mutant is caught if a test fails, crashes, or does not end within the time limit; before that, every test
-must pass without any change. The output lists every mutant that survives with its difference: it needs a test, or it
-changes no result. The working tree is never changed.
+cosmic-ray makes the mutants: a different operator, comparison or number, a negated condition, a loop without
+iterations. A module of src/ or workflow/scripts/ is drawn with a probability in proportion to its lines, then a place
+in it, then a change there. Each mutant meets the tests that `make check` runs for its module (tests/changed.py); if it
+survives, also the other tests of that folder and the tests that import the module. A script meets the tests that load
+it, or a run of the workflow. A mutant is caught if a test fails, crashes, or does not end within the time limit; before
+that, every test must pass without any change. The output lists every surviving mutant with its difference. Such a
+mutant needs a test, unless it changes no result. The working tree is never changed.
 """
 
 import ast
@@ -38,17 +38,17 @@ sys.path.insert(0, str(ROOT / "tests"))
 from changed import relevant_tests
 
 CAUGHT, SURVIVED, CRASHED, ENDED, BROKEN = "caught", "survived", "crashed", "not finished", "tests did not run"
-# {exit code of pytest, or of the command that kills it at the time limit: verdict}; 2: a module cannot be imported, 134
-# and 139: the process was aborted, by a kernel that writes outside its arrays for example.
+# {exit code of pytest, or of the command that kills it at the time limit: verdict}. 2: a module cannot be imported. 134
+# and 139: the process was aborted, for example by a kernel that writes outside its arrays.
 VERDICTS = {0: SURVIVED, 1: CAUGHT, 2: CAUGHT, 134: CRASHED, 139: CRASHED, -6: CRASHED, -11: CRASHED, -9: ENDED}
-# Changes that no test needs to notice: `is` and `==` agree for None, and without a decorator kernels are only slower;
-# and changes that any test notices, since floats have no bits.
+# Changes that no test needs to notice: `is` and `==` agree for None, and without a decorator kernels are only slower.
+# Changes that any test notices are left out, too, since floats have no bits.
 LEFT_OUT = re.compile(
     r"(Replace)?(ComparisonOperator_(Eq_Is|NotEq_IsNot|Is_Eq|IsNot_NotEq)|RemoveDecorator|"
     r"BinaryOperator_(Add|Sub|Mul|Div|FloorDiv|Mod|Pow)_(BitAnd|BitOr|BitXor|LShift|RShift))"
 )
 FULL_RUN = ["tests/workflow/test_full_run.py"]
-# A changed source; number : of the drawing; what : operator of cosmic-ray; text : of the whole changed file.
+# A changed source. number : number of the drawing; what : operator of cosmic-ray; text : text of the changed file
 Mutant = namedtuple("Mutant", "number file line what text")
 
 
@@ -56,13 +56,13 @@ Mutant = namedtuple("Mutant", "number file line what text")
 
 
 def sources(root=ROOT):
-    """{path from the root: text} of all modules that may be changed."""
+    """Return {path from the root: text} of all modules that may be changed."""
     files = sorted([*root.glob("src/viscorough*/**/*.py"), *root.glob("workflow/scripts/*.py")])
     return {str(file.relative_to(root)): file.read_text(encoding="utf-8") for file in files}
 
 
 def code_lines(text):
-    """Number of lines with expressions, without comments and docstrings."""
+    """Return the number of lines with expressions, without comments and docstrings."""
     lines = set()
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.expr) and not (isinstance(node, ast.Constant) and isinstance(node.value, str)):
@@ -71,7 +71,7 @@ def code_lines(text):
 
 
 def places(text):
-    """{(kind of operator, line, column): [(operator, occurrence)]} of the changes of a module."""
+    """Return {(kind of operator, line, column): [(operator, occurrence)]} of the changes of a module."""
     nodes, left_out, found = list(ast_nodes(get_ast(text))), _ranges_left_out(text), {}
     for name in cosmic_ray.plugins.operator_names():
         operator, short = cosmic_ray.plugins.get_operator(name), name.removeprefix("core/")
@@ -85,7 +85,7 @@ def places(text):
 
 
 def _ranges_left_out(text):
-    """(start, end) as (line, column) of every annotation, and of every decorator that compiles a function."""
+    """Yield (start, end) as (line, column) of every annotation, and of every decorator that compiles a function."""
     found = []
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.arg, ast.AnnAssign)):
@@ -96,7 +96,7 @@ def _ranges_left_out(text):
 
 
 def drawn(texts, seed, numbers):
-    """Iterator over the mutants with these numbers; each depends on the sources, the seed and its number only."""
+    """Yield the mutants with these numbers; each depends on the sources, the seed and its number only."""
     files, known = list(texts), {}
     weights = np.array([code_lines(text) for text in texts.values()])
     for number, random in generators(seed, numbers):
@@ -120,7 +120,7 @@ def _is_code(text):
 
 
 def difference(mutant, text):
-    """The change of a mutant, as the lines that differ."""
+    """Return the lines that differ in a mutant."""
     lines = difflib.unified_diff(text.splitlines(), mutant.text.splitlines(), lineterm="", n=0)
     return [line for line in lines if not line.startswith(("---", "+++", "@@"))]
 
@@ -129,7 +129,7 @@ def difference(mutant, text):
 
 
 def area_tests(file, root=ROOT):
-    """Test files for a changed module; those of a script that no test loads are a run of the workflow."""
+    """Return test files for a changed module; scripts that no test loads are tested by a run of the workflow."""
     if not file.startswith("workflow/"):
         return relevant_tests(file, root)
     call = f'load_script("{Path(file).stem}")'
@@ -138,7 +138,7 @@ def area_tests(file, root=ROOT):
 
 
 def further_tests(file, root=ROOT):
-    """Test files for a module that passes its area tests: of their folder, and those that import the module."""
+    """Return further test files for a module that passes its area tests: of their folder, or that import the module."""
     if file.startswith("workflow/"):
         return []
     module, folder = Path(file).relative_to("src").with_suffix(""), Path("tests", *Path(file).parts[1:-1])
@@ -146,7 +146,7 @@ def further_tests(file, root=ROOT):
     found = set()
     for path in root.glob("tests/**/test_*.py"):
         test = path.relative_to(root)
-        # Those of whole packages are too many.
+        # Whole packages would have too many.
         in_folder = test.parent == folder or (len(folder.parts) > 2 and test.is_relative_to(folder))
         if in_folder or name.search(path.read_text(encoding="utf-8")):
             found.add(str(test))
@@ -154,18 +154,18 @@ def further_tests(file, root=ROOT):
 
 
 def run_tests(tests, folder, time_limit, *options):
-    """(exit code of pytest, its summary, seconds) of tests of a copy of the project."""
+    """Return (exit code of pytest, its summary, seconds) of tests of a copy of the project."""
     command = ["timeout", "--signal=KILL", str(time_limit), sys.executable, "-m", "pytest", "-q", "-x"]
     command += ["-p", "no:cacheprovider", *options, *tests]
     began = time.perf_counter()
     run = subprocess.run(command, cwd=folder, env=environment(folder), capture_output=True, text=True, check=False)
     lines = [line for line in run.stdout.splitlines() if line.strip()] or run.stderr.splitlines() or [""]
-    failed = [line for line in lines if line.startswith(("FAILED", "ERROR"))]  # its summary
+    failed = [line for line in lines if line.startswith(("FAILED", "ERROR"))]  # the summary of pytest
     return run.returncode, (failed or lines)[-1], time.perf_counter() - began
 
 
 def compiled_with(file, texts):
-    """Files whose compiled functions may contain those of a file: itself, and what imports it, at any distance."""
+    """Return files whose compiled functions may contain functions of a file: itself, and all its importers."""
     with_kernels = {name for name, text in texts.items() if "viscorough.compilation import" in text}
     affected, waiting = set(), {file} & with_kernels
     while waiting:
@@ -176,8 +176,8 @@ def compiled_with(file, texts):
 
 
 def outcome(mutant, clean, folder, texts, stages, time_limit):
-    """Outcome of one mutant, as a dictionary for the file; stages : lists of tests, run until one of them fails."""
-    for name in ("src", "workflow"):  # with the times of the files, on which compiled code depends
+    """Return the outcome of one mutant as a dictionary for the file; stages : lists of tests, run until one fails"""
+    for name in ("src", "workflow"):  # keep the times of the files, which decide whether code is compiled again
         shutil.rmtree(folder / name, ignore_errors=True)
         shutil.copytree(clean / name, folder / name)
     for name in compiled_with(mutant.file, texts):

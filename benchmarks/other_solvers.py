@@ -1,20 +1,21 @@
 """Other public contact solvers, run on the same levels as the elastic loading path, in separate environments.
 
-Each solver is driven by an adapter in peers/, a script for the Python of the solver's environment, which lacks this
-package. Request and answer are .npz files, whose names are arguments of the adapter. Lengths are in element sides and
-pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and E* = E/(1 − ν²) = 4.
+Each solver is driven by an adapter in peers/, a script for the Python of the solver's environment, which does not
+contain this package. Request and answer are .npz files, whose names are arguments of the adapter. Lengths are in
+element sides and pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and E* = E/(1 −
+ν²) = 4.
 
 The request holds
     gap : initial gap of the indenter's elements to its highest point, nan outside it, shape (rows, columns)
     depths, forces : u and F/G of the levels, increasing, shape (levels,); a solver uses one or the other
-    tolerance : the solver's own
+    tolerance : as the solver defines it
     padding : side of the square grid to solve on (see padded_size)
     threads, maximum_seconds : threads; time limit
 
 The answer holds
-    version : of the solver
+    version : version of the solver
     pressures : p/G, shape (levels, rows, columns)
-    iterations : of all levels, -1 if not reported
+    iterations : sum over all levels, -1 if not reported
     wall_s, processor_s : for all levels, without set-up
     memory : peak memory of the process in bytes
 
@@ -36,7 +37,7 @@ from scipy.fft import next_fast_len
 from viscorough.contact.halfspace.operator import Halfspace
 
 ROOT = Path(__file__).resolve().parents[1]
-# {solver: command that runs its adapter, from ROOT, whether or not `make peers` has installed it}
+# {solver: command that runs its adapter from ROOT}, also for solvers that `make peers` has not installed
 ADAPTERS = {
     "ASPHER": (".venv-peers/bin/python", "peers/aspher_adapter.py", "levels"),
     "ASPHER nested": (".venv-peers/bin/python", "peers/aspher_adapter.py", "nested"),
@@ -45,12 +46,12 @@ ADAPTERS = {
     "SlipPY": (".venv-slippy/bin/python", "peers/slippy_adapter.py"),
     "Tamaas": (".venv-peers/bin/python", "peers/tamaas_adapter.py"),
 }
-# Variables of the number of threads, which libraries read on loading.
+# Environment variables for the number of threads, which libraries read on loading.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def installed(names):
-    """{solver: command that runs its adapter} of the solvers whose environments exist; a message names the others."""
+    """Return {solver: command that runs its adapter} of installed solvers; a message names the others."""
     missing = [name for name in names if not (ROOT / ADAPTERS[name][0]).is_file()]
     for name in missing:
         click.echo(f"{name} is not installed and is omitted (make peers installs it)", err=True)
@@ -58,13 +59,13 @@ def installed(names):
 
 
 def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, threads=1):
-    """Solution by another solver at the given levels, each started from the level before.
+    """Solve the given levels with another solver, each level started from the level before.
 
-    name, command : of the solver, and that runs its adapter
+    name, command : name of the solver, and command that runs its adapter
     depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver uses one or the other
-    tolerance : the solver's own; time_limit : seconds after which the run is abandoned
+    tolerance : as the solver defines it; time_limit : seconds after which the run is abandoned
 
-    Returns None where there is no solution, otherwise version, iterations, wall_s, processor_s and memory of the
+    Returns None if there is no solution, otherwise version, iterations, wall_s, processor_s and memory of the
     answer and, of shape (levels,), from its pressures
         force : F/G, in the user's unit of length
         residual : largest |gap| in contact or overlap outside it, over the depth
@@ -85,7 +86,7 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
         np.savez(paths[0], **request)
         variables = os.environ | dict.fromkeys(THREADS, str(threads))
         done = subprocess.run([*command, *paths], cwd=ROOT, env=variables, capture_output=True, text=True)
-        if done.returncode == -signal.SIGALRM:  # the time was over
+        if done.returncode == -signal.SIGALRM:  # the time limit was reached
             return None
         if not paths[1].is_file():
             warnings.warn(f"{name}: {(done.stderr.strip() or 'no answer').splitlines()[-1]}", stacklevel=2)
@@ -98,7 +99,7 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
 
 
 def contact_residual(gap, pressure):
-    """Largest |gap of the deformed surfaces| under pressure, or overlap elsewhere, over the depth.
+    """Return the largest |gap of the deformed surfaces| under pressure, or overlap elsewhere, over the depth.
 
     gap : initial gap to the highest point, nan outside the indenter; pressure : p/G; lengths in element sides
 
@@ -117,5 +118,5 @@ def contact_residual(gap, pressure):
 
 
 def padded_size(elements):
-    """Smallest size of a grid with a factor of 8 and no prime factor above 11, for fast transforms."""
+    """Return the smallest size of a grid with a factor of 8 and no prime factor above 11, for fast transforms."""
     return 8 * next_fast_len(-(-elements // 8))

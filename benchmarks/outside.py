@@ -1,10 +1,10 @@
-"""Compare with numbers that others published, on free and periodic half-spaces.
+"""Compare with published numbers of other groups, on free and periodic half-spaces.
 
     python benchmarks/outside.py --output results/outside.csv
 
-The random surfaces of the sources are not known. What one surface of a source gave is compared with the mean of ours,
-and the tolerance is twice the standard deviation between ours; other tolerances have a reason of their own. A row whose
-deviation is above its tolerance stays in the table, where `met` is 0.
+The random surfaces of the sources are not known. The result of one surface of a source is compared with the mean of
+ours. The tolerance is twice the standard deviation of ours; other tolerances have a stated reason. A row whose
+deviation exceeds its tolerance stays in the table, with `met` = 0.
 """
 
 import click
@@ -33,7 +33,7 @@ ONE_DIGIT = "half of the last digit that is stated"
 
 
 def surface(points, waves, seed, hurst, **roll_off):
-    """Heights of a periodic square of side and rms height 1, with up to so many waves along a side; their rms slope."""
+    """Return heights of a periodic square of side and rms height 1, and their slope; waves : most along a side"""
     coarse = self_affine_square(hurst, 2 * waves, seed=seed, **roll_off)
     wave = np.fft.fftfreq(len(coarse), 1 / len(coarse))
     slope = np.linalg.norm(np.fft.fft2(coarse) * 2 * np.pi * np.hypot(wave[:, None], wave)) / coarse.size
@@ -41,7 +41,7 @@ def surface(points, waves, seed, hurst, **roll_off):
 
 
 def free_squares(surfaces):
-    """Rows on the free square: its corrected area, what the correction takes away, and changes over the grids."""
+    """Return rows on the free square: its corrected area, the size of the correction, and changes over the grids."""
     areas = []
     for seed in range(surfaces):
         heights, slope = surface(GRIDS[-1], FREE_WAVES, seed, 0.8)
@@ -55,7 +55,7 @@ def free_squares(surfaces):
 
 
 def area_quantities(raw, corrected):
-    """{quantity: value} of raw and corrected contact fractions on each of the grids."""
+    """Return {quantity: value} of raw and corrected contact fractions on each of the grids."""
     corrections = {f"(A − A*)/A₀ on {n}²": raw[k] - corrected[k] for k, n in enumerate(GRIDS)}
     name = f"change of {{}}/A₀ from {GRIDS[0]}² to {GRIDS[-1]}²"
     changes = {name.format("A"): raw[-1] - raw[0], name.format("A*"): corrected[-1] - corrected[0]}
@@ -63,7 +63,7 @@ def area_quantities(raw, corrected):
 
 
 def periodic_squares(surfaces, points=512):
-    """Rows on periodic squares: the coefficient of the area at a small pressure, and the plateau of u₀/h."""
+    """Return rows on periodic squares: the coefficient of the area at a small pressure, and the plateau of u₀/h."""
     for hurst in (0.3, 0.8):
         coefficients, u0 = [], []
         for seed in range(surfaces):

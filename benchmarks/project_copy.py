@@ -1,4 +1,4 @@
-"""Copies of the project in which campaigns run, and break, what they need."""
+"""Copies of the project in which campaigns may run and break things."""
 
 import os
 import shutil
@@ -11,7 +11,7 @@ _NOT_COPIED = shutil.ignore_patterns(".git", ".venv*", ".snakemake", ".pytest_ca
 def copy_project(folder):
     """Copy the project with numba's caches, since compiling would take most of the time, into a folder.
 
-    Of folders called results, only that of runs is left out.
+    Of the folders called results, only the results of runs are left out.
     """
 
     def not_copied(parent, names):
@@ -21,5 +21,5 @@ def copy_project(folder):
 
 
 def environment(folder):
-    """The variables of this process, and the packages of the copy before the installed ones."""
+    """Return the variables of this process, with the packages of the copy before the installed ones."""
     return os.environ | {"PYTHONPATH": str(folder / "src")}

@@ -3,13 +3,13 @@
     python benchmarks/publish.py --results results --command paper
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
-their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
-of paper include the verdicts and the calibrated power law, those of law the law of the interface, those of law-errors
-its errors and the intervals of single surfaces, those of reproduce verdicts and cost of the default run, those of
-first-minutes its time from the clone to the page, those of seeds the dependence of the verdicts on the seed, that is,
-on the surfaces drawn. Without results (`--pages-only`) only the tables in README.md and docs/ are written, from the
-last published results and from the statements in resources/paper/claims.yaml. The addresses of the project in
-pyproject.toml are written to README.md, docs/ and CITATION.cff in both cases. The workflow writes only into results/.
+their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale.
+`paper` includes the verdicts and the calibrated power law, `law` the law of the interface, and `law-errors` its errors
+and the intervals of single surfaces. `reproduce` includes the verdicts and the cost of the default run,
+`first-minutes` the time from the clone to the page. `seeds` includes the dependence of the verdicts on the seed, which
+draws the surfaces. With `--pages-only` only the tables in README.md and docs/ are written, from the last published
+results and from the statements in resources/paper/claims.yaml. The addresses of the project in pyproject.toml are
+written to README.md, docs/ and CITATION.cff in both cases. The workflow writes only into results/.
 """
 
 import json
@@ -25,7 +25,7 @@ import click
 import pandas as pd
 import yaml
 from measuring import write_json
-from PIL import Image  # a dependency of matplotlib
+from PIL import Image  # matplotlib depends on it
 
 from viscorough.calibrated_law import CONSTANTS
 from viscorough_study.fits.infinite_grid import OMEGA
@@ -43,18 +43,18 @@ from viscorough_study.verdicts.claims import (
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
-OTHER_SOLVERS = "resources/published/other_solvers.csv"  # quoted by runs that do not measure them
+OTHER_SOLVERS = "resources/published/other_solvers.csv"  # quoted by runs that do not measure other solvers
 FIRST_MINUTES = "resources/published/first_minutes.csv"
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
 
 
 def _made(figures="", tables="", others=""):
-    """Files in results/ of these names of figures, names of tables, and other files."""
+    """Return files in results/ with these names of figures, names of tables, and other files."""
     figures, tables = (names.split() for names in (figures, tables))
     return [*(f"figures/{name}.png" for name in figures), *(f"tables/{name}.csv" for name in tables), *others.split()]
 
 
-# {command of make: files that it makes in results/ and that are published in docs/results/}
+# {command of make: files that it makes in results/ and that docs/results/ publishes}
 PUBLISHED = {
     "paper": _made(
         "fig1_surfaces fig2_kinetics fig3_master_curve fig4_exponent conventions validation interface reduction "
@@ -63,7 +63,7 @@ PUBLISHED = {
         "literature zeta_laws grid_dependence periodic",
     ),
     "speed": _made("speed level_placement", "methods other_solvers level_placement"),
-    "light": _made("light_contact", "light_contact"),  # a part of `make speed`
+    "light": _made("light_contact", "light_contact"),  # part of `make speed`
     "stability": _made("failure_map", "failure_map", "campaign.json sum_rules.json"),
     "sizes": _made("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
     "large": _made("large", "large"),
@@ -75,7 +75,7 @@ PUBLISHED = {
     "first-minutes": [],
     "seeds": [],
 }
-# {command: {file in results/ that other parts of the project read: where they find it}}
+# {command: {file in results/ that other parts of the project read: its place there}}
 KEPT = {
     "paper": {
         "tables/claims.csv": "docs/claims.csv",
@@ -97,13 +97,13 @@ INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 
 
 def verdicts():
-    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those of other runs that differ."""
+    """Return docs/claims.csv with all numbers as a Markdown table, and the verdicts of other runs that differ."""
     table = published_claims()
     return markdown(table, CLAIMS) + "\n" + paragraph(other_runs(table))
 
 
 def other_runs(table):
-    """Sentences that compare the verdicts with those of the default run and, where published, of other root seeds."""
+    """Return sentences that compare the verdicts with the default run and, if published, with other root seeds."""
     runs, seeds, differ = [published_claims(DEFAULT_CLAIMS)], "", []
     if (ROOT / "docs/seeds.csv").is_file():
         with_seeds = dict(tuple(published_claims("docs/seeds.csv").groupby("seed")))
@@ -121,9 +121,9 @@ def other_runs(table):
 
 
 def opposed_cases(runs):
-    """[(claim, case)] that hold in one of several tables of verdicts and fail in another.
+    """Return [(claim, case)] that hold in one of several tables of verdicts and fail in another.
 
-    Cases of complete contact are named by the X from which on they are counted, which differs between runs.
+    Cases of complete contact are compared without the X in their names, which differs between runs.
     """
     outcomes = {}
     for table in runs:
@@ -134,7 +134,7 @@ def opposed_cases(runs):
 
 
 def answer_lines():
-    """The answer in one paragraph, the number of claims by verdict, and the findings that explain what fails."""
+    """Return the answer in one paragraph, the number of claims by verdict, and the findings that explain failures."""
     table = published_claims()
     counts = ", ".join(f"{number} {verdict}" for verdict, number in counted_verdicts(table))
     total = sum(number for _, number in counted_verdicts(table))
@@ -157,7 +157,7 @@ def default_minutes():
 
 
 def sentences():
-    """Every checkable sentence of the paper with its origin and the verdicts on it, as a table in Markdown."""
+    """Return every checkable sentence of the paper with its origin and its verdicts, as a Markdown table."""
     table = published_claims()
     of_claim = {name: verdict_text(rows) for name, rows in table.groupby("claim", sort=False)}
     rows = []
@@ -169,12 +169,12 @@ def sentences():
 
 
 def addresses():
-    """Addresses of the project, of pyproject.toml: {name: address}."""
+    """Return the addresses of the project from pyproject.toml: {name: address}."""
     return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["urls"]
 
 
 def installation():
-    """Lines of a shell that install the library with its plots, from a checkout or from the repository."""
+    """Return shell lines that install the library with its plots, from a checkout or from the repository."""
     return (
         "```shell\n"
         "python3 -m venv venv && . venv/bin/activate\n"
@@ -185,14 +185,14 @@ def installation():
 
 
 def project_links():
-    """Sentence with the addresses of the project."""
+    """Return a sentence with the addresses of the project."""
     links = {name: addresses()[name] for name in ("Repository", "Documentation", "Issues")}
     text = " · ".join(f"[{name}]({address})" for name, address in links.items())
     return paragraph(f"{text} (placeholders until the project is published)")
 
 
 def bibtex():
-    """Entries of BibTeX for the project and the paper, from CITATION.cff."""
+    """Return BibTeX entries for the project and the paper, from CITATION.cff."""
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     (paper,) = cited["references"]
     authors = " and ".join(f"{author['family-names']}, {author['given-names']}" for author in paper["authors"])
@@ -214,14 +214,14 @@ def bibtex():
 
 
 def citation(text):
-    """CITATION.cff with the addresses of pyproject.toml; text : as it is"""
+    """Return CITATION.cff with the addresses of pyproject.toml; text : present content of the file"""
     for key, name in CITED_ADDRESSES.items():
         text = re.sub(rf"^{key}: .*$", f"{key}: {addresses()[name]}", text, flags=re.MULTILINE)
     return text
 
 
 def time_sentence():
-    """Sentence on the time of the default run and that of the paper, with machine and date."""
+    """Return a sentence on the times of the default run and of the paper, with machine and date."""
     table = first_minutes()
     seconds = table.groupby("part")["wall_s"].median()
     machine, measured = table[["machine", "measured"]].iloc[-1]
@@ -243,23 +243,23 @@ def published_claims(name="docs/claims.csv"):
 
 
 def paragraph(text):
-    """A paragraph in lines of at most 120 characters, none of which starts with a sign that would begin a list."""
+    """Return a paragraph in lines of at most 120 characters, none of which starts like an item of a list."""
     joined = re.sub(r" (?=[+*-] )", "\0", text)
     return textwrap.fill(joined, 120, break_long_words=False, break_on_hyphens=False).replace("\0", " ") + "\n"
 
 
 def markdown_table(head, rows):
-    """A table in Markdown of these lines."""
+    """Return a Markdown table of these lines."""
     return "\n".join([head, "|---" * (head.count("|") - 1) + "|", *rows]) + "\n"
 
 
 def filled(row, table):
-    """The line of a table in Markdown for each row of a DataFrame; row : a template that names its columns."""
+    """Return a line of a Markdown table for each row of a DataFrame; row : template that names its columns"""
     return [row.format(**record) for record in table.to_dict("records")]
 
 
 def with_ratios(first, table):
-    """A table in Markdown of these first cells, then a ratio of three digits for each column, or a dash."""
+    """Return a Markdown table of these first cells, then a ratio of three digits for each column, or a dash."""
     names = [name if isinstance(name, str) else f"{name[0]}, {name[1]} thread{'s' * (name[1] > 1)}" for name in table]
     cells = table.map("{:.3g}".format).replace("nan", "–").agg(" | ".join, axis=1)
     head, *rows = first
@@ -268,7 +268,7 @@ def with_ratios(first, table):
 
 
 def other_solver_times():
-    """Times of other solvers over that of the loading path, as a table in Markdown, by task and Hurst exponent."""
+    """Return times of other solvers over the loading path, as a Markdown table by task and Hurst exponent."""
     table = pd.read_csv(ROOT / OTHER_SOLVERS)
     ratios = table.pivot_table("ratio", ["task", "elements", "hurst"], "solver", sort=False)
     rows = filled("| {task} | {elements} | {hurst:g} |", ratios.index.to_frame())
@@ -276,7 +276,7 @@ def other_solver_times():
 
 
 def large_maps():
-    """Cost of discs on grids from coarse to fine, as a table in Markdown."""
+    """Return the cost of discs on grids from coarse to fine, as a Markdown table."""
     table = pd.read_csv(ROOT / "docs/results/large.csv").eval("gigabytes = memory / 1e9")
     row = "| {across} | {wall:.3g} s | {wall_threads:.3g} s | {gigabytes:.1f} GB | {levels} | {operator_applications} |"
     head = "| elements across | one thread | two threads | memory | levels | operator applications |"
@@ -284,7 +284,7 @@ def large_maps():
 
 
 def light_loads():
-    """Time of one light load on large maps, and those of other solvers over it, as a table in Markdown."""
+    """Return the time of one light load on large maps, and the times of other solvers over it, as a Markdown table."""
     table = pd.read_csv(ROOT / "docs/results/light_contact.csv").eval("percent = 100 * fraction")
     maps = ["elements", "percent"]
     own = table.query("solver == 'viscorough' and threads == 1").groupby(maps, as_index=False)["wall_s"].median()
@@ -294,7 +294,7 @@ def light_loads():
 
 
 def sum_rules():
-    """Relative deviations of both integrals of curves and audits, as a table in Markdown."""
+    """Return relative deviations of both integrals of curves and audits, as a Markdown table."""
     head = "| | first, 1e-3 | second, 1e-3 | first, 1e-8 | second, 1e-8 | first, audit | second, audit "
     head += "| first, last level alone | levels of the audit |"
     content, rows = json.loads((ROOT / "docs/results/sum_rules.json").read_text(encoding="utf-8")), []
@@ -308,7 +308,7 @@ def sum_rules():
 
 
 def outside_numbers():
-    """Numbers of others beside ours, of docs/results/outside.csv, as a table in Markdown."""
+    """Return published numbers next to ours, from docs/results/outside.csv, as a Markdown table."""
     table = pd.read_csv(ROOT / "docs/results/outside.csv")
     table["quantity"] = table["quantity"].str.replace("*", r"\*")
     table["exceeded"] = table["met"].map({0: ", **exceeded**", 1: ""})
@@ -318,10 +318,11 @@ def outside_numbers():
 
 
 def infinite_grid():
-    """Exponents of infinitely fine grids of docs/results/infinite_grid.csv, as a table in Markdown.
+    """Return exponents of infinitely fine grids of docs/results/infinite_grid.csv, as a Markdown table.
 
-    By Hurst exponent, with the correction to scaling, h over all waves of the spectrum; in brackets the least and the
-    largest end of the 95 % intervals in all ranges of X. Then in how many fits the data do not determine ω.
+    The rows are by Hurst exponent, with the correction to scaling and with h over all waves of the spectrum. Brackets
+    give the smallest and the largest end of the 95 % intervals over all ranges of X. A sentence below the table counts
+    the fits in which ω is at an end of its range.
     """
     table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected'")
     table["cell"] = filled("{beta:.3f} [{ranges_low:.3f}, {ranges_high:.3f}]", table)
@@ -339,7 +340,7 @@ def infinite_grid():
 
 
 def interface_law():
-    """The law of two springs for each Hurst exponent and grid, of data/law.csv, as two tables in Markdown."""
+    """Return the law of two springs for each Hurst exponent and grid, of data/law.csv, as two Markdown tables."""
     table = pd.read_csv(ROOT / KEPT["law"]["tables/law.csv"]).sort_values(["across", "hurst"], ascending=[False, True])
     fractions = ["deviation", "unadjusted", "standard_error", "geometric_velocity", "geometric_depth"]
     table[fractions] *= 100
@@ -355,9 +356,9 @@ def interface_law():
 
 
 def largest_errors():
-    """Largest errors of the law from X = 0.003 to 13, and shares of discs in the interval of a single surface there.
+    """Return the largest errors of the law from X = 0.003 to 13, and shares of discs in their interval.
 
-    One row for each H and grid. Shares are a mean over X, and the least and the largest at one X.
+    There is one row for each H and grid. Shares are the mean over X, and the smallest and the largest at one X.
     """
     rows = []
     judged = pd.read_csv(ROOT / "docs/results/law_errors.csv").query("x > 0.003")
@@ -375,7 +376,7 @@ def largest_errors():
 
 
 def law_errors():
-    """Largest errors of the law on fresh discs, and the shares of single discs in their interval, as two tables."""
+    """Return the largest errors of the law on fresh discs, and shares of discs in their interval, as two tables."""
     table = largest_errors().sort_values(["across", "hurst"], ascending=[False, True])
     row, head = "| {hurst:g} | {across:g} | {discs:g} |", "| *H* | elements across | discs |"
     for name, text in {"velocity": "*vt*/*h*", "interface": "*g*", "depth": "*u*/*h*"}.items():
@@ -392,7 +393,7 @@ def law_errors():
 
 
 def published_results(records):
-    """Contents of docs/results/, in Markdown: for every command its origin, its figures, and links to its tables.
+    """Return the contents of docs/results/ in Markdown: the origin, figures and links to tables of every command.
 
     records : content of docs/results/published.json
     """
@@ -410,7 +411,7 @@ def published_results(records):
 
 
 def tables():
-    """{(page, name): text} of the generated parts, between marks, of README.md and pages of docs/."""
+    """Return {(page, name): text} of the generated parts, between marks, of README.md and pages of docs/."""
     records = json.loads((ROOT / "docs/results/published.json").read_text(encoding="utf-8"))
     return {
         ("README.md", "answer"): answer_lines(),
@@ -447,9 +448,9 @@ def write_tables():
 
 
 def copy_other_solvers(table, target, machine, date):
-    """Write the times of other solvers on one thread over that of the path, with date and machine.
+    """Write the times of other solvers on one thread over the time of the path, with date and machine.
 
-    What does not meet the residual has no time.
+    Solutions that do not meet the residual have no time.
     """
     times = pd.read_csv(table).query("solver != 'viscorough' and threads == 1").dropna(subset="ratio")
     times = times[["task", "hurst", "elements", "levels", "solver", "version", "threads", "ratio"]]
@@ -458,18 +459,18 @@ def copy_other_solvers(table, target, machine, date):
 
 
 def date_of(file):
-    """The day on which a file was made."""
+    """Return the day on which a file was made."""
     return datetime.fromtimestamp(file.stat().st_mtime, UTC).date().isoformat()
 
 
 def copy_picture(file, target):
-    """Copy a PNG file with at most 128 colours, in a third of the bytes: git keeps every version."""
+    """Copy a PNG file with at most 128 colours, which needs a third of the bytes: git keeps every version."""
     with Image.open(file) as picture:
         picture.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(target, optimize=True)
 
 
 def copy_table(file, target):
-    """Copy a CSV file with eight significant digits, in half of the bytes: git keeps every version."""
+    """Copy a CSV file with eight significant digits, which needs half of the bytes: git keeps every version."""
     text = pd.read_csv(file, keep_default_na=False, na_values=[""])
     text.to_csv(target, index=False, float_format="%.8g", lineterminator="\n")
 

@@ -1,6 +1,6 @@
-"""Random small indenters for detecting silent failures: solutions reported as converged that are wrong.
+"""Random small indenters that detect silent failures: solutions reported as converged that are wrong.
 
-Levels are checked by themselves; loading curves at levels, between them, in kinetics, and in integrals.
+Levels are checked one by one. Loading curves are checked at levels, between them, in kinetics, and in integrals.
 """
 
 import warnings
@@ -21,10 +21,10 @@ from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.robustness.stress_solutions import GRID_ONLY
 
-_LARGEST = 32  # elements across
-# Fraction of the height differences below which the rounding of the heights dominates depths.
+_LARGEST = 32  # largest number of elements across
+# Share of the height differences below which the rounding of the heights dominates depths.
 _HEIGHT_ROUNDING = 1e-13
-# Solver options from which a case draws: the dense solver up to different sizes, the grid from the first level on.
+# Solver options to draw from: the dense solver up to different sizes, and the grid from the first level on.
 _OPTIONS = (DEFAULT, SolverOptions(dense_contacts=30, dense_interactions=300), SolverOptions(dense_interactions=0))
 
 
@@ -37,7 +37,7 @@ class RandomCurve:
 
 
 def random_levels(generator):
-    """A RandomCurve of a smaller indenter with three depths, from a numpy Generator."""
+    """Draw a RandomCurve of a smaller indenter with three depths, from a numpy Generator."""
     heights = random_heights(generator)
     height, length = 10.0 ** generator.uniform(-12, 12, 2) if generator.random() < 0.3 else (1.0, 1.0)
     indenter = Indenter(height * heights, length)
@@ -49,10 +49,10 @@ def random_levels(generator):
 
 
 def random_curve(generator, with_start=None, at_forces=False):
-    """A RandomCurve from a numpy Generator.
+    """Draw a RandomCurve from a numpy Generator.
 
-    with_start : whether `start_fraction` is given; random by default
-    at_forces : whether levels are given by forces alone
+    with_start : give `start_fraction` or not; random by default
+    at_forces : give levels by forces only
     """
     heights = random_heights(generator, int(generator.integers(2, _LARGEST + 1)))
     height, length = 10.0 ** generator.uniform(-9, 9, 2) if generator.random() < 0.2 else (1.0, 1.0)
@@ -73,14 +73,14 @@ def random_curve(generator, with_start=None, at_forces=False):
 
 
 def random_audit(generator):
-    """A RandomCurve whose arguments are those of `audit`, from a numpy Generator."""
+    """Draw a RandomCurve with arguments of `audit`, from a numpy Generator."""
     case = random_curve(generator)
     arguments = {"options": case.arguments["options"], "tolerance": 10.0 ** -generator.uniform(2, 4)}
     return RandomCurve(case.indenter, arguments)
 
 
 def random_whole_curve(generator, across, largest_tolerance=1e-2, smallest_tolerance=1e-2):
-    """A RandomCurve of an ordinary disc until complete contact, from a numpy Generator.
+    """Draw a RandomCurve of an ordinary disc until complete contact, from a numpy Generator.
 
     across : numbers of elements across to draw from; the Hurst exponent is drawn from 0 to 1
     largest_tolerance, smallest_tolerance : limits of the tolerance, whose logarithm is drawn
@@ -91,9 +91,9 @@ def random_whole_curve(generator, across, largest_tolerance=1e-2, smallest_toler
 
 
 def whole_curve_failure(case, compute=indent):
-    """Error message on the end of the loading curve of a RandomCurve until complete contact; "" if it is right.
+    """Return an error message on the end of the whole loading curve of a RandomCurve; "" if it is right.
 
-    The last level must lie at the depth of complete contact that linear solutions give, to the tolerance.
+    Within the tolerance, the last level must lie at the depth of complete contact that linear solutions give.
     """
     curve, end = compute(case.indenter, **case.arguments), complete_contact(case.indenter)
     tolerance, ratio = case.arguments["tolerance"], curve.depth[-1] / end.depth
@@ -108,18 +108,18 @@ def whole_curve_failure(case, compute=indent):
 
 
 def audit_failure(case):
-    """Error message on the integrals of the loading curve of a RandomCurve; "" if they are exact."""
+    """Return an error message on the integrals of the loading curve of a RandomCurve; "" if they are exact."""
     result = audit(case.indenter, **case.arguments)
     return "" if result.agrees else str(result)
 
 
 def levels_failure(case, solver_type=ContactSolver):
-    """Error message on the converged levels of a RandomCurve at given depths; "" if they are right.
+    """Return an error message on the converged levels of a RandomCurve at given depths; "" if they are right.
 
     The solution is checked, by the dense influence matrix, for tension, and for a gap in contact or an overlap outside
-    it of more than ten times the tolerance. The force is compared with that of the direct integration in time, which
+    it of more than ten times the tolerance. The force is compared with direct integration in time, which
     shares only the influence coefficients with the path. The rounding of the heights at small depths is allowed for.
-    A ConvergenceError is not a silent failure; a level solved before it can be one.
+    A ConvergenceError is not a silent failure, but a level solved before it can be wrong.
     """
     tolerance, options = case.arguments["tolerance"], case.arguments["options"]
     solver, events = solver_type(case.indenter, tolerance, options), march_events(case.indenter)
@@ -147,12 +147,12 @@ def levels_failure(case, solver_type=ContactSolver):
 
 
 def curve_failure(case, compute=indent):
-    """Error message on the loading curve of a RandomCurve; "" if it is right.
+    """Return an error message on the loading curve of a RandomCurve; "" if it is right.
 
     The reference is the direct integration in time, exact from event to event, which shares only the influence
-    coefficients with the loading path. The error of the depth at the force of every level must be below the tolerance,
-    and so must that of depths interpolated between levels, down to FINEST_ACCURACY, from the start fraction on, unless
-    a warning was given. The kinetics under a force history must have the depths of the reference.
+    coefficients with the loading path. The error of the depth at the force of every level must be below the tolerance.
+    So must the error of depths interpolated between levels (not below FINEST_ACCURACY), from the start fraction on,
+    unless a warning was given. The kinetics under a force history must have the depths of the reference.
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
@@ -168,7 +168,7 @@ def curve_failure(case, compute=indent):
 
 
 def _error(name, places, depth, exact, tolerance, rounding):
-    """Message on the largest error of depths if it exceeds the tolerance, otherwise ""; name : template of a place."""
+    """Return a message on the largest error of depths if it exceeds the tolerance, or ""; name : template of a place"""
     error = np.nan_to_num(np.abs(depth / exact - 1) - rounding / exact, nan=np.inf)
     worst = error.argmax()
     if error[worst] <= tolerance:
@@ -177,7 +177,7 @@ def _error(name, places, depth, exact, tolerance, rounding):
 
 
 def _error_between(curve, events, case, tolerance, rounding):
-    """Error message on depths between the levels, or ""."""
+    """Return an error message on depths between the levels, or ""."""
     arguments, last = case.arguments, curve.force[-1]
     if curve.contact_fraction[-1] < arguments["until_fraction"] and last < arguments.get("until_force", np.inf):
         return f"stops at a contact fraction of {curve.contact_fraction[-1]:.3g}"
@@ -194,7 +194,7 @@ def _error_between(curve, events, case, tolerance, rounding):
 
 
 def _error_before(curve, events, tolerance, rounding):
-    """Error message on depths before the first given one, which are returned only if they are exact; or ""."""
+    """Return an error message on depths before the first given depth, which are returned only if exact; or ""."""
     force = curve.force[0] * np.array([1e-3, 0.3, 0.9])
     exact, depth = events.depth_at(force), curve.at_force(force)[0]
     depth = np.where(np.isnan(depth), exact, depth)

@@ -8,12 +8,12 @@ from viscorough.surfaces import self_affine_disc
 
 
 def random_heights(generator, largest=12):
-    """Heights of one of KINDS, of a random scale, and with missing elements in a third of the cases.
+    """Draw heights of one of KINDS, of a random scale, and with missing elements in a third of the cases.
 
     generator : numpy Generator
     largest : elements across; a strip has up to eight times as many
 
-    Returns an array of shape (rows, columns) with at least one element; nan where there is none.
+    Returns an array of shape (rows, columns) with at least one element; nan at missing elements.
     """
     kind = KINDS[generator.choice(list(KINDS))]
     heights = kind(generator, *generator.integers(1, largest + 1, 2))
@@ -24,14 +24,14 @@ def random_heights(generator, largest=12):
 
 
 def with_random_aspect(indenter, generator):
-    """The indenter with elements of a random aspect dy/dx from 1/5 to 5 in a third of the cases, else unchanged."""
+    """Give the indenter elements of a random aspect dy/dx from 1/5 to 5 in a third of the cases."""
     if generator.random() > 1 / 3:
         return indenter
     return replace(indenter, row_spacing=indenter.spacing * 5 ** generator.uniform(-1, 1))
 
 
 def _mask(generator, shape):
-    """Mask of missing elements: scattered ones, all beyond a circle, or a hole in the middle."""
+    """Draw a mask of missing elements: scattered ones, all beyond a circle, or a hole in the middle."""
     row, column = _positions(generator, *shape)
     distance = np.hypot(row / shape[0], column / shape[1])
     choice, share = generator.integers(3), 0.8 * generator.random()
@@ -41,12 +41,12 @@ def _mask(generator, shape):
 
 
 def _positions(generator, rows, columns):
-    """Rows and columns relative to a random position on the map."""
+    """Return rows and columns relative to a random position on the map."""
     return np.mgrid[:rows, :columns] - np.array([rows, columns])[:, None, None] * generator.random((2, 1, 1))
 
 
 def _rough(generator, rows, columns):
-    """Heights of a self-affine disc, of the given shape; corners are as deep as the highest point is high."""
+    """Return heights of a self-affine disc, of this shape; corners are as deep as the highest point is high."""
     heights = _rough_disc(generator, rows, columns)
     return np.nan_to_num(heights, nan=-np.nanmax(heights))[:rows, :columns]
 
@@ -77,14 +77,14 @@ def _one_spike(generator, rows, columns):
 
 
 def _terraces(generator, rows, columns):
-    """A rough surface rounded to a few heights, in half of the cases with some noise."""
+    """Return a rough surface rounded to a few heights, in half of the cases with some noise."""
     heights = _rough(generator, rows, columns)
     step = np.ptp(heights) / generator.integers(1, 7) or 1.0
     return np.floor(heights / step) * step + _noise(generator, heights.shape) * step
 
 
 def _bosses(generator, rows, columns):
-    """One to three round bosses on a plate, of equal or different heights, in half of the cases with some noise."""
+    """Return one to three round bosses on a plate, of equal or different heights, half of the time with noise."""
     heights = np.zeros((rows, columns))
     for _ in range(generator.integers(1, 4)):
         radius = generator.uniform(0.1, 0.5) * max(rows, columns)
@@ -94,13 +94,13 @@ def _bosses(generator, rows, columns):
 
 
 def _plateau(generator, rows, columns):
-    """A truncated hill, whose highest elements touch simultaneously."""
+    """Return a truncated hill, whose highest elements touch simultaneously."""
     hill = _hill(generator, rows, columns)
     return np.minimum(hill, np.quantile(hill, generator.random())) + _noise(generator, hill.shape) * np.ptp(hill)
 
 
 def _comb(generator, rows, columns):
-    """Ridges at equal distances, or a checkerboard, over a plate at a lower height."""
+    """Return ridges at equal distances, or a checkerboard, over a plate at a lower height."""
     period = generator.integers(2, 6)
     row, column = np.mgrid[:rows, :columns]
     teeth = (row % period == 0) if generator.random() < 0.6 else ((row + column) % 2 == 0)
@@ -108,14 +108,14 @@ def _comb(generator, rows, columns):
 
 
 def _quantized(generator, rows, columns):
-    """A rough surface quantized as by an instrument of low resolution."""
+    """Return a rough surface quantized as by an instrument of low resolution."""
     heights = _rough(generator, rows, columns)
     step = np.ptp(heights) / 2.0 ** generator.integers(2, 11) or 1.0
     return np.round(heights / step) * step
 
 
 def _measured_like(generator, rows, columns):
-    """A rough surface with tilt, noise, quantization and a few spikes."""
+    """Return a rough surface with tilt, noise, quantization and a few spikes."""
     heights = _rough(generator, rows, columns)
     span = np.ptp(heights) or 1.0
     row, column = _positions(generator, rows, columns)
@@ -126,20 +126,20 @@ def _measured_like(generator, rows, columns):
 
 
 def _islands(generator, rows, columns):
-    """Many small bumps of nearly equal heights, far from each other on a plate at a lower height."""
+    """Return many small bumps of almost equal heights, far from each other on a plate at a lower height."""
     bumps = generator.random((rows, columns)) < generator.uniform(0.01, 0.2)
     return np.where(bumps, 1 + 10.0 ** generator.uniform(-4, 0) * generator.random((rows, columns)), 0.0)
 
 
 def _edge_patch(generator, rows, columns):
-    """A rough patch at an edge or in a corner of a plate at a lower height."""
+    """Return a rough patch at an edge or in a corner of a plate at a lower height."""
     heights, (height, width) = np.zeros((rows, columns)), -(-np.array([rows, columns]) // 3)
     heights[:height, :width] = 1 + generator.random((height, width))
     return np.flip(heights, axis=tuple(np.flatnonzero(generator.random(2) < 0.5)))
 
 
 def _noise(generator, shape):
-    """Uniform noise of an amplitude from 1e-6 to 0.1; none in half of the cases."""
+    """Return uniform noise of an amplitude from 1e-6 to 0.1, or none in half of the cases."""
     amplitude = 10.0 ** generator.uniform(-6, -1) if generator.random() < 0.5 else 0.0
     return amplitude * generator.random(shape)
 

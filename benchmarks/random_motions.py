@@ -22,14 +22,14 @@ from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.unilateral_sums import step_row
 
-_LARGEST = 24  # elements across
-_ENDS = 3  # times at which the springs of a history are examined
-# c over the largest φ of the history, C − 1, and the sum of the forces over the largest force.
+_LARGEST = 24  # largest number of elements across
+_ENDS = 3  # number of times at which the springs of a history are examined
+# Tolerances of c over the largest φ of the history, of C − 1, and of the sum of the forces over the largest force.
 _LEAST_C, _MOST_C, _SUM = 1e-10, 1e-9, 1e-9
-# Differences between histories with few and with many samples, over the largest value.
+# Tolerance of differences between histories with few and with many samples, over the largest value.
 _SAMPLES = {CreepTable: 2e-3, Springpot: 1e-7}
 _SAMPLES_OF_SPRINGS = 1e-9
-# Largest share of the last level at which a history ends: contact that has receded and returns goes deeper than Φ.
+# Largest share of the last level at which a history ends. After contact recedes and returns, depths exceed Φ.
 _SHARE = 0.6
 
 
@@ -43,7 +43,7 @@ class RandomMotion:
 
 
 def random_motion(generator):
-    """A RandomMotion from a numpy Generator."""
+    """Draw a RandomMotion from a numpy Generator."""
     curve, (medium, own_time) = _random_curve(generator), _random_medium(generator)
     by_depth, rigid = generator.random() < 0.5, isinstance(medium, Newtonian | KelvinVoigt)
     time, shape = _random_shape(generator, own_time, may_step=not (by_depth and rigid))
@@ -59,7 +59,7 @@ def random_motion(generator):
 
 
 def _random_curve(generator):
-    """The curve of a round body, with exact levels, or of a random map at a random tolerance."""
+    """Return the curve of a round body, with exact levels, or of a random map at a random tolerance."""
     if generator.random() < 0.2:
         body = (
             sphere(10.0 ** generator.uniform(-1, 1)) if generator.random() < 0.5 else cone(generator.uniform(0.05, 1))
@@ -77,7 +77,7 @@ def _random_curve(generator):
 
 
 def _random_medium(generator):
-    """A medium of any kind, and a time of it."""
+    """Return a medium of any kind, and one of its relaxation times."""
     kind = generator.choice(["newtonian", "maxwell", "kelvin_voigt", "solid", "prony", "springpot", "table"])
     modulus, time = 10.0 ** generator.uniform(-4, 4, 2)
     if kind == "newtonian":
@@ -102,12 +102,12 @@ def _random_medium(generator):
 
 
 def _random_shape(generator, own_time, *, may_step):
-    """Times, and a load from 0 to 1 with ramps, holds and rests; steps where a time is given twice."""
+    """Return times, and a load from 0 to 1 with ramps, holds and rests; a repeated time has a step."""
     number = generator.integers(3, 12)
     equal = np.full(number, 10.0 ** generator.uniform(-1.5, 0.5))
     lengths = equal if generator.random() < 0.5 else 10.0 ** generator.uniform(-2, 1, number)
     time = own_time * np.append(0.0, np.cumsum(lengths))
-    time *= min(1.0, 900 * own_time / time[-1])  # a table of J ends
+    time *= min(1.0, 900 * own_time / time[-1])  # a table of J has a last time
     shape = generator.random(time.size) * generator.choice([0.0, 1.0, 1.0, 1.0], time.size)
     held = np.flatnonzero(generator.random(time.size - 1) < 0.3)
     shape[held + 1] = shape[held]
@@ -122,7 +122,7 @@ def _random_shape(generator, own_time, *, may_step):
 
 
 def motion_failure(case):
-    """Error message on the motion of a RandomMotion; "" if it is right.
+    """Return an error message on the motion of a RandomMotion; "" if it is right.
 
     A motion may be refused only if its contact grows beyond the curve.
     """
@@ -133,7 +133,7 @@ def motion_failure(case):
 
 
 def _range_failure(case, motion):
-    """Error message unless depths are finite, forces are not negative, and contact fractions are within 0 and 1."""
+    """Return an error message unless depths are finite, forces not negative, and contact fractions from 0 to 1."""
     known = np.isfinite(motion.depth) & np.isfinite(motion.force)
     if not known.any():
         return "nothing is known"
@@ -145,7 +145,7 @@ def _range_failure(case, motion):
 
 
 def _samples_failure(case, motion):
-    """Error message if more samples of the same history change the motion."""
+    """Return an error message if more samples of the same history change the motion."""
     load = case.load
     pairs = zip(load.time[:-1], load.time[1:], strict=True)
     inner = np.concatenate([a + (b - a) * np.array([0.21, 0.5, 0.83]) for a, b in pairs if b > a])
@@ -164,7 +164,7 @@ def _samples_failure(case, motion):
 
 
 def _springs_failure(case):
-    """Error message unless c ≥ 0, C ≤ 1, and the springs carry the force, at the ends of parts of the history."""
+    """Return an error message unless c ≥ 0, C ≤ 1, and the springs carry the force, at parts of the history."""
     load, ends = case.load, np.linspace(case.load.time[0], case.load.time[-1], _ENDS + 1)[1:]
     moved = []
     for end in ends:
@@ -172,7 +172,7 @@ def _springs_failure(case):
         values = longer.values[: place + 1]
         part = Load(longer.time[: place + 1], **{"depth" if load.by_depth else "force": values})
         row, motion = row_motion(case.curve, case.medium, part)
-        if isinstance(case.medium, CreepTable):  # the inequalities hold for steps in time, too
+        if isinstance(case.medium, CreepTable):  # the inequalities also hold for steps in time
             motion = step_row(row, case.medium, part, 4)
         moved.append((end, row, motion))
     largest = max(motion.pressures.max() for *_, motion in moved)

@@ -1,12 +1,12 @@
-"""Run the workflow through Slurm, while jobs are lost, and compare its results with those of a local run.
+"""Run the workflow through Slurm, while jobs are lost, and compare its results with a local run.
 
     python benchmarks/slurm.py --output results/slurm.json
 
-As root, with Debian's packages slurm-wlm and munge: a cluster of this one machine is started on the loopback interface,
-with its files in a temporary folder and without the machine's own settings. The small settings are then run twice, each
-time in a copy of the project: locally, and through Slurm with profiles/slurm, while a job is cancelled, and the node is
-drained and then lost. The files must be those of the local run, equal to the last byte; of logs and benchmarks, which
-contain times, only names must agree.
+The script needs root rights and Debian's packages slurm-wlm and munge. It starts a cluster of this machine on the
+loopback interface, with files in a temporary folder and without the machine's own settings. The small settings are then
+run twice, each time in a copy of the project: locally, and through Slurm with profiles/slurm, while a job is cancelled,
+and the node is drained and then lost. The files must equal the local run's to the last byte. Logs and benchmarks, which
+contain times, must only have the same names.
 """
 
 import contextlib
@@ -27,7 +27,7 @@ from measuring import output_option, save
 from project_copy import copy_project
 
 NODE = socket.gethostname().split(".")[0]
-# There is no accounting, jobs take seconds, and no other user queries their states.
+# The cluster has no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
 THROUGH_SLURM = ("--profile", "profiles/slurm", *QUICK)
 
@@ -68,14 +68,14 @@ def printed(*command):
 
 
 def free_ports():
-    """Two free ports."""
+    """Return two free ports."""
     with socket.create_server(("127.0.0.1", 0)) as first, socket.create_server(("127.0.0.1", 0)) as second:
         return first.getsockname()[1], second.getsockname()[1]
 
 
 @contextlib.contextmanager
 def cluster(folder):
-    """The daemons of Munge and Slurm, which are stopped at the end in any case."""
+    """Start the daemons of Munge and Slurm, and stop them at the end in any case."""
     conf = folder / "slurm.conf"
     for name in ("state", "spool", "bin"):
         (folder / name).mkdir()
@@ -87,7 +87,7 @@ def cluster(folder):
     (folder / "bin" / "srun").write_text(SRUN.format(conf=conf, srun=shutil.which("srun")))
     (folder / "bin" / "srun").chmod(0o755)
     os.environ["PATH"] = f"{folder / 'bin'}:{os.environ['PATH']}"
-    os.environ["SLURM_CONF"] = str(conf)  # for the daemons, every command and, passed on by it, every job
+    os.environ["SLURM_CONF"] = str(conf)  # read by the daemons and every command, which passes it on to every job
     try:
         start(folder, MUNGED.format(folder).split())
         wait_for((folder / "munge.socket").exists, "start of munged")
@@ -108,7 +108,7 @@ def start(folder, command):
 
 
 def processes(conf):
-    """Processes with this cluster's settings in their environment: daemons, jobs and the processes that run them."""
+    """Return processes with this cluster's settings in their environment: daemons, jobs and their parents."""
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
             if process.pid != os.getpid() and process.environ().get("SLURM_CONF") == conf:
@@ -126,7 +126,7 @@ def stop(conf):
 
 
 def state():
-    """State of the node, such as idle; None while the daemons are not running."""
+    """Return the state of the node, such as idle; None while the daemons are not running."""
     done = subprocess.run(["sinfo", "--noheader", "--format", "%T"], capture_output=True, text=True, check=False)
     return done.stdout.strip() or None
 
@@ -136,7 +136,7 @@ def set_state(value):
 
 
 def jobs(state):
-    """Slurm's numbers of the jobs in a state, RUNNING or PENDING."""
+    """Return Slurm's numbers of the jobs in a state, RUNNING or PENDING."""
     return printed("squeue", "--noheader", "--array", "--states", state, "--format", "%i").split()
 
 
@@ -151,7 +151,7 @@ def disturb():
     set_state("drain")
     wait_for(lambda: state() == "drained", "end of the jobs on the drained node")
     wait_for(lambda: jobs("PENDING"), "submission of a job to the drained node")
-    time.sleep(10)  # during which a drained node must not start a job
+    time.sleep(10)  # a drained node must not start a job in this time
     if jobs("RUNNING"):
         raise click.ClickException("the drained node gets jobs")
     set_state("resume")
@@ -163,13 +163,13 @@ def disturb():
 
 
 def compare_runs(folder):
-    """Both runs, as a dictionary for the file."""
+    """Return both runs, as a dictionary for the file."""
     local, through, daemons = folder / "local", folder / "through", folder / "cluster"
     copy_project(local)
     seconds = {"local": run_to_end(local)}
     wanted = contents(local)
     click.echo(f"local: {seconds['local']:.0f} s, {len(wanted)} files")
-    shutil.copytree(local, through)  # with what the local run has compiled
+    shutil.copytree(local, through)  # keep code that the local run has compiled
     remove_results(through)
     daemons.mkdir()
     with cluster(daemons):
@@ -185,9 +185,9 @@ def compare_runs(folder):
 def main(output):
     if os.geteuid() or not all(map(shutil.which, ("munged", "slurmctld", "slurmd", "sbatch"))):
         raise click.ClickException("root is needed, and Slurm: apt-get install slurm-wlm munge")
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # as an exception, so that the daemons are ended
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # raise an exception, so that the daemons are ended
     with tempfile.TemporaryDirectory() as folder:
-        os.chmod(folder, 0o755)  # munged requires that all users can reach its socket
+        os.chmod(folder, 0o755)  # all users must be able to reach the socket of munged
         result = compare_runs(Path(folder).resolve())
     save(result, output)
     sys.exit(bool(result["differences"]))

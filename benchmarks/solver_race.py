@@ -2,10 +2,10 @@
 
     python benchmarks/solver_race.py --output results/tables/other_solvers.csv
 
-The time of the path includes its set-up and the exact stiffness at every level; that of another solver includes
-neither. Other solvers start every level from the previous one, if they can. Those that `make peers` has not installed
-are left out. The table has the columns of COLUMNS; a NetCDF file beside it also records settings and machine.
-`make speed` runs it.
+The time of the path includes its set-up and the exact stiffness at every level; the time of another solver includes
+neither. Other solvers start every level from the previous level, if they can. Solvers that `make peers` has not
+installed are left out. The table has the columns of COLUMNS; a NetCDF file next to it also records settings and
+machine. `make speed` runs it.
 """
 
 import gc
@@ -27,7 +27,7 @@ SOLVERS = ("ASPHER", "ASPHER nested", "ContactMechanics", "SlipPY", "Tamaas")
 # Exponents of the discs, residual to be reached, root seed, pairs of runs of the path and another solver.
 HURST, RESIDUAL, SEED, PAIRS = (0.4, 0.8), 1e-6, 2013, 5
 LONGEST = 60.0  # seconds after which a run of another solver is abandoned
-# {task: elements across the disc, levels, contact fractions of the first and the last of them, threads}
+# {task: elements across the disc, levels, contact fractions of the first and the last level, threads}
 TASKS = {
     "eight levels": (257, 8, (0.001, 0.5), (1,)),
     "thirty levels": (257, 30, (0.001, 0.5), (1,)),
@@ -35,12 +35,12 @@ TASKS = {
     "one level at 2049": (2049, 1, (0.025, 0.025), (1, 2)),
 }
 
-# Tolerances of other solvers, over the residual required, from loose to tight: each solver defines its own measure of
-# the tolerance.
+# Tolerances of other solvers over the required residual, from loose to tight. Each solver measures its tolerance
+# differently.
 TOLERANCE_RATIOS = (30, 10, 3, 1, 1 / 3, 1 / 10, 1 / 30, 1 / 100)
-HOPELESS = 4  # ratio to the time of the fastest other solver that noise of the machine cannot make up
+HOPELESS = 4  # time over the fastest other solver that noise of the machine cannot explain
 MAX_REPEATED = 20.0  # longest run that is repeated [s]
-REFERENCE_TOLERANCE = 1e-10  # of the reference forces
+REFERENCE_TOLERANCE = 1e-10  # tolerance of the reference forces
 COLUMNS = {
     "task": ("what is computed", ""),
     "hurst": ("Hurst exponent of the disc", "1"),
@@ -80,16 +80,16 @@ class Task:
     threads: tuple = (1,)
 
     def solve(self, threads):
-        """What is timed: the solution of this package."""
+        """Solve the task with this package; this is timed."""
         return indent(self.indenter, tolerance=self.residual, depths=self.depths, threads=threads)
 
     def outcome(self, solution):
-        """Residual and force of that solution by level, and iterations; not timed."""
+        """Return residual and force of this solution by level, and iterations; this is not timed."""
         return solution.residual, solution.force, solution.operator_applications
 
 
 def disc_task(name, hurst, elements, fractions, threads, seed):
-    """A self-affine disc at the depths of the given contact fractions; elements : across the disc."""
+    """Return a self-affine disc at the depths of the given contact fractions; elements : number across the disc"""
     disc = self_affine_disc(hurst, elements, seed=seed)
     coarse = indent(disc, tolerance=1e-2, until_fraction=min(1.0, 1.2 * max(fractions)))
     depths = np.interp(fractions, coarse.contact_fraction, coarse.depth)
@@ -98,7 +98,9 @@ def disc_task(name, hurst, elements, fractions, threads, seed):
 
 
 def compare_solvers(task, solvers, *, pairs, time_limit):
-    """Time and residual of the path and of other solvers on one task, each with its loosest sufficient tolerance.
+    """Measure time and residual of the path and of other solvers on one task.
+
+    Every solver uses its loosest sufficient tolerance.
 
     solvers : {name: command}
     pairs : number of pairs of runs, of the path and of another solver on as many threads, in alternating order; a
@@ -140,7 +142,7 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
 
 
 def _race(path, other, pairs):
-    """(wall, processor) seconds of the path and of another solver, each of shape (pairs, 2), in alternating order."""
+    """Return (wall, processor) seconds of the path and of another solver, each of shape (pairs, 2), run in turn."""
     seconds = []
     for number in range(pairs):
         before = timing.timed(path)[1:] if number % 2 == 0 else None
@@ -155,13 +157,13 @@ def _times(seconds):
 
 
 def _ratios(ratios):
-    """Median of the ratios of n pairs; the least and the largest enclose the median with 1 − 2^(1−n)."""
+    """Return the median of the ratios of n pairs; the extremes enclose the median with probability 1 − 2^(1−n)."""
     ends = {"ratio_low": ratios.min(), "ratio_high": ratios.max()} if ratios.size > 1 else {}
     return {"ratio": np.median(ratios)} | ends
 
 
 def _row(task, residual, force, iterations, memory):
-    """Task, accuracy and cost of a solution; residual, force : of the levels."""
+    """Return a row with task, accuracy and cost of a solution; residual, force : one value per level"""
     residual = residual.max()
     return {
         "task": task.name,
@@ -177,7 +179,7 @@ def _row(task, residual, force, iterations, memory):
 
 
 def _with_memory(function):
-    """Result of a function, and the peak memory of its arrays [bytes]."""
+    """Return the result of a function, and the peak memory of its arrays [bytes]."""
     gc.collect()
     tracemalloc.start()
     try:
@@ -187,10 +189,10 @@ def _with_memory(function):
 
 
 def _loosest_tolerance(ask, required):
-    """Loosest tolerance with which a solver meets the required residual, otherwise its best one, and the solution.
+    """Return the loosest tolerance that meets the required residual, otherwise the best one, and the solution.
 
-    ask : returns the solver's solution for a tolerance, None where it has none; tighter ones are then not tried
-    Tolerance and solution are None if no tolerance gave a solution.
+    ask : function that returns the solver's solution for a tolerance, None if it has none; tighter tolerances are then
+    not tried Tolerance and solution are None if no tolerance gave a solution.
     """
     best, least = (None, None), np.inf
     for ratio in TOLERANCE_RATIOS:

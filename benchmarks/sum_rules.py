@@ -2,9 +2,10 @@
 
     python benchmarks/sum_rules.py --output results/sum_rules.json
 
-Rough discs of 257 elements across, bodies, and discs with terraces, a hole and rectangular elements, up to complete
-contact. Plain curves, as `indent` makes them, at tolerances from 1e-3 to 1e-8; audits at tolerances of 1e-3 and 1e-5.
-The file has the relative deviations of all quadratures (viscorough.sum_rules), and the levels of the audits.
+The indenters are rough discs of 257 elements across, bodies, and discs with terraces, a hole and rectangular elements,
+up to complete contact. Plain curves, as `indent` computes them, have tolerances from 1e-3 to 1e-8; audits have
+tolerances of 1e-3 and 1e-5. The file has the relative deviations of all quadratures (viscorough.sum_rules), and the
+levels of the audits.
 """
 
 from functools import partial
@@ -33,18 +34,18 @@ PLAIN, AUDITS = 10.0 ** -np.arange(3, 9), (1e-3, 1e-5)
 
 
 def deviations(rules):
-    """{integral: {quadrature: relative deviation}}"""
+    """Return {integral: {quadrature: relative deviation}}."""
     return {name: getattr(rules, name).deviations for name in ("first", "second")}
 
 
 def plain(indenter, complete, tolerance):
-    """Deviations of a curve without added levels."""
+    """Return the deviations of a curve without added levels."""
     curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, until_force=complete.force)
     return deviations(integrals(curve, complete))
 
 
 def audited(indenter, tolerance):
-    """Levels and deviations of an audited curve."""
+    """Return the levels and deviations of an audited curve."""
     result = audit(indenter, tolerance=tolerance)
     return {"levels": result.curve.depth.size, **deviations(result.rules)}
 

@@ -1,9 +1,9 @@
-"""Random text files of known maps, as instruments and programs write them; for file_campaign.py.
+"""Write random text files of given maps, as instruments and programs do; for file_campaign.py.
 
-A matrix of heights, the points x, y, z of a grid, an ESRI ASCII grid, or a profile, which is a line and no map. What is
-drawn are the notation of numbers, delimiters, decimal marks, marks of missing points, header, comments, encoding and
-ends of lines. The headers of text_files.yaml that are "clear" are unambiguous, "unclear" ones may be refused, and "bad"
-ones must be.
+A file is a matrix of heights, the points x, y, z of a grid, an ESRI ASCII grid, or a profile, which is a line and no
+map. Random choices are the notation of numbers, delimiters, decimal marks, marks of missing points, header, comments,
+encoding and ends of lines. In text_files.yaml, "clear" headers are unambiguous, "unclear" headers may be refused, and
+"bad" headers must be refused.
 """
 
 import re
@@ -43,19 +43,19 @@ NUMBER_MARKS = ("-9999", "-99999", "-32768", "1e38")
 
 
 def printed(draft, shape, odd=0.1):
-    """Numbers as they are printed, with a decimal point, and their values."""
+    """Return numbers as they are printed, with a decimal point, and their values."""
     form, decimals = draft.pick(FORMATS, ODD_FORMATS, odd=odd), int(draft.random.integers(1, 7))
     cells = [[form(value, decimals) for value in row] for row in draft.random.normal(0, 30, shape)]
     return cells, np.array([[float(cell.translate(PLAIN)) for cell in row] for row in cells])
 
 
 def matrix_rows(draft, shape):
-    """(rows of text, heights, delimiter, whether decimals have commas, options) of a matrix with points missing."""
+    """Return (rows of text, heights, delimiter, has decimal commas, options) of a matrix with missing points."""
     cells, heights = printed(draft, shape)
     quoted, grouped = draft.chance(0.08), {"thousands", "thousands with thin spaces"} & set(draft.traits)
     delimiter = draft.pick({"semicolon": ";"} if grouped else DELIMITERS, [] if grouped else ODD_DELIMITERS, odd=0.06)
     has_comma = delimiter.strip() == ","
-    # Decimal commas between mere commas say nothing to anyone, unless in quotes.
+    # Decimal commas between plain commas are ambiguous, unless in quotes.
     decimal_comma = draft.chance(0.3) and not {"integers", "D exponents"} & set(draft.traits)
     decimal_comma &= delimiter != "," or quoted
     if decimal_comma:
@@ -63,7 +63,7 @@ def matrix_rows(draft, shape):
         draft.note("decimal commas", clear=not has_comma and _are_decimals(cells, delimiter))
     elif has_comma and "integers" in draft.traits:
         digits = {len(cell) for row in cells for cell in row[1:]}
-        draft.note("", clear=shape[1] > 2 and digits != {3})  # else they may be decimals or thousands
+        draft.note("", clear=shape[1] > 2 and digits != {3})  # otherwise they may be decimals or thousands
     mask, options = missing_points(draft, shape), {}
     if mask.any():
         mark = _mark(draft, delimiter, mask)
@@ -87,7 +87,7 @@ def matrix_rows(draft, shape):
 
 
 def _are_decimals(cells, delimiter):
-    """Whether commas in numbers cannot be taken for thousands separators or delimiters."""
+    """Return True if commas in numbers cannot be taken for thousands separators or delimiters."""
     numbers = [cell for row in cells for cell in row]
     if all(re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", number) for number in numbers):
         return False
@@ -95,24 +95,24 @@ def _are_decimals(cells, delimiter):
 
 
 def _mark(draft, delimiter, mask):
-    """The mark of missing points; an empty cell only where a delimiter shows it."""
+    """Return the mark of missing points; an empty cell only if a delimiter shows it."""
     rows_missing = mask.all(axis=1)
     at_an_end = rows_missing[0] or rows_missing[-1]
     if delimiter.strip(" ") and draft.chance(0.55) and not (mask[:, 0].all() or mask[:, -1].all()):
-        blank = rows_missing.any() and (delimiter.isspace() or at_an_end)  # as spreadsheets leave below a table
+        blank = rows_missing.any() and (delimiter.isspace() or at_an_end)  # spreadsheets leave such cells below a table
         draft.note("empty cells", clear=not blank)
         return ""
     if draft.chance(0.08):
         return draft.pick(NUMBER_MARKS)
     mark = draft.pick(MARKS, ODD_MARKS, odd=0.2)
-    if rows_missing.any() and mark.lower() != "nan":  # may be a title, or a rule
+    if rows_missing.any() and mark.lower() != "nan":  # the mark may look like a title or a rule
         draft.note("row of marks", clear=mark.isalpha() and not at_an_end)
     return mark
 
 
 # ---- headers, remarks, comments
 
-PIXELS = ("px", "pixel", "pixels", "points", "Pixel", "pts", "dots")  # no lengths
+PIXELS = ("px", "pixel", "pixels", "points", "Pixel", "pts", "dots")  # not lengths
 HEADERS = {
     kind: {name: lines for name, *lines in (line.split(" | ") for line in table.splitlines())}
     for kind, table in yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")).items()
@@ -129,9 +129,9 @@ ODD_COMMENTS = {"comments ;": "; ", "comments !": "! ", "comments *": "* "}
 
 
 def header_lines(draft, shape, decimal_comma):
-    """(lines, unit of the heights in metres or None, spacing as Case has it, options) of a header or none.
+    """Return (lines, unit of the heights in metres or None, spacing as in Case, options) of a header or none.
 
-    decimal_comma : whether numbers of the table have decimal commas, which those of the header then have, too
+    decimal_comma : True if numbers of the table, and therefore of the header, have decimal commas
     """
     u, z = (draft.one_of(["um", "um", "nm", "mm", "m", "µm", *UNITS]) for _ in range(2))
     states_spacing, options = draft.chance(0.6), {}
@@ -145,7 +145,7 @@ def header_lines(draft, shape, decimal_comma):
         unit = UNITS[options["unit"]]
     scale = UNITS[z if in_z else u] if states_spacing else unit or 1
     spacing = dx * scale, dy * scale
-    # Of a file that states the spacing, only a clear one: who does not understand a header may believe the argument.
+    # A header that states the spacing must be clear: a reader that does not understand it may use the argument.
     if draft.clear and draft.chance(0.1) if states_spacing else draft.chance(0.95):
         factor = draft.one_of([1, 1.1]) if states_spacing else 1
         draft.note("spacing given, too" if states_spacing else "", bad=factor > 1)
@@ -167,7 +167,7 @@ def header_lines(draft, shape, decimal_comma):
 
 
 def with_header(draft, header, rows, delimiter, columns):
-    """The lines of a file: header, remarks, names of columns, rows, comments."""
+    """Return the lines of a file: header, remarks, names of columns, rows, comments."""
     lines = list(header)
     if draft.chance(0.2):
         remark = draft.pick(REMARKS, ODD_REMARKS, odd=0.2)
@@ -183,7 +183,7 @@ def with_header(draft, header, rows, delimiter, columns):
 
 
 def _with_comments(draft, rows, mark):
-    """Rows with comments between or after them, or behind one; or with blank lines between."""
+    """Return rows with comments between, after or behind them, or with blank lines between them."""
     at = int(draft.random.integers(1, len(rows) + 1))
     forms = {
         "comments between": [*rows[:at], f"{mark}line {at}", *rows[at:]],
@@ -205,7 +205,7 @@ LINE_ENDS = {"LF": "\n", "CR LF": "\r\n", "CR": "\r"}
 
 
 def encoded(draft, lines):
-    """The bytes of a text file of these lines."""
+    """Return the bytes of a text file of these lines."""
     end = draft.pick(LINE_ENDS, {"CR CR LF": "\r\r\n"}, odd=0.03)
     text = end.join(lines) + draft.pick({"": end, "no final line end": "", "blank lines at the end": 3 * end})
     encoding = "utf-8" if draft.chance(0.6) else draft.pick(ENCODINGS, ["utf-16-le", "utf-16-be"], odd=0.02)
@@ -216,7 +216,7 @@ def encoded(draft, lines):
 
 
 def matrix(random):
-    """A matrix of heights with a header or none."""
+    """Draw a matrix of heights with or without a header."""
     draft = Draft(random)
     rows, columns = shape = map_shape(draft)
     if draft.chance(0.015):
@@ -227,14 +227,14 @@ def matrix(random):
     else:
         lines, heights, delimiter, decimal_comma, preparation = matrix_rows(draft, shape)
     header, unit, spacing, options = header_lines(draft, heights.shape, decimal_comma)
-    if min(heights.shape) <= 2:  # may be a profile, unless distances in both directions are given
+    if min(heights.shape) <= 2:  # may be a profile, unless two spacings are given
         draft.note("few rows or columns", bad="spacing" not in options)
     lines = with_header(draft, header, lines, delimiter, columns)
     name = "map" + draft.one_of([".txt", ".txt", ".csv", ".dat", ".asc", ".TXT", ".tsv"])
     return Case(draft, "matrix", name, encoded(draft, lines), heights, unit, spacing, options | preparation)
 
 
-# Headings of the columns, with the unit {u} of x and y, {z} of the heights
+# Headings of the columns, with the unit {u} of x and y and the unit {z} of the heights.
 HEADINGS = {
     "no heading": "",
     "x,y,z": "x|y|z",
@@ -265,7 +265,7 @@ ORDERS = {"y before x": (1, 0, 2), "z first": (2, 0, 1), "a fourth column": (0, 
 
 
 def points(random):
-    """Columns x, y, z of the points of a grid, in any order, with points left out or marked as missing."""
+    """Draw columns x, y, z of the points of a grid, in any order; missing points are left out or marked."""
     draft = Draft(random)
     shape = map_shape(draft)
     cells, heights = printed(draft, shape, odd=0)
@@ -288,7 +288,7 @@ def points(random):
 
 
 def _coordinates(draft, shape):
-    """((dx, dy), texts of x and y, relative accuracy of the spacing that they state)."""
+    """Return ((dx, dy), texts of x and y, relative accuracy of the spacing that they state)."""
     form, start, (dx, dy) = draft.pick(["", "", "", "", "rounded", "UTM"]), (-7.5, 100), distances(draft)
     if form == "rounded":
         dx, dy = dx / 3, dy / 3
@@ -302,7 +302,7 @@ def _coordinates(draft, shape):
 
 
 def _points_file(draft, table, heights, spacing, delimiter, accuracy):
-    """The file of a table of points, with headings."""
+    """Return the file of a table of points, with headings."""
     u, z = draft.one_of(["um", "mm", "nm", "µm", "m"]), draft.one_of(["nm", "um", "m", "µm"])
     titles = draft.pick(HEADINGS, ODD_HEADINGS, BAD_HEADINGS, odd=0.3).format(u=u, z=z)
     name, suffix, mark = draft.traits[-1], draft.one_of([".txt", ".csv", ".xyz", ".dat"]), draft.one_of(["", "", "# "])
@@ -327,7 +327,7 @@ def _points_file(draft, table, heights, spacing, delimiter, accuracy):
 
 
 def esri(random):
-    """An ESRI ASCII grid."""
+    """Draw an ESRI ASCII grid."""
     draft = Draft(random)
     rows, columns = shape = map_shape(draft)
     cells, heights = printed(draft, shape, odd=0)
@@ -344,7 +344,7 @@ def esri(random):
     body = draft.pick(bodies, odd_bodies, bad_bodies, odd=0.3)
     dx, dy = distances(draft, square=draft.chance(0.7))
     options = draft.one_of([{}, {}, {}, {}, {"unit": "m"}])
-    draft.note("unit given" if options else "", clear=not options)  # that of the coordinates is not stated
+    draft.note("unit given" if options else "", clear=not options)  # coordinates lack a unit
     x, y = "500000.5", "5400000"
     if draft.chance(0.15):
         x, y = "9.5", "47.25"
@@ -359,7 +359,7 @@ def esri(random):
     return Case(draft, "ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)
 
 
-# Headings of positions and heights
+# Headings of positions and heights.
 PROFILE_HEADINGS = {
     "no heading": "",
     "x,z": "x|z",
@@ -373,7 +373,7 @@ BAD_PROFILE_HEADINGS = {"z in volts": "x [{u}]|z [V]", "time": "time|depth", "x 
 
 
 def profile(random):
-    """Heights along a line, alone or below their positions, as a column or a row: no map, but a line."""
+    """Draw heights along a line, alone or below their positions, as a column or a row: a line, and no map."""
     draft = Draft(random)
     points = int(draft.random.integers(3, 30))
     (cells,), (heights,) = printed(draft, (1, points), odd=0)
@@ -384,7 +384,7 @@ def profile(random):
         draft.note("decimal commas", clear=bool(delimiter.strip(" ")) and positions is not None)
         cells, positions = ([cell.replace(".", ",") for cell in texts or []] for texts in (cells, positions))
     elif "," in delimiter:
-        draft.note("", clear=positions is not None or "integers" not in draft.traits)  # may be one number
+        draft.note("", clear=positions is not None or "integers" not in draft.traits)  # the row may be one number
     if draft.chance(0.06):
         draft.note("a height is missing", bad=True)  # a line has no gaps
         cells[draft.random.integers(points)] = "nan"
@@ -420,7 +420,7 @@ def profile(random):
 
 
 def _positions(draft, points):
-    """(spacing, texts of the positions or None, relative accuracy of the spacing that they state)."""
+    """Return (spacing, texts of the positions or None, relative accuracy of the spacing that they state)."""
     form, (spacing, _) = (
         draft.pick(["alone", "", "", "rounded", "falling", "far"], bad=["uneven"], odd=0.6),
         distances(draft),

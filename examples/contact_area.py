@@ -1,4 +1,4 @@
-"""Contact area over force of a rough map, beside Persson's theory. Makes contact_area.png.
+"""Compare the contact area of a rough map with Persson's theory, over the force. Makes contact_area.png.
 
     python examples/contact_area.py
 

@@ -1,8 +1,8 @@
-"""From a scan of your own to a map of its contact at a given force. Makes contact_map.png.
+"""Compute a map of the contact of your own scan at a given force. Makes contact_map.png.
 
     python examples/contact_map.py
 
-Without a file scan.npy it first makes one: a rough plate of 0.2 mm with a bump in its middle, heights in metres.
+If there is no file scan.npy, the example first makes one: a rough plate of 0.2 mm with a bump in its middle.
 """
 
 from pathlib import Path
@@ -14,7 +14,7 @@ import viscorough
 
 
 def rough_plate(points=129, spacing=1.6e-6):
-    """Heights [m] of a self-affine plate of rms height 0.3 µm on a shallow bump."""
+    """Return heights [m] of a self-affine plate of rms height 0.3 µm on a shallow bump."""
     disc = viscorough.self_affine_disc(0.8, 2 * points, rms=3e-7, diameter=4e-4, roll_off_wavelength=0.1, seed=4)
     position = spacing * (np.arange(points) - points // 2)
     middle = slice(points // 2, points // 2 + points)
@@ -24,7 +24,7 @@ def rough_plate(points=129, spacing=1.6e-6):
 if not Path("scan.npy").exists():
     np.save("scan.npy", rough_plate())
 
-surface = viscorough.read_heights("scan.npy", spacing=1.6e-6)  # larger is higher and touches first
+surface = viscorough.read_heights("scan.npy", spacing=1.6e-6)  # higher points touch first
 modulus, force = 1e6, 1e-3  # shear modulus of the half-space [Pa], normal force [N]
 contact = viscorough.contact_at(surface, force=force / modulus)
 fraction, patches = contact.contact_fraction, contact.patches()

@@ -1,4 +1,4 @@
-"""A force curve on a polymer: approach, hold and retract at three speeds. Makes force_curve.png.
+"""Compute a force curve on a polymer: approach, hold and retract at three speeds. Makes force_curve.png.
 
     python examples/force_curve.py
 
@@ -20,7 +20,7 @@ polymer = viscorough.StandardLinearSolid(instantaneous_modulus=3e6, relaxed_modu
 
 figure, axes = plt.subplots(figsize=(4, 3), layout="constrained")
 works = []
-for duration in (0.01, 0.1, 1.0):  # of the approach, in s
+for duration in (0.01, 0.1, 1.0):  # duration of the approach in s
     corners = duration * np.array([0.0, 1.0, 1.5, 2.5])
     load = viscorough.Load(corners, depth=depth * np.array([0.0, 1.0, 1.0, 0.0]))
     motion = viscorough.kinetics(curve, load, polymer, np.linspace(0, corners[-1], 401))

@@ -1,9 +1,9 @@
-"""Number and areas of the contact patches at four forces. Makes patches.png.
+"""Count contact patches and their areas at four forces. Makes patches.png.
 
     python examples/patches.py
 
-Contact patches appear, grow and merge as the force rises: their number has a maximum, and in the end a single patch is
-nearly all of the contact. The smallest patches are single elements, a limit of the grid.
+Contact patches appear, grow and merge as the force rises: their number has a maximum, and in the end one patch covers
+almost the whole contact. The smallest patches are single elements, a limit of the grid.
 """
 
 import matplotlib.pyplot as plt

@@ -1,9 +1,10 @@
-"""A rough punch under a ramp in a polymer, a Prony series of three branches. Makes ramp_in_a_polymer.png.
+"""Press a rough punch into a polymer, a Prony series of three branches. Makes ramp_in_a_polymer.png.
 
     python examples/ramp_in_a_polymer.py
 
 The force rises and then stays constant; the instantaneous modulus of the medium is ten times its relaxed modulus. The
-dashed lines are elastic media with these two moduli; between them, the punch creeps over many decades of time.
+dashed lines are the depths in elastic media with these two moduli. The punch creeps from one to the other over many
+decades of time.
 """
 
 import matplotlib.pyplot as plt

@@ -1,9 +1,9 @@
-"""A sphere in a standard linear solid, against the exact solution. Makes sphere_in_a_solid.png.
+"""Press a sphere into a standard linear solid; compare the exact solution. Makes sphere_in_a_solid.png.
 
     python examples/sphere_in_a_solid.py
 
 Lee and Radok: u^(3/2) = 3 F J(t)/(16 √R) with the creep compliance J(t) of the medium. The solid responds elastically
-at t = 0, with its instantaneous modulus, and creeps to the depth of its relaxed modulus.
+at t = 0 with its instantaneous modulus, and creeps to the depth of its relaxed modulus.
 """
 
 import matplotlib.pyplot as plt
@@ -16,7 +16,7 @@ solid = viscorough.StandardLinearSolid(instantaneous_modulus=10e6, relaxed_modul
 times = np.geomspace(1e-3, 100, 60)
 exact = (3 * force * solid.creep_compliance(times) / (16 * np.sqrt(radius))) ** (2 / 3)
 
-position = np.linspace(-1, 1, 129) * 1.3 * np.sqrt(radius * exact[-1])  # a little more than the last contact
+position = np.linspace(-1, 1, 129) * 1.3 * np.sqrt(radius * exact[-1])  # slightly more than the last contact
 heights = -(position[:, None] ** 2 + position**2) / (2 * radius)
 sphere = viscorough.Indenter(heights, position[1] - position[0])
 curve = viscorough.indent(sphere, until_force=1.01 * force / 1e6, tolerance=1e-4)

@@ -3,8 +3,8 @@
 Called as: python aspher_adapter.py MODE request.npz answer.npz (see exchange.py), with one of these modes:
     levels : projected conjugate gradients (Polonsky & Keer 1999), preconditioned by transforms of the whole grid
     nested : a cascade in single and then double precision; it starts from zero pressure at every level
-    active_set : a cascade of hierarchical operators on what can touch, in single precision: the fastest mode where few
-        elements touch; sides of a power of two give the deepest cascade
+    active_set : a cascade of hierarchical operators on the elements that can touch, in single precision: the fastest
+    mode if few elements touch; sides of a power of two give the deepest cascade
 """
 
 import sys
@@ -35,7 +35,7 @@ class Aspher:
     def solve(self, level, tolerance, start):
         gap, depth = self.problem.gap, self.problem.depths[level]
         load = {"p_nominal": self.problem.forces[level] / gap.size}
-        load["tol"] = tolerance * depth / np.ptp(gap)  # ASPHER's is relative to the range of the gap
+        load["tol"] = tolerance * depth / np.ptp(gap)  # ASPHER's tolerance is relative to the range of the gap
         if MODE == "levels":
             start = np.maximum(depth - gap, 0) if start is None else start
             result = self.solver.solve(gap.ravel(), **load, precond="fourier-fft", p_init=start.ravel())

@@ -13,7 +13,7 @@ from SurfaceTopography import Topography
 
 
 class ContactMechanics:
-    """The dual problem, whose unknowns are the forces on the elements, of unit area: they are the pressures."""
+    """Solve the dual problem, whose unknowns are the forces on elements of unit area, that is, the pressures."""
 
     def __init__(self, problem):
         self.problem = problem

@@ -21,7 +21,7 @@ def answer_request(distribution, solver_class):
 
     distribution : name under which the solver is installed, for its version
     solver_class : solver_class(problem) sets up everything that does not depend on the level. Problems have the fields
-        `gap`, on the padded grid, finite everywhere; `depths` and `forces`, F/G, of the levels; and `threads`. Its
+    `gap`, on the padded grid, finite everywhere; `depths` and `forces` (F/G), one per level; and `threads`. Its
         `solve(level, tolerance, start)` returns the pressure on the padded grid and the number of iterations (-1 if not
         reported); `start` is the pressure of the level before, None at the first level.
 
@@ -52,13 +52,16 @@ def answer_request(distribution, solver_class):
 
 
 def _peak_memory():
-    """Peak memory of this program in bytes; getrusage would count that of the process which started it, too."""
+    """Return the peak memory of this program in bytes; getrusage would also count the process which started it."""
     peak = re.search(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text())
     return 1024.0 * int(peak[1])
 
 
 def _padded(request):
-    """Initial gap on the padded grid; outside the indenter just too large for contact: more slows some solvers."""
+    """Return the initial gap on the padded grid; outside the indenter it is just too large for contact.
+
+    Larger values slow some solvers down.
+    """
     gap, side = request["gap"], int(request["padding"])
     inside = np.isfinite(gap)
     largest = max(gap[inside].max(), 1.1 * request["depths"][-1])

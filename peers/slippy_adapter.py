@@ -15,7 +15,7 @@ from slippy.core import bccg, elastic_influence_matrix_spatial, plan_convolve  #
 
 
 class Slippy:
-    """Unknowns are the elements at which the undeformed surfaces overlap, as in SlipPY's own static step."""
+    """Take as unknowns the elements at which the undeformed surfaces overlap, as SlipPY's own static step does."""
 
     def __init__(self, problem):
         self.problem = problem

@@ -11,19 +11,19 @@ tamaas.set_log_level(tamaas.LogLevel.error)
 
 
 class Tamaas:
-    """Formulation in the pressures: that in the gaps needs the inverse operator, which only periodic models have."""
+    """Solve for the pressures: solving for the gaps needs the inverse operator, which only periodic models have."""
 
     def __init__(self, problem):
         self.problem = problem
         tamaas.initialize(problem.threads)
         shape = list(problem.gap.shape)
         self.model = tamaas.Model(tamaas.model_type.basic_2d, [float(n) for n in shape], shape)
-        self.model.E, self.model.nu = 3.0, 0.5  # before the operator is registered, which stores them
+        self.model.E, self.model.nu = 3.0, 0.5  # set before the operator is registered, which stores them
         tamaas.ModelFactory.registerNonPeriodic(self.model, "dcfft")
 
     def solve(self, level, tolerance, start):
         gap, depth = self.problem.gap, self.problem.depths[level]
-        tolerance = tolerance * depth / np.ptp(gap)  # Tamaas's is relative to the range of the surface
+        tolerance = tolerance * depth / np.ptp(gap)  # Tamaas's tolerance is relative to the range of the surface
         solver = tamaas.PolonskyKeerRey(self.model, -gap, tolerance)
         solver.setIntegralOperator("dcfft")
         solver.max_iter, solver.dump_freq = 20_000, 100_000

@@ -85,7 +85,7 @@ def places(text):
 
 
 def _ranges_left_out(text):
-    """Yield (start, end) as (line, column) of every annotation, and of every decorator that compiles a function."""
+    """Return (start, end) as (line, column) of every annotation, and of every decorator that compiles a function."""
     found = []
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.arg, ast.AnnAssign)):

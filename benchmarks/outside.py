@@ -41,7 +41,7 @@ def surface(points, waves, seed, hurst, **roll_off):
 
 
 def free_squares(surfaces):
-    """Return rows on the free square: its corrected area, the size of the correction, and changes over the grids."""
+    """Yield rows on the free square: its corrected area, the size of the correction, and changes over the grids."""
     areas = []
     for seed in range(surfaces):
         heights, slope = surface(GRIDS[-1], FREE_WAVES, seed, 0.8)
@@ -63,7 +63,7 @@ def area_quantities(raw, corrected):
 
 
 def periodic_squares(surfaces, points=512):
-    """Return rows on periodic squares: the coefficient of the area at a small pressure, and the plateau of u₀/h."""
+    """Yield rows on periodic squares: the coefficient of the area at a small pressure, and the plateau of u₀/h."""
     for hurst in (0.3, 0.8):
         coefficients, u0 = [], []
         for seed in range(surfaces):

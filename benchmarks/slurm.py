@@ -108,7 +108,7 @@ def start(folder, command):
 
 
 def processes(conf):
-    """Return processes with this cluster's settings in their environment: daemons, jobs and their parents."""
+    """Yield processes with this cluster's settings in their environment: daemons, jobs and their parents."""
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
             if process.pid != os.getpid() and process.environ().get("SLURM_CONF") == conf:

@@ -21,7 +21,7 @@ def answer_request(distribution, solver_class):
 
     distribution : name under which the solver is installed, for its version
     solver_class : solver_class(problem) sets up everything that does not depend on the level. Problems have the fields
-    `gap`, on the padded grid, finite everywhere; `depths` and `forces` (F/G), one per level; and `threads`. Its
+        `gap`, on the padded grid, finite everywhere; `depths` and `forces` (F/G), one per level; and `threads`. Its
         `solve(level, tolerance, start)` returns the pressure on the padded grid and the number of iterations (-1 if not
         reported); `start` is the pressure of the level before, None at the first level.
 

@@ -52,7 +52,7 @@ PAIRS = [pytest.param(*pair, id=type(pair[0]).__name__) for pair in zip(results(
 
 
 def arrays_in(result):
-    """Return all arrays of a result, also of results within it."""
+    """Yield all arrays of a result, also of results within it."""
     values = result if isinstance(result, tuple) else [getattr(result, f.name) for f in dataclasses.fields(result)]
     for value in values:
         if isinstance(value, np.ndarray):

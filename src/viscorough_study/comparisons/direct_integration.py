@@ -1,8 +1,8 @@
-"""Direct integration of the viscous problem, compared with the law with and without the factor 1/Γ(2 − α).
+"""Compare direct integration of the viscous problem with the law, with and without the factor 1/Γ(2 − α).
 
 The integration proceeds from contact event to contact event and never uses the correspondence with the elastic problem.
 If the correspondence is exact, the depth at time t is the elastic depth under the force GFt/η, for any topography;
-Eqs. (7) to (9) make it 1/Γ(2 − α) times that.
+Eqs. (7) to (9) multiply this depth by 1/Γ(2 − α).
 """
 
 import numpy as np
@@ -21,23 +21,22 @@ COLUMNS = {
     "depth_ratio": ("depth of the direct integration over the elastic depth under the force GFt/η", "1"),
     "with_gamma": ("this ratio by Eq. 8: 1/Γ(2 − α); α is exact for sphere and cone, 1/(1 + H) for rough discs", "1"),
 }
-# α of bodies z ∝ rⁿ, for which F ∝ u^(1 + 1/n): k ∝ F^(1/(n + 1))
+# α of bodies z ∝ rⁿ: F ∝ u^(1 + 1/n), so k ∝ F^(1/(n + 1))
 BODIES = {"sphere": (reference.sphere(1.0), 1 / 3), "cone": (reference.cone(1.0), 1 / 2)}
 RADII = 6, 0.35  # smallest contact radius compared [elements], which the grid resolves, and largest [L]
-BODY_FRACTION = 0.4  # contact fraction slightly above that of the largest radius
+BODY_FRACTION = 0.4  # contact fraction slightly above the fraction at the largest radius
 DISC_FRACTION = 0.5  # contact fraction up to which rough discs are integrated
-FIRST_EVENT = 10  # of a rough disc: before it, too few elements are in contact for a power law
+FIRST_EVENT = 10  # first event of a rough disc: before it, too few elements are in contact for a power law
 LAST_FORCE = 0.9  # fraction of the largest force that both curves reach
-TOLERANCE = 1e-6  # of the elastic curve
+TOLERANCE = 1e-6  # tolerance of the elastic curve
 
 
 def compare_direct(*, hursts, elements, impulses, seed):
-    """Depths by direct integration over elastic depths; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return depths by direct integration over elastic depths, as a pandas.DataFrame with the columns of `COLUMNS`.
 
-    For sphere and cone the elastic depth is the exact solution, so that the ratio includes the error of the grid; for
-    rough discs, one for each Hurst exponent, it is that of the same disc by boundary elements.
-    hursts : Hurst exponents; elements : across all indenters; impulses : number of impulses ∫F dt/η per indenter
-    seed : root of the discs' seeds
+    For sphere and cone the elastic depth is the exact solution, so the ratio includes the error of the grid. For rough
+    discs, one for each Hurst exponent, it is the depth of the same disc by boundary elements. hursts : Hurst exponents;
+    elements : across all indenters; impulses : number of impulses ∫F dt/η per indenter seed : root of the discs' seeds
     """
     rows = []
     for name, (body, alpha) in BODIES.items():

@@ -1,4 +1,4 @@
-"""Published results on rough contacts (resources/literature), compared with those of this study."""
+"""Compare published results on rough contacts (resources/literature) with the results of this study."""
 
 import numpy as np
 import pandas as pd
@@ -31,10 +31,10 @@ X_COMPARED = 0.01  # X in region (b) at which lines are compared with their disc
 
 
 def literature(scaling, interface, reduction, *, entries, conventions):
-    """A row for every source, quantity and Hurst exponent; a pandas.DataFrame with the columns of `COLUMNS`, by year.
+    """Return a row for every source, quantity and Hurst exponent: a pandas.DataFrame with `COLUMNS`, by year.
 
     entries : content of resources/literature/stiffness.yaml
-    scaling, interface, reduction : the tables of these names; conventions : those of the figures
+    scaling, interface, reduction : the tables of these names; conventions : conventions of the figures
     """
     fitted = fits(scaling, conventions, source="discs", case_group="base")
     alpha = {"alpha": 1 - fitted["beta"], "alpha_low": 1 - fitted["beta_high"], "alpha_high": 1 - fitted["beta_low"]}
@@ -57,19 +57,19 @@ def literature(scaling, interface, reduction, *, entries, conventions):
 
 
 def _values(table, name):
-    """Rows (dicts with the keys of OURS) of a quantity of a table and its interval, by ascending H."""
+    """Return rows (dicts with the keys of OURS) of a quantity of a table and its interval, by ascending H."""
     table = table.rename(columns={name: "value", f"{name}_low": "low", f"{name}_high": "high"})
     return table.reindex(columns=OURS).sort_values("hurst").to_dict("records")
 
 
 def cited(source, year):
-    """Citation of a source in running text: up to three surnames, or the first and "et al.", and the year."""
+    """Cite a source in running text: up to three surnames, or the first and "et al.", and the year."""
     names = source.replace(" and ", ", ").split(", ")
     return f"{source if len(names) < 4 else names[0] + ' et al.'} {year}"
 
 
 def persson_u0(hurst, band):
-    """u₀/h of p ∝ exp(−u/u₀) at small pressures, without the fitted factor γ of later work.
+    """Return u₀/h of p ∝ exp(−u/u₀) at small pressures, without the fitted factor γ of later work.
 
     With the spectrum C ∝ q^(−2−2H) between q₀ and ζq₀ the theory gives the elastic energy (π/2)E* ∫ q² C P dq per unit
     area, where P = erf(w p/E*) and w(q) = (π ∫ q³ C dq)^(−1/2) up to q. From p du = −dU follows at small pressures
@@ -81,7 +81,7 @@ def persson_u0(hurst, band):
     """
     from scipy.integrate import quad  # takes long to import
 
-    def integrand(s):  # substituting x = exp(s²): regular at x = 1, and defined at H = 1
+    def integrand(s):  # substitute x = exp(s²): regular at x = 1, and defined at H = 1
         return 2 * np.exp((1 - 2 * hurst) * s**2) / np.sqrt(exprel((2 - 2 * hurst) * s**2))
 
     integral, _ = quad(integrand, 0, np.sqrt(np.log(band)))
@@ -89,7 +89,7 @@ def persson_u0(hurst, band):
 
 
 def _theirs(entry, row):
-    """Columns of the source's value for the Hurst exponent and the grid of a row of this study."""
+    """Return columns with the source's value for the Hurst exponent and the grid of a row of this study."""
     theirs = entry.get("theirs") or entry.get("factor") or {"low": 1.0, "high": 1.0}
     laws = {"exponent_alpha": reference.exponent_alpha(row["hurst"]), "persson_u0": _persson(row)}
     scale = laws.get(entry.get("law"), 1.0 if "theirs" in entry else np.nan)
@@ -97,5 +97,5 @@ def _theirs(entry, row):
 
 
 def _persson(row):
-    """u₀/h of Persson's law, without a factor, for waves from the diameter down to two elements; nan without a grid."""
+    """Return u₀/h of Persson's law without γ, for waves from the diameter to two elements; nan without a grid."""
     return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["across"]) else np.nan

@@ -1,12 +1,13 @@
-"""The method of dimensionality reduction compared with boundary elements, surface by surface.
+"""Compare the method of dimensionality reduction with boundary elements, surface by surface.
 
-The line that represents a surface has the spectrum C1D = π q C2D (Eq. 13), here of the same realization of the surface,
-averaged over rings of wave vectors, with independent random phases, which the method leaves unspecified.
+The line that represents a surface has the spectrum C1D = π q C2D (Eq. 13). Here C2D belongs to the same realization of
+the surface, averaged over rings of wave vectors. The method does not specify the phases, so they are independent and
+random.
 
 The literature finds that the method fails for contact area and separation (Lyashenko, Pastewka & Persson, Tribology
-Letters 52, 223 (2013)). The contact fraction of a line is its κ on every grid, whereas that of a disc falls as finer
-waves are resolved, so their ratio depends on the grid. The mean gap of a disc requires its deflections and is computed
-only at integer powers of ten.
+Letters 52, 223 (2013)). The contact fraction of a line is its κ on every grid. The contact fraction of a disc falls as
+finer waves are resolved, so their ratio depends on the grid. The mean gap of a disc requires its deflections and is
+computed only at integer powers of ten.
 """
 
 import numpy as np
@@ -36,17 +37,17 @@ COLUMNS = {
     "chance": ("bound within which 95 % of the correlations of as many unrelated pairs lie, ±", "1"),
     "realizations": ("realizations", "1"),
 }
-FORCE_MARGIN = 1.01  # ratio of the largest force of a disc's curve to the last force compared, where it is defined
+FORCE_MARGIN = 1.01  # largest force of a disc's curve over the last compared force
 
 
 def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low, x_high, per_decade):
-    """Lines compared with the discs whose spectra they have; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Compare lines with discs of the same spectrum; return a pandas.DataFrame with the columns of `COLUMNS`.
 
     hursts : Hurst exponents; realizations : number of discs for each
     elements : across a disc of diameter and rms height 1, cut from a square of one period
-    tolerance : of the loading curves of the discs; seed : root of the surfaces' seeds
-    x_low, x_high, per_decade : of the abscissae X
-    Abscissae that some curve does not reach are omitted.
+    tolerance : tolerance of the loading curves of the discs; seed : root of the surfaces' seeds
+    x_low, x_high, per_decade : range and density of the abscissae X
+    Abscissae beyond the end of any curve are omitted.
     """
     x, tables = abscissa(x_low, x_high, per_decade), []
     force = 4 * x  # F/G = 4hLX with h = L = 1
@@ -68,7 +69,7 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low,
 
 
 def _compare(disc, line, force):
-    """ln of κ of disc and line, of the ratio of their contact fractions, and of that of their forces at equal depth."""
+    """Return ln of κ of disc and line, of the ratio of contact fractions, and of the ratio of forces at equal depth."""
     (depth, stiffness), log_force = disc.at_force(force), np.log(force)
     fractions = [np.interp(log_force, np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)]
     # The curve of the line is straight up to the first level.
@@ -79,17 +80,17 @@ def _compare(disc, line, force):
 
 
 def is_power_of_ten(x):
-    """Whether numbers are integer powers of ten, to rounding; of the shape of x."""
+    """Return True for integer powers of ten, to rounding; of the shape of x."""
     exponent = np.log10(x)
     return np.abs(exponent - np.rint(exponent)) < 1e-9
 
 
 def mean_gaps(indenter, curve, force, tolerance):
-    """Mean over all elements of the gap between indenter and deformed surface, at F/G; shape (forces,) [length].
+    """Return the mean gap between indenter and deformed surface over all elements, at F/G; shape (forces,) [length].
 
-    curve : LoadingCurve of the indenter; tolerance : of the contacts of a map, which are solved at the curve's depths.
-    Springs of a line deflect by u − g in contact, on average by F/(4GL), so the mean gap is ⟨g⟩ − u + F/(4GL).
-    Values are nan beyond the end of the curve, and where the force is nan.
+    curve : LoadingCurve of the indenter; tolerance : tolerance of the contacts of a map, which are solved at the
+    curve's depths. Springs of a line deflect by u − g in contact, on average by F/(4GL), so the mean gap is ⟨g⟩ − u +
+    F/(4GL). Values are nan beyond the end of the curve, and for forces that are nan.
     """
     depth, _ = curve.at_force(force)
     if indenter.heights.ndim == 1:
@@ -103,13 +104,13 @@ def mean_gaps(indenter, curve, force, tolerance):
 
 
 def _table(hurst, x, compared):
-    """Rows of one Hurst exponent where all quantities except the gaps are defined.
+    """Return rows of one Hurst exponent at abscissae with all quantities defined, except for the gaps.
 
     compared : results of _compare and ln of the ratio of the mean gaps, shape (realizations, 5, abscissae)
     """
     disc, line, fraction, force, gap = np.moveaxis(compared, 1, 0)
     number = len(compared)
-    with np.errstate(invalid="ignore", divide="ignore"):  # nan where all realizations have the same κ
+    with np.errstate(invalid="ignore", divide="ignore"):  # nan if all realizations have the same κ
         correlation = [np.corrcoef(pair)[0, 1] for pair in zip(disc.T, line.T, strict=True)]
     columns = {
         "hurst": hurst,

@@ -1,8 +1,8 @@
-"""Lines compared with discs of one Hurst exponent: λ over X, residual errors of a single λ, exponents in equal windows.
+"""Compare lines with discs of one Hurst exponent: λ over X, errors of a single λ, exponents in equal windows.
 
 Both are means over ensembles. The "single λ" minimizes the largest error of vt/h over region (b) of the discs, so no
-other λ(H) does better there. The largest error and the range of λ(X) grow with the scatter of the surfaces; the claims
-are therefore judged by straight lines through ln λ and ln(vt/h) over ln X, whose ends have either sign and whose
+other λ(H) does better there. The largest error and the range of λ(X) grow with the scatter of the surfaces; therefore
+claims are judged by straight lines fitted to ln λ and ln(vt/h) over ln X. Their ends can have either sign, so their
 intervals are free of this bias.
 """
 
@@ -45,7 +45,7 @@ TABLES = {"mdr_lambda": LAMBDA_COLUMNS, "mdr_summary": SUMMARY_COLUMNS, "mdr_exp
 
 
 def mdr_tables(discs, lines, *, seed, fit, conventions):
-    """Tables of `compare_ensembles`, of pools of base discs and lines.
+    """Return the tables of `compare_ensembles` for pools of base discs and lines.
 
     fit : settings of region (b); conventions : average, and rms convention of the discs
     """
@@ -56,12 +56,11 @@ def mdr_tables(discs, lines, *, seed, fit, conventions):
 
 
 def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
-    """The three tables of discs and lines, {name in `TABLES`: table with its columns}.
+    """Return the three tables of discs and lines, {name in `TABLES`: table with its columns}.
 
-    discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae; Hurst exponents that
-        both have are compared
-    average, resamples, seed : of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
-    limits : arguments of viscorough_study.fits.power_law.named_windows
+    discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae; common Hurst exponents
+    are compared average, resamples, seed : arguments of the bootstrap, as in
+    viscorough_study.fits.power_law.fit_power_law limits : arguments of viscorough_study.fits.power_law.named_windows
     Without a region (b) there are no rows of λ, and the values of the other tables are nan.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, {name: [] for name in TABLES}
@@ -78,9 +77,9 @@ def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
 
 
 def _lambda_rows(discs, lines, window, number, **bootstrap):
-    """Rows of λ over X and the row of the summary, of one Hurst exponent.
+    """Return rows of λ over X and the row of the summary, for one Hurst exponent.
 
-    window : region (b) of the discs, or None; number : of realizations
+    window : region (b) of the discs, or None; number : number of realizations
     """
     if window is None:
         return [], {}
@@ -103,18 +102,18 @@ def _lambda_rows(discs, lines, window, number, **bootstrap):
 
 
 def _rise(x, values):
-    """Rise of the least-squares line in ln X from the first to the last X; values : shape (samples, X)."""
+    """Return the rise of the least-squares line in ln X from the first to the last X; values : shape (samples, X)"""
     offset = np.log(x) - np.log(x).mean()
     return values @ offset / (offset @ offset) * np.ptp(offset)
 
 
 def _exponent_rows(discs, lines, windows, number, *, seed, **bootstrap):
-    """Rows of the exponents of one Hurst exponent; those without a window have nan.
+    """Return rows of the exponents of one Hurst exponent; rows without a window have nan.
 
-    windows : named windows of discs and of lines; number : of realizations
+    windows : named windows of discs and of lines; number : number of realizations
     """
     regions, kappa = ([rules[rule] for rules in windows] for rule in ("default", "kappa"))
-    # Separate seeds make the bootstrap samples of discs and lines independent.
+    # Different seeds make the bootstrap samples of discs and lines independent.
     rows, seeds = [], np.random.SeedSequence(seed).spawn(2)
     for name, pair in zip(WINDOWS, (regions, [regions[0], regions[0]], kappa), strict=True):
         rows.append({"window": name})

@@ -1,4 +1,4 @@
-"""Tables of measured surfaces: lengths, power laws of their groups, kinetics, and contacts on an elastic half-space."""
+"""Tables of measured surfaces: lengths, power laws of their groups, kinetics, and elastic contacts."""
 
 import json
 from itertools import chain, product
@@ -44,7 +44,7 @@ CONTACTS = {
 
 
 def measured_contacts(scans):
-    """Table of the contacts of measured surfaces with an elastic half-space; its columns are `CONTACTS`.
+    """Return the table of contacts of measured surfaces with an elastic half-space; its columns are `CONTACTS`.
 
     The rows have the numbers of `viscorough contact` with the same modulus and forces.
 
@@ -64,13 +64,12 @@ def measured_contacts(scans):
 
 
 def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
-    """{"measured_scans", "measured_fits", "measured_kinetics": table} of measured surfaces.
+    """Return {"measured_scans", "measured_fits", "measured_kinetics": table} of measured surfaces.
 
-    Their columns are `COLUMNS`, those of fit_table and `KINETICS`.
-    pool : of all scans; curves, names, forces : of each scan the Content of its curve, its name and its forces [N]
-    media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
-    fit : settings in section `scaling`
-    Times at which a depth lies beyond the end of its curve are omitted.
+    Their columns are `COLUMNS`, fit_table.COLUMNS and `KINETICS`.
+    pool : pool of all scans; curves, names, forces : for each scan the Content of its curve, its name and its forces
+    [N] media : mappings with a name and the keys of a medium; times : low, high [s], per_decade fit : settings in
+    section `scaling` Times at which a depth lies beyond the end of its curve are omitted.
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
     media, times = named_media(media), abscissa(**times)

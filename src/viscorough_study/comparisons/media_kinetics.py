@@ -1,9 +1,9 @@
-"""Kinetics of ensembles in media other than the paper's, under a constant force applied at time 0.
+"""Compute kinetics of ensembles in media other than the paper's, under a constant force from time 0 on.
 
-In any linear viscoelastic medium of creep compliance J(t) the depth is that of the loading curve at F/G = F J(t), so
-that u/h is one function of X = F J(t)/(4hL) for all media, and vt/h = a X/κ(X), where a = d ln J/d ln t is the exponent
-of J. With the paper's J = t/η this is its vt/h = X/κ. Where X/κ = X^β/ζ, the exponent of vt/h in time is
-β a + d ln a/d ln t: a power law in X is a power law in time only while J is one.
+In any linear viscoelastic medium of creep compliance J(t) the depth is the depth of the loading curve at F/G = F J(t).
+So u/h is one function of X = F J(t)/(4hL) for all media, and vt/h = a X/κ(X) with the exponent a = d ln J/d ln t of J.
+The paper's J = t/η gives its vt/h = X/κ. If X/κ = X^β/ζ, the exponent of vt/h in time is β a + d ln a/d ln t: a power
+law in X is a power law in time only while J is a power law.
 """
 
 from itertools import product
@@ -27,18 +27,18 @@ COLUMNS = {
     "exponent": ("local exponent d ln(vt/h)/d ln t, fitted over a quarter of a decade to either side", "1"),
     "realizations": ("realizations in the mean", "1"),
 }
-HALF_WIDTH = 0.25  # decades of time to either side over which local exponents are fitted
+HALF_WIDTH = 0.25  # decades of time to either side in fits of local exponents
 
 
 def named_media(cases):
-    """{name: medium of viscorough.viscous.media} of the settings: mappings with a name and the keys of a medium."""
+    """Return {name: medium} for mappings with a name and the keys of a medium."""
     return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
 
 
 def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
-    """`media_table` of batches of loading curves.
+    """Return the `media_table` of batches of loading curves.
 
-    curves : Content of the batches; discs : names of the ensembles whose curves are used; rms_convention : of h
+    curves : Content of the batches; discs : names of the ensembles to use; rms_convention : convention of h
     cases : [name and further keys of a medium]; times : low, high [s] and per_decade; force : F [N]
     """
     ensembles = {}
@@ -55,13 +55,13 @@ def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
 
 
 def media_table(ensembles, media, *, force, times):
-    """Means over the realizations of every ensemble in every medium; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return means over the realizations of every ensemble in every medium, a pandas.DataFrame with `COLUMNS`.
 
     ensembles : {H: groups of loading curves that end at one X, each (curves, their rms heights, diameter)} [m]
     media : {name: medium of viscorough.viscous.media} in Pa and s; force : F [N]
     times : t > 0, logarithmically uniform [s]
-    At each time the mean is over the groups all of whose curves reach it; times that no group reaches are omitted. X is
-    that of the mean rms height.
+    At each time the mean is over the groups whose curves all reach it. Times that no group reaches are omitted. X
+    refers to the mean rms height.
     """
     parts = []
     for (name, medium), (hurst, groups) in product(media.items(), ensembles.items()):
@@ -87,7 +87,7 @@ def media_table(ensembles, media, *, force, times):
 
 
 def _motions(curves, rms, _, medium, *, force, times):
-    """u/h and vt/h of a group of curves, each of shape (curves, times); nan at times that not all of them reach."""
+    """Return u/h and vt/h of a group of curves, each of shape (curves, times); nan at times that some do not reach."""
     time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
     depth, velocity = np.full((2, len(curves), times.size), np.nan)
     for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
@@ -98,5 +98,5 @@ def _motions(curves, rms, _, medium, *, force, times):
 
 
 def reached_times(last, force, medium, times):
-    """The times at which the creep under a constant force is at most the last F/G of a loading curve."""
+    """Return the times at which the creep under a constant force is at most the last F/G of a loading curve."""
     return times[force * medium.creep_compliance(times) <= last]

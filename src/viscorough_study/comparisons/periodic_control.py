@@ -1,15 +1,15 @@
-"""The control of two springs in series: contact of the same spectra on a periodic half-space, behind which is no punch.
+"""Check the model of two springs in series on a periodic half-space, which has no flat punch.
 
-A periodic rough surface under the mean pressure p has the mean separation ū, and g_per = −dū/(h d ln p) is the
-compliance of its interface, from which nothing has to be subtracted. If the interface's part g of vt/h of a disc is a
-property of the interface alone, the two agree at equal mean pressure, p/E* = (4/π) X h/L. Where g_per is constant, the
-pressure is exponential in the separation as in Persson's theory, with u₀/h = g_per; 0.4 is quoted from Pastewka et al.
-(Phys. Rev. E 87, 062809 (2013)) for extended surfaces. With a roll-off the largest g_per lies at larger X, and is to be
-compared with the largest one without it, not at one X.
+The surfaces have the same spectra as the discs. Under the mean pressure p the mean separation is ū, and g_per = −dū/(h
+d ln p) is the compliance of the interface; there is no punch to subtract. If the interface's part g of vt/h of a disc
+is a property of the interface alone, the two agree at equal mean pressure, p/E* = (4/π) X h/L. If g_per is constant,
+the pressure is exponential in the separation as in Persson's theory, with u₀/h = g_per; 0.4 is quoted from Pastewka et
+al. (Phys. Rev. E 87, 062809 (2013)) for extended surfaces. With a roll-off the largest g_per lies at larger X, so the
+largest values are compared, not values at one X.
 
 The half-space is solved by conjugate gradients projected on pressures that are nowhere negative and have the mean p
-(Polonsky & Keer, Wear 231, 206 (1999)), with the kernel 2/(E*|q|) in Fourier space and none at q = 0. It is a control,
-independent of the solver of the library.
+(Polonsky & Keer, Wear 231, 206 (1999)), with the kernel 2/(E*|q|) in Fourier space and none at q = 0. It is independent
+of the solver of the library.
 """
 
 from itertools import product
@@ -24,7 +24,7 @@ from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
 from viscorough_study.run.seeds import periodic_key, realization_seed
 
-TOLERANCE = 1e-3  # of the gap, over the rms height; a tenth of it changes g by less than 1e-4
+TOLERANCE = 1e-3  # tolerance of the gap over the rms height; a tenth of it changes g by less than 1e-4
 ITERATIONS_MAX = 5000
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
@@ -36,11 +36,11 @@ COLUMNS = {
 
 
 def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_decade, seed):
-    """g_per over X, with and without a roll-off; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return g_per over X, with and without a roll-off, as a pandas.DataFrame with the columns of `COLUMNS`.
 
-    points : of a side of the square; surfaces : number for each Hurst exponent and spectrum
-    roll_off : its wavelength over the period, and its level, as of self_affine_square
-    x_low, x_high, per_decade : of the levels, between which g_per is
+    points : points along a side of the square; surfaces : number for each Hurst exponent and spectrum
+    roll_off : wavelength over the period, and level, as in self_affine_square
+    x_low, x_high, per_decade : range and density of the levels; g_per is taken between them
     """
     x, tables = abscissa(x_low, x_high, per_decade), []
     rolled_off = {"roll_off_wavelength": points * roll_off["wavelength"], "roll_off_level": roll_off["level"]}
@@ -55,9 +55,9 @@ def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_d
 
 
 def mean_separations(heights, pressures):
-    """ū/h at increasing mean pressures p L/(E* h), shape (pressures,).
+    """Return ū/h at increasing mean pressures p L/(E* h), shape (pressures,).
 
-    heights : of a periodic square, shape (n, n), of mean 0; any unit
+    heights : heights of a periodic square, shape (n, n), mean 0; any unit
     """
     shape = np.array(heights / heights.std(), dtype=float)
     pressure, separations = np.full(shape.shape, pressures[0]), []
@@ -68,9 +68,9 @@ def mean_separations(heights, pressures):
 
 
 def periodic_contact(heights, start, tolerance=TOLERANCE):
-    """Mean separation and pressures of a contact with the mean pressure of a start.
+    """Return mean separation and pressures of a contact with the same mean pressure as the start.
 
-    heights : shape (n, n), of mean 0, over the unit of height; start : pressures p L/E* over it, shape (n, n)
+    heights : shape (n, n), mean 0, over the unit of height; start : pressures p L/E* over it, shape (n, n)
     Raises ConvergenceError if the gap in contact, or an overlap, is above the tolerance after ITERATIONS_MAX.
     """
     n, mean, pressure = len(heights), start.mean(), start

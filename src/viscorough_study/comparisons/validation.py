@@ -1,4 +1,4 @@
-"""Validation: errors and observed orders of every method against exact solutions, on grids from coarse to fine.
+"""Compare every method with exact solutions: errors and observed orders on grids from coarse to fine.
 
 The bodies have exact solutions (viscorough.reference) and are discretized by n elements across L = 1. The elements are
 squares, except for a second sphere with twice as many columns. Errors are root mean squares, over a range of contact
@@ -21,17 +21,16 @@ from viscorough.viscous.kinetics import kinetics
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
 RADII = np.linspace(0.2, 0.45, 26)  # contact radii at which solutions are compared [L]
 ELLIPSES = np.linspace(0.3, 0.5, 11)  # major semi-axes of the flat ellipses [L]; the minor ones are half as long
-FORCE, VISCOSITY = 10.0, 1e6  # of the viscous cases; F/η is far from 1, so that a missing F or η is noticed
-TOLERANCE = 1e-5  # of the contact problems on bodies and punches
+FORCE, VISCOSITY = 10.0, 1e6  # force and viscosity of the viscous cases; F/η is far from 1, so a missing F or η shows
+TOLERANCE = 1e-5  # tolerance of the contact problems on bodies and punches
 ROUGH = {"hurst": 0.7, "seed": 1}  # arguments of self_affine_disc
-EVENTS = 600  # contact events over which a rough disc is integrated directly; more would add no information
+EVENTS = 600  # contact events of the direct integration of a rough disc; more would add no information
 EVENTS_APART = 20  # the depth at every twentieth of these events is compared
-CORRESPONDENCE_TOLERANCE = 1e-11  # of the elastic curve against direct integration
+CORRESPONDENCE_TOLERANCE = 1e-11  # tolerance of the elastic curve compared with direct integration
 
-# Uniform pressure on elements, collocated at their centres, has an error of second order in force on a smooth body,
-# and of first order where an edge singularity or a count of elements enters. Depth and velocity at a given impulse
-# inherit the order of force and of stiffness. Direct integration and the correspondence are both exact on the same
-# grid.
+# Uniform pressure on elements, collocated at their centres, has an error of second order in force on a smooth body, and
+# of first order if an edge singularity or a count of elements enters. Depth and velocity at a given impulse inherit the
+# orders of force and stiffness. Direct integration and the correspondence are both exact on the same grid.
 ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "punch_stiffness": 1, "correspondence": 0}
 GRIDS_FOR_ORDER = 3  # smallest number of grids from which an order is determined
 
@@ -48,7 +47,7 @@ COLUMNS = {
 
 
 def validation_table(elements, limits, order_margin):
-    """Errors of every case on every grid.
+    """Return the errors of every case on every grid.
 
     elements : numbers of elements n across L, each at least 9
     limits : {quantity: largest relative error allowed on the finest grid}, one for each of `ORDERS`
@@ -68,9 +67,9 @@ def validation_table(elements, limits, order_margin):
 
 
 def judge_errors(errors, limits, order_margin):
-    """The validation table of errors; limits, order_margin : as in validation_table.
+    """Return the validation table of errors; limits, order_margin : as in validation_table
 
-    errors : the columns of it up to the error, grids from coarse to fine
+    errors : its columns up to the error, grids from coarse to fine
     """
     judged = []
     for (_, quantity), rows in errors.groupby(["case", "quantity"], sort=False):
@@ -83,7 +82,7 @@ def judge_errors(errors, limits, order_margin):
 
 
 def failures(table, order_margin):
-    """One line per failed case and quantity of a validation table: its error and order, and the limits."""
+    """Return one line per failed case and quantity of a validation table: its error and order, and the limits."""
     finest = table[(table["passed"] == 0) & (table["elements"] == table["elements"].max())]
     return [
         f"{row.case} {row.quantity}: error {row.error:.2g} on {row.elements} elements, order {row.order:.2g}; "
@@ -93,7 +92,7 @@ def failures(table, order_margin):
 
 
 def _errors_on_grid(n):
-    """Every case with {quantity: error} for n elements across L."""
+    """Yield every case with {quantity: error} for n elements across L."""
     for name, body in BODIES.items():
         indenter = body.indenter(n)
         yield name, _indentation(indenter, body)
@@ -106,7 +105,7 @@ def _errors_on_grid(n):
 
 
 def _flat_punches(n):
-    """Errors of the stiffness of a flat disc, with the elements of the rough discs, and of flat ellipses."""
+    """Yield errors of the stiffness of a flat disc, on the grid of the rough discs, and of flat ellipses."""
     disc = Indenter(cut_disc(np.zeros((n, n)), n), 1 / n)
     x = (np.arange(n) - (n - 1) / 2) / n
     ellipses = [Indenter(np.where((2 * x[:, None]) ** 2 + x**2 <= major**2, 0.0, np.nan), 1 / n) for major in ELLIPSES]
@@ -117,7 +116,7 @@ def _flat_punches(n):
 
 
 def _correspondence(disc):
-    """Error of the elastic depths under the impulses of contact events, against direct integration of the events."""
+    """Return the error of the elastic depths under the impulses of contact events, against direct integration."""
     events = march_events(disc, until_fraction=min(1.0, EVENTS / disc.elements))
     depth = np.unique(events.depth[1:])[::EVENTS_APART]
     elastic = indent(disc, depths=depth, tolerance=CORRESPONDENCE_TOLERANCE)
@@ -125,7 +124,7 @@ def _correspondence(disc):
 
 
 def _indentation(indenter, body):
-    """Errors of boundary elements at given depths against the elastic solution."""
+    """Return errors of boundary elements at given depths against the elastic solution."""
     depth = body.mdr_profile(RADII)
     curve = indent(indenter, depths=depth, tolerance=TOLERANCE)
     return {
@@ -136,7 +135,7 @@ def _indentation(indenter, body):
 
 
 def _penetration(indenter, body):
-    """History of the force and errors of the correspondence, on a curve with automatic levels, for two histories.
+    """Yield force histories and errors of the correspondence on a curve with automatic levels.
 
     Constant force: F = FORCE. Rising force: F(t) = 2 FORCE t/T until T, with the same impulse at T.
     """
@@ -153,12 +152,12 @@ def _penetration(indenter, body):
 
 
 def _reduction(line, body):
-    """Errors of the line of the MDR, at given forces, against the elastic solution."""
+    """Return errors of the line of the MDR, at given forces, against the elastic solution."""
     depth = body.mdr_profile(RADII)
     reduced_depth, stiffness = reduce(line).at_force(body.force(depth))
     return {"depth": _error(reduced_depth, depth), "stiffness": _error(stiffness, body.stiffness(depth))}
 
 
 def _error(value, exact):
-    """Root mean square of the relative deviation."""
+    """Return the root mean square of the relative deviation."""
     return float(np.sqrt(np.mean((value / exact - 1) ** 2)))

@@ -1,9 +1,9 @@
-"""Ensembles: realizations of one surface on common abscissae, their averages and their spread.
+"""Put realizations of one surface on common abscissae, and take their averages and spread.
 
 The abscissa is X = F/(4GhL), which for the viscous problem is Ft/(4ηhL) (paper, Eqs. 2 and 3). If all realizations have
 the same F, η, L and nominal h, fixed X means fixed time, and vt/h is the velocity times a constant: averages at fixed X
-and at fixed t are then the same. They differ if h is measured on each realization, since X and vt/h are then in units
-of the h of that realization. An ensemble contains several such rms conventions.
+and at fixed t are then the same. They differ if h is measured on each realization, because X and vt/h are then in units
+of this realization's h. An ensemble contains several such rms conventions.
 """
 
 import warnings
@@ -16,7 +16,7 @@ ROUNDING = 1e-9  # relative difference below which abscissae and ends of ranges 
 
 
 def abscissa(low, high, per_decade):
-    """Logarithmic grid of X: the multiples of 1/per_decade decades in [low, high], shape (abscissae,) [1].
+    """Return the multiples of 1/per_decade decades in [low, high], a logarithmic grid of X, shape (abscissae,) [1].
 
     Grids of the same per_decade share their points, independent of their ends. Raises ValueError for an empty grid.
     """
@@ -30,14 +30,14 @@ def abscissa(low, high, per_decade):
 
 
 def on_abscissae(curves, rms, diameter, x):
-    """κ and the elements in contact on common abscissae, each of shape (rms conventions, realizations, abscissae).
+    """Return κ and the elements in contact on common abscissae, each (rms conventions, realizations, abscissae).
 
     curves : list of LoadingCurve
     rms : {convention: rms heights h, shape (realizations,) or a number for all} [length]
     diameter : L, shape (realizations,) or a number for all [length]; x : X, shape (abscissae,) [1], strictly increasing
 
     κ = k/(4GL) at F/G = 4hLX (Eq. 3); nan beyond the last level of a curve. Between levels ln(count) is linear in
-    ln F, and below the first level the count is that of the first level.
+    ln F, and below the first level the count is constant.
     """
     diameters = np.broadcast_to(diameter, len(curves))
     heights = np.array([np.broadcast_to(values, len(curves)) for values in rms.values()])
@@ -52,19 +52,19 @@ def on_abscissae(curves, rms, diameter, x):
 
 
 def with_averages(curves):
-    """Ensemble dataset: curves with vt/h = X/κ (velocity), and averages over the realizations.
+    """Return the ensemble dataset: curves with vt/h = X/κ (velocity), and averages over the realizations.
 
     Averages are means and medians, by their names; velocity_spread, the standard deviation of ln(vt/h);
-    realizations_defined, the number of curves that reach an abscissa; and fraction_defined, this number over that of
-    the curves intended to reach it.
+    realizations_defined, the number of curves that reach an abscissa; and fraction_defined, this number over the number
+    of curves intended to reach it.
 
-    curves : dataset with κ (stiffness) and elements in contact (contact_count), nan where undefined, of the dimensions
-        `DIMENSIONS`, the first of which a single rms convention lacks; its coordinates are x, X, and until_x, the X up
-        to which curves were computed
+    curves : dataset with κ (stiffness) and elements in contact (contact_count), nan where undefined, with the
+    dimensions `DIMENSIONS` (a single rms convention has no dimension); its coordinates are x, X, and until_x, the X at
+    the end of the computed curves
     """
     velocity = curves["x"] / curves["stiffness"]
     defined, expected = velocity.notnull(), curves["until_x"] * (1 + ROUNDING) >= curves["x"]
-    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):  # where few realizations are defined
+    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):  # few realizations may be defined
         geometric = np.exp(np.log(velocity).mean("realization"))
         averaged = curves.assign(
             velocity=velocity,

@@ -19,8 +19,8 @@ RMS = {
 class Realization(NamedTuple):
     """One surface of an ensemble; lengths in the unit of its indenter: m, or "1" if they are dimensionless.
 
-    ensemble : its name; number : of the realization
-    hurst : Hurst exponent, nan of a measured surface; diameter : L; spacing : between columns, or points of a line
+    ensemble : its name; number : number of the realization
+    hurst : Hurst exponent, nan for a measured surface; diameter : L; spacing : between columns, or points of a line
     rms : {convention of `RMS`: rms height}
     """
 
@@ -33,11 +33,11 @@ class Realization(NamedTuple):
 
 
 def batch_of_curves(members, settings):
-    """Content of a NetCDF file; lengths in the unit of the curves.
+    """Return the Content of a NetCDF file; lengths in the unit of the curves.
 
     members : (LoadingCurve, Realization, X up to which the curve was computed) of every surface; values common to all
         surfaces are stored once
-    settings : of the curves, for the attribute settings
+    settings : settings of the curves, for the attribute settings
     """
     curves, realizations, until_x = zip(*members, strict=True)
     content, unit = stack_curves(curves), curves[0].length_unit
@@ -58,7 +58,7 @@ def batch_of_curves(members, settings):
 
 
 def without_numbers(ensembles):
-    """The ensembles of a batch as recorded in the settings of a file, independent of the realizations in the batch."""
+    """Return the ensembles of a batch as recorded in a file's settings, independent of the batch's realizations."""
     return [{name: value for name, value in ensemble.items() if name != "numbers"} for ensemble in ensembles]
 
 

@@ -9,13 +9,14 @@ _LENGTHS = ("rms", "diameter", "rms_over", "length_unit")  # settings of a surfa
 
 
 def ensemble_disc(elements, surface, seed):
-    """The Indenter of one realization, and {convention: its rms height} in its unit of length.
+    """Return the Indenter of one realization, and {convention: its rms height} in its unit of length.
 
-    elements : across the disc; surface : arguments of self_affine_disc with rms, diameter, rms_over and length_unit
+    elements : number across the disc; surface : arguments of self_affine_disc with rms, diameter, rms_over and
+    length_unit
 
-    The nominal rms height is that over the disc or over the periodic square that the disc is cut from, by rms_over.
-    The conventions are the rms height over the disc, that over the square, and the rms height of the ensemble, which
-    the common spectrum gives the square on average: in this unit realizations are not normalised individually.
+    The nominal rms height is taken over the disc, or over the periodic square that the disc is cut from, by rms_over.
+    The conventions are the rms height over the disc, over the square, and over the ensemble. The last is the mean over
+    squares with the common spectrum; with it, realizations are not normalised individually.
     """
     shape = {name: value for name, value in surface.items() if name not in _LENGTHS}
     square = square_of_disc(**shape, elements_across=elements, normalised=False, seed=seed)

@@ -1,4 +1,4 @@
-"""The flat disc that a rough one becomes in complete contact: its stiffness on a grid."""
+"""The flat disc that a rough disc becomes in complete contact: its stiffness on a grid."""
 
 from functools import cache
 
@@ -13,7 +13,7 @@ from viscorough_study.ensembles.pool import elements_across, ensembles
 
 @cache
 def punch_stiffness(elements_across):
-    """κ_c of a flat disc of `elements_across` elements, by boundary elements; tends to 1 on finer grids."""
+    """Return κ_c of a flat disc of `elements_across` elements, by boundary elements; it tends to 1 on finer grids."""
     disc = cut_disc(np.zeros((elements_across, elements_across)), elements_across)
     return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
 
@@ -21,7 +21,7 @@ def punch_stiffness(elements_across):
 def ensembles_on_grids(pool, source, rms_convention):
     """Yield H, elements across discs or points of lines, κ_c of the flat punch on this grid, and the ensemble on it.
 
-    source : of the pool, "lines" or discs; rms_convention : of discs
+    source : "lines" for a pool of lines, otherwise discs; rms_convention : convention of discs
     """
     convention = "line" if source == "lines" else rms_convention
     for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=convention).items():

@@ -6,10 +6,10 @@ from viscorough.io.heights import read_heights
 
 
 def measured_indenter(file, *, spacing, unit, preparation):
-    """The prepared Indenter of a scan, in metres.
+    """Return the prepared Indenter of a scan, in metres.
 
-    spacing : [] for that in the file, [of both directions] or [between columns, between rows]
-    unit : of the heights, None for that in the file; preparation : further arguments of read_heights
+    spacing : [] for the spacing in the file, [of both directions] or [between columns, between rows]
+    unit : unit of the heights, None for the unit in the file; preparation : further arguments of read_heights
     Raises ValueError if the unit of length is unknown.
     """
     spacing = spacing[0] if len(spacing) == 1 else spacing or None
@@ -20,7 +20,7 @@ def measured_indenter(file, *, spacing, unit, preparation):
 
 
 def lengths(indenter):
-    """{column: value} of an indenter: spacings, rms height and slope, diameter of the circle of equal area."""
+    """Return {column: value} of an indenter: spacings, rms height and slope, diameter of the circle of equal area."""
     area = indenter.elements * indenter.spacing * indenter.row_spacing
     return {
         "elements": indenter.elements,

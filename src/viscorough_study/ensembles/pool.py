@@ -1,4 +1,4 @@
-"""Pools: all realizations of many cases on common abscissae in one dataset, and the ensembles selected from it.
+"""Pool all realizations of many cases on common abscissae in one dataset, and select ensembles from it.
 
 The dataset has the dimensions rms_convention, realization and abscissa. Hurst exponent, group, case and number of
 elements are coordinates of the realizations. It holds no lengths, since the curves are dimensionless, and no averages,
@@ -28,10 +28,10 @@ REALIZATION_COORDINATES = {
 
 
 def pool_batches(batches, conventions, x):
-    """Pool of all batches, sorted by case and number of the realization, irrespective of the batches.
+    """Pool all batches, sorted by case and number of the realization, irrespective of the batches.
 
     batches : iterable of (group, Content of ensembles.batches.batch_of_curves); only one at a time is in memory
-    conventions : of the rms heights; x : X, shape (abscissae,) [1]
+    conventions : conventions of the rms heights; x : X, shape (abscissae,) [1]
     """
     stiffness, count, realizations, settings = [], [], [], {}
     for group, batch in batches:
@@ -39,7 +39,8 @@ def pool_batches(batches, conventions, x):
         rms = {name: values[f"rms_{name}"] for name in conventions}
         stored = {name: values[name] for name in ("hurst", "case", "until_x", "number")}
         realizations.append(pd.DataFrame(stored | {"group": group, "elements": [curve.elements for curve in curves]}))
-        # Whether a shorter curve happens to reach further depends on its surface: a mean over those would be biased.
+        # Whether a shorter curve happens to reach further depends on its surface, so a mean over such curves would be
+        # biased.
         beyond = realizations[-1]["until_x"].to_numpy()[:, None] * (1 + ROUNDING) < x
         for parts, part in zip((stiffness, count), on_abscissae(curves, rms, values["diameter"], x), strict=True):
             parts.append(np.where(beyond, np.nan, part))
@@ -62,15 +63,15 @@ def pool_batches(batches, conventions, x):
 
 
 def select(pool, **wanted):
-    """The realizations whose coordinates have these values, such as group="base"."""
+    """Return the realizations whose coordinates have these values, such as group="base"."""
     chosen = np.logical_and.reduce([pool[name].values == value for name, value in wanted.items()])
     return pool.isel(realization=np.flatnonzero(chosen))
 
 
 def ensembles(pool, *names, rms_convention=None):
-    """{value of a coordinate, or values of several: ensemble of its realizations}, in the order of the pool.
+    """Return {value of a coordinate, or values of several: ensemble of its realizations}, in the order of the pool.
 
-    rms_convention : in which alone they are, without this dimension; by default in all of the pool
+    rms_convention : the only convention to keep, without its dimension; by default all conventions of the pool
 
     The ensembles have averages over their realizations (ensembles.averages). Their case is a scalar if all realizations
     agree, otherwise a coordinate of the realizations.
@@ -79,14 +80,14 @@ def ensembles(pool, *names, rms_convention=None):
     for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
         ensemble = with_averages(select(pool, **dict(zip(names, values, strict=True))))
         for name in ("hurst", "elements", "case", "until_x"):
-            same = np.unique(ensemble[name].values)  # nan, of measured surfaces, is equal to nan
+            same = np.unique(ensemble[name].values)  # nan, for measured surfaces, is equal to nan
             ensemble = ensemble.assign_coords({name: same[0]}) if same.size == 1 else ensemble
         result[values if len(names) > 1 else values[0]] = ensemble
     return result
 
 
 def elements_across(elements):
-    """Elements across a disc of this number of elements.
+    """Return the elements across a disc of this number of elements.
 
     A disc with n across has the elements whose centres lie within (n − 1)/2 of its centre, about π (n − 1)²/4 of them.
     """

@@ -54,7 +54,7 @@ def _define(group, realization, indenter):
 
 
 def read_surfaces(path):
-    """Iterator over the (settings of its ensemble, Realization, Indenter) of every surface in a file, read one by one.
+    """Yield (settings of its ensemble, Realization, Indenter) of every surface in a file, read one by one.
 
     Raises a one-line ValueError if the file is missing or damaged.
     """

@@ -1,1 +1,1 @@
-"""The figures: one module for each, which draws a matplotlib Figure from tables and ensembles and computes nothing."""
+"""Figures, one module for each: it draws a matplotlib Figure from tables and ensembles, and computes nothing."""

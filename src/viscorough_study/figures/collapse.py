@@ -1,4 +1,4 @@
-"""Scaling collapse of the curves of all grids, and the exponents with which they collapse."""
+"""Draw the scaling collapse of the curves of all grids, and the exponents that collapse them."""
 
 import numpy as np
 
@@ -11,9 +11,9 @@ SHIFT = 3.0  # factor by which curves of successive H are separated
 
 @style.figure
 def plot_collapse(curves, collapse, infinite):
-    """vt/h (a) and its interface part (b) on all grids over the law, and the exponents compatible with them (c).
+    """Draw vt/h (a) and its interface part (b) on all grids over the law, and the compatible exponents (c).
 
-    curves, collapse, infinite : of fits.infinite_grid.collapse_tables
+    curves, collapse, infinite : tables of fits.infinite_grid.collapse_tables
     """
     figure = style.new_figure(130)
     places = figure.subplot_mosaic([["whole", "interface"], ["exponents", "exponents"]])
@@ -40,7 +40,7 @@ def _curves(axes, curves, looks):
 
 
 def _exponents(axes, collapse, infinite):
-    """Draw β − H/(1 + H) over H: intervals in which the curves collapse, and limits of infinitely fine grids."""
+    """Draw β − H/(1 + H) over H: intervals of exponents that collapse the curves, and infinitely fine grids."""
     axes.axhline(0, color=style.GREY, linestyle=":", linewidth=0.8)
     looks = {"whole": {"color": style.BLUE, "marker": "o"}, "interface": {"color": style.VERMILION, "marker": "s"}}
     discs = collapse[(collapse["source"] == "discs") & (collapse["x_high"] == collapse["x_high"].iloc[0])]

@@ -1,4 +1,4 @@
-"""Effect on exponent and prefactor of the conventions that the paper leaves open."""
+"""Draw the effect of the conventions that the paper leaves open on exponent and prefactor."""
 
 import numpy as np
 from matplotlib.ticker import NullLocator
@@ -27,14 +27,14 @@ CONVENTION_LABELS = {
 
 @style.figure
 def plot_conventions(scaling, conventions):
-    """β less H/(1 + H) and ζ over 2 − H of the discs, with 95 % intervals, as one convention or the surfaces change.
+    """Draw β − H/(1 + H) and ζ/(2 − H) of the discs with 95 % intervals, as one convention or the surfaces change.
 
-    scaling : scaling table; conventions : {column of it: value}, of which one is changed at a time
+    scaling : scaling table; conventions : {column of the table: value}, changed one at a time
     """
     discs = scaling[scaling["source"] == "discs"]
     looks, changes = style.hurst_looks(discs["hurst"]), _changes(discs, conventions)
     figure, (betas, zetas) = style.new_subplots(7 * len(changes) + 28, 1, 2, sharey=True)
-    heights = np.linspace(-0.27, 0.27, len(looks))  # of the Hurst exponents in a row
+    heights = np.linspace(-0.27, 0.27, len(looks))  # positions of the Hurst exponents within a row
     for (hurst, look), height in zip(looks.items(), heights, strict=True):
         beta, zeta = reference.exponent_beta(hurst), reference.zeta_viscous(hurst)
         zetas.axvline(reference.zeta_elastic(hurst) / zeta, color=look["color"], linestyle=":", zorder=1)
@@ -65,7 +65,7 @@ def plot_conventions(scaling, conventions):
 
 
 def _changes(discs, conventions):
-    """Rows of the figure, (label, {column: value}): the conventions of the other figures, then one change per row."""
+    """Return the rows of the figure, (label, {column: value}): the usual conventions, then one change each."""
     base = conventions | {"case_group": "base"}
     rows = [("as in other figures", base)]
     for column, labels in CONVENTION_LABELS.items():

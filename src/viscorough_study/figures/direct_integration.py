@@ -1,4 +1,4 @@
-"""Direct integration of the viscous problem in time, compared with the law with and without the factor 1/Γ(2 − α)."""
+"""Compare direct integration of the viscous problem with the law, with and without the factor 1/Γ(2 − α)."""
 
 import numpy as np
 
@@ -8,9 +8,10 @@ from viscorough_study.run.readable import readable
 
 @style.figure
 def plot_direct_integration(table):
-    """Depth by direct integration over the elastic depth, and its value by Eq. 8, against the elements in contact.
+    """Draw the depth by direct integration over the elastic depth, and Eq. 8, against the elements in contact.
 
-    table : of comparisons.direct_integration; each indenter has a panel, with the largest deviation of the ratio from 1
+    table : table of comparisons.direct_integration; each indenter has a panel, with the largest deviation of the ratio
+    from 1
     """
     cases = list(table["case"].unique())
     layout = {"columns": min(3, len(cases)), "height": 42, "rest": 16, "xlabel": "elements in contact"}

@@ -1,4 +1,4 @@
-"""Figure 4 of the paper: the exponent β over the Hurst exponent."""
+"""Draw Figure 4 of the paper: the exponent β over the Hurst exponent."""
 
 import numpy as np
 
@@ -9,10 +9,10 @@ from viscorough_study.fits.conventions import fits
 
 @style.figure
 def plot_exponent(scaling, conventions, hurst_range):
-    """β over the Hurst exponent, with 95 % intervals: lines, discs and Eq. 10.
+    """Draw β over the Hurst exponent, with 95 % intervals: lines, discs and Eq. 10.
 
     scaling : scaling table; conventions : {convention: value}
-    hurst_range : in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
+    hurst_range : range of H in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
     """
     looks = style.hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])
     figure, axes = style.new_subplots(82, width=style.NARROW)

@@ -1,4 +1,4 @@
-"""Interface and flat punch in series: g over X, the law of the library over it, and u₀/h over the Hurst exponent."""
+"""Draw interface and flat punch in series: g over X, the library's law over g, and u₀/h over the Hurst exponent."""
 
 import numpy as np
 import pandas as pd
@@ -9,18 +9,18 @@ from viscorough_study.figures import style
 
 SHIFT = 0.012  # distance in H between markers of grids and methods
 X_SHOWN = (1e-4, 30.0)
-LEAST_SHARE = 0.01  # of g in vt/h for the ratio of the law to it: vt/h is known to the tolerance of the curves, 0.1 %
-LABELS = ["source", "case_group", "hurst", "across"]  # of an ensemble
+LEAST_SHARE = 0.01  # smallest share of g in vt/h for the law over g: vt/h is known to 0.1 %
+LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an ensemble
 
 
 @style.figure
 def plot_interface(table, curves, literature, periodic):
-    """g of discs and of periodic surfaces (a) and of lines (b), g of the law over g of discs (c), u₀/h (d).
+    """Draw g of discs and periodic surfaces (a) and of lines (b), g of the law over g of discs (c), u₀/h (d).
 
-    table, curves : of fits.interface; literature : of comparisons.literature, for u₀/h in (d)
-    periodic : of comparisons.periodic_control
-    All means are arithmetic ones, as springs add. (a) to (c) show each Hurst exponent on the base grid only; the
-    law of the library, in (a) and (c), only on its own grid and at its own Hurst exponents.
+    table, curves : tables of fits.interface; literature : table of comparisons.literature, for u₀/h in (d)
+    periodic : table of comparisons.periodic_control
+    All means are arithmetic, because compliances add. (a) to (c) show each Hurst exponent on the base grid only. The
+    law of the library is in (a) and (c), only on its own grid and at its own Hurst exponents.
     """
     base = pd.concat([_on_base_grid(rows) for _, rows in table.groupby("source")])
     shown = curves.merge(base[[*LABELS, "plateau_low", "plateau_high"]], on=LABELS)
@@ -62,7 +62,7 @@ def plot_interface(table, curves, literature, periodic):
 
 
 def _on_base_grid(rows):
-    """Rows of a source on the base grid: the base ensembles, and Hurst exponents that only the grid study has."""
+    """Return rows of a source on the base grid: base ensembles, and Hurst exponents that only the grid study has."""
     of_sizes = rows["case_group"] == "sizes"
     base = rows[~of_sizes]
     further = rows[of_sizes & rows["across"].isin(base["across"]) & ~rows["hurst"].isin(base["hurst"])]
@@ -70,7 +70,7 @@ def _on_base_grid(rows):
 
 
 def _draw_law(axes, ratios, curve, law, look):
-    """Draw g of the law of the library in its range, and over g of a curve, with the interval of the latter."""
+    """Draw g of the law of the library in its range, and over g of a curve, with the interval of the curve."""
     curve = curve[curve["x"].between(law.x_low, law.x_high)]
     of_law = law.velocity(curve["x"].to_numpy()) - curve["x"]
     axes.plot(curve["x"], of_law, color=style.BLACK, linewidth=0.6)
@@ -81,7 +81,7 @@ def _draw_law(axes, ratios, curve, law, look):
 
 
 def _name_discs(axes, table):
-    """State at how many discs the mean of each curve of the law is taken."""
+    """State the number of discs in the mean of each curve of the law."""
     shown = table[(table["across"] == ACROSS) & table["hurst"].isin(interface_calibration()["hurst"])]
     hurst_by_number = shown.sort_values("hurst").groupby("realizations", sort=False)["hurst"]
     labels = [f"{number:g} discs: $H$ = {', '.join(f'{h:g}' for h in hurst)}" for number, hurst in hurst_by_number]
@@ -90,7 +90,7 @@ def _name_discs(axes, table):
 
 
 def _draw_literature(axes, literature):
-    """Draw u₀/h from the literature, labelled directly: as a line where it is independent of H, otherwise as a band."""
+    """Draw u₀/h from the literature, labelled directly: as a line if it is independent of H, otherwise as a band."""
     stated = literature[literature["quantity"] == "u0"].dropna(subset=["hurst", "theirs_low"])
     for (source, year), rows in stated.groupby(["source", "year"], sort=False):
         name, hurst, low, high = cited(source, year), rows["hurst"], rows["theirs_low"], rows["theirs_high"]
@@ -104,7 +104,7 @@ def _draw_literature(axes, literature):
 
 
 def _draw_plateaus(axes, table, looks):
-    """Draw u₀/h over H, with a marker for each grid of the discs, and one for the lines.
+    """Draw u₀/h over H, with a marker for each grid of the discs, and a marker for the lines.
 
     Lines are shown on the base grid only: their u₀ varies far less with the number of points than with H.
     """

@@ -1,4 +1,4 @@
-"""Figure 2 of the paper: kinetics of penetration, in SI units and in dimensionless variables."""
+"""Draw Figure 2 of the paper: kinetics of penetration, in SI units and in dimensionless variables."""
 
 import numpy as np
 from matplotlib.patheffects import withStroke
@@ -21,16 +21,16 @@ QUANTITIES = {
 
 @style.figure
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
-    """vt/h over X as in the paper's Figure 2, velocity over time in SI units, and a table of the combinations.
+    """Draw vt/h over X as in the paper's Figure 2, velocity over time in SI units, and a table of the combinations.
 
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
-    scaling : scaling table, which has region (b); conventions : {column of it: value}
+    scaling : scaling table, which has region (b); conventions : {column of the table: value}
     fraction_min : smallest fraction of defined realizations for which a mean is drawn
 
-    Region (a), where one element is in contact, is grey, and its last decade is drawn; bars at the bottom are the
-    windows of region (b). The rms height is that of the combination, which is exact if h is taken over the points for
-    which it was prescribed.
+    Region (a), with one element in contact, is grey, and its last decade is drawn. Bars at the bottom are the windows
+    of region (b). The rms height is the combination's value, which is exact if h is taken over the same points as in
+    the generation.
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in ensembles)
     figure = style.new_figure(112)
@@ -65,12 +65,12 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
 
 
 def _combination(case):
-    """Name of the combination in the name of a case, <Hurst exponent>_<combination>."""
+    """Return the name of the combination in the name of a case, <Hurst exponent>_<combination>."""
     return case.partition("_")[2]
 
 
 def _tabulate(axes, combinations):
-    """Table of the combinations: a column for each, a row for each quantity."""
+    """Draw a table of the combinations: a column for each, a row for each quantity."""
     axes.axis("off")
     cells = [
         [readable(at[quantity] / size) for at in combinations.values()] for quantity, (_, size) in QUANTITIES.items()
@@ -83,7 +83,7 @@ def _tabulate(axes, combinations):
 
 
 def _mark_limits(axes, across):
-    """Limits (a) and (c), vt/h = X/κ of one element and of a flat punch, over X."""
+    """Draw the limits (a) and (c), vt/h = X/κ of one element and of a flat punch, over X."""
     bottom, top = axes.get_ylim()
     axes.autoscale(False)
     for stiffness, low, start, text, side in (
@@ -92,14 +92,14 @@ def _mark_limits(axes, across):
     ):
         axes.plot([stiffness * low, stiffness * top], [low, top], color=style.GREY, linestyle=":", linewidth=0.8)
         y = low * (top / low) ** start
-        # Angle of the line through the origin, which has slope 1 in the logarithms.
+        # The line through the origin has slope 1 in the logarithms; this is its angle on the page.
         angle = np.degrees(np.arctan(1 / stiffness))
         along = {"rotation": angle, "rotation_mode": "anchor", "transform_rotates_text": True}
         axes.text(stiffness * y, y, text, color=style.GREY, va=side, **along)
 
 
 def _mark_windows(axes, looks, scaling, conventions):
-    """Windows of region (b) as bars at the bottom, over X."""
+    """Draw the windows of region (b) as bars at the bottom, over X."""
     bar = {"linewidth": 2.5, "solid_capstyle": "butt", "transform": axes.get_xaxis_transform()}
     for rank, (hurst, look) in enumerate(reversed(looks.items())):
         for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():

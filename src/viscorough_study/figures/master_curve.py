@@ -1,4 +1,4 @@
-"""Figure 3 of the paper: the master curve, Eq. 12."""
+"""Draw Figure 3 of the paper: the master curve, Eq. 12."""
 
 import numpy as np
 
@@ -10,11 +10,11 @@ from viscorough_study.fits.conventions import fits
 
 @style.figure
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
-    """vt/h over the right side of Eq. 12 with its Γ, and below it their ratio.
+    """Draw vt/h over the right side of Eq. 12 with its Γ, and below it their ratio.
 
     discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13), and
         are drawn at the Hurst exponents of discs
-    scaling : scaling table, which has region (b); conventions : {column of it: value}
+    scaling : scaling table, which has region (b); conventions : {column of the table: value}
     fraction_min : smallest fraction of defined realizations for which a mean is drawn
 
     Symbols, about eight per decade of X, are filled in region (b); bars are two standard errors to either side.
@@ -54,7 +54,7 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
 
 
 def _draw_discs(panels, curve, hurst, windows, look):
-    """Draw the symbols of one Hurst exponent, filled in its windows; returns the ratios drawn in them."""
+    """Draw the symbols of one Hurst exponent, filled in its windows, and return the ratios drawn in them."""
     look = look | {"linestyle": "", "markersize": 3, "capsize": 0, "elinewidth": 0.8}
     right_side = reference.rate_law(curve.x, hurst, gamma=True)
     step = max(1, np.searchsorted(curve.x, 10 * curve.x[0]) // 8)

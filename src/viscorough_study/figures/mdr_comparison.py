@@ -1,4 +1,4 @@
-"""The method of dimensionality reduction (MDR) against boundary elements, surface by surface."""
+"""Compare the method of dimensionality reduction (MDR) with boundary elements, surface by surface."""
 
 import numpy as np
 
@@ -7,10 +7,10 @@ from viscorough_study.figures import style
 
 @style.figure
 def plot_mdr_comparison(table):
-    """Lines compared with the discs whose spectra they have: κ (a, b), contact fraction (c), gap (d), correlation of κ
-    (e), force (f).
+    """Compare lines with discs of the same spectrum: κ (a, b), contact fraction (c), gap (d), correlation (e), force
+    (f).
 
-    table : of viscorough_study.comparisons.mdr_comparison
+    table : table of viscorough_study.comparisons.mdr_comparison
     Bands are 95 % intervals of the means; in (e), 95 % of the correlations of unrelated pairs.
     """
     figure, panels = style.new_subplots(185, 3, 2, sharex=True)

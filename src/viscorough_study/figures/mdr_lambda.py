@@ -1,4 +1,4 @@
-"""λ of the lines that represent discs, and the agreement of lines and discs with the best λ."""
+"""Draw λ of the lines that represent discs, and the agreement of lines and discs with the best λ."""
 
 import numpy as np
 
@@ -7,14 +7,15 @@ from viscorough_study.figures import style
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
 _SHIFT = 0.02  # distance in H between the markers of one Hurst exponent
-# The axes end this factor beyond the values of region (b), where a constant λ is claimed. Outside it λ falls in region
-# (a), where lines have finer grids, and grows without bound as contact becomes complete.
+# The axes end this factor beyond the values of region (b), in which the paper claims a constant λ. Below region (b) λ
+# falls, because lines have finer grids. Above it λ grows without bound as contact becomes complete.
 _MARGIN = 1.3
 
 
 @style.figure
 def plot_mdr_lambda(lambdas, exponents):
-    """λ over X (a), vt/h of lines with the best single λ over that of discs (b), and exponents in equal windows (c).
+    """Draw λ over X (a), vt/h of lines with the best single λ over vt/h of discs (b), and exponents in equal windows
+    (c).
 
     lambdas, exponents : tables of viscorough_study.comparisons.mdr_equivalence
     """
@@ -47,5 +48,5 @@ def plot_mdr_lambda(lambdas, exponents):
 
 
 def _limits(rows, name):
-    """Limits of a logarithmic axis around a column and its intervals; None without rows."""
+    """Return limits of a logarithmic axis around a column and its intervals; None without rows."""
     return (rows[f"{name}_low"].min() / _MARGIN, rows[f"{name}_high"].max() * _MARGIN) if len(rows) else None

@@ -1,4 +1,4 @@
-"""Mean velocity of an ensemble under the conventions of the figures, for the kinetics and the master curve."""
+"""Mean velocity of an ensemble in the conventions of the figures, for the kinetics and the master curve."""
 
 from types import SimpleNamespace
 
@@ -8,14 +8,14 @@ from viscorough_study.figures.style import count_text
 
 
 def mean_curve(ensemble, conventions, fraction_min):
-    """Mean over the defined realizations of an ensemble dataset, arrays of shape (abscissae,).
+    """Return means over the defined realizations of an ensemble dataset, arrays of shape (abscissae,).
 
     conventions : {column of the scaling table: value}
     fraction_min : smallest fraction of defined realizations for which a mean is drawn
 
-    x : X; velocity : vt/h, nan where too few realizations are defined for an unbiased mean
+    x : X; velocity : vt/h, nan if too few realizations are defined for an unbiased mean
     error : two standard errors of ln(vt/h)
-    several : whether the mean is drawn and more than one element is in contact, so that it lies beyond region (a)
+    several : True if the mean is drawn and several elements are in contact, beyond region (a)
     """
     available = ensemble["rms_convention"].values.tolist()  # lines have a single convention
     mean = ensemble.sel(rms_convention=conventions["rms_convention"] if len(available) > 1 else available[0])
@@ -29,7 +29,7 @@ def mean_curve(ensemble, conventions, fraction_min):
 
 
 def realizations_text(ensembles):
-    """Number of realizations averaged in the ensembles, as text; the smallest number is that at the largest X."""
+    """Return the number of averaged realizations as text; the smallest number applies at the largest X."""
     counts = []
     for ensemble in ensembles:
         until_x = np.broadcast_to(ensemble["until_x"].values, ensemble.sizes["realization"])

@@ -11,12 +11,12 @@ _LINES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))
 
 @style.figure
 def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min):
-    """vt/h over X of measured surfaces and of generated discs (a), and the depth over time under given forces (b).
+    """Draw vt/h over X of measured and generated surfaces (a), and the depth over time under given forces (b).
 
     groups : {name: ensemble dataset of its scans}; discs : ensemble datasets of discs, one for each Hurst exponent
-    scaling : fits of the groups; kinetics : table of depth over time by scan, medium and force, which may be empty
-    conventions : {column of a scaling table: value}
-    fraction_min : smallest fraction of defined discs for which a mean is drawn
+    scaling : table of fits of the groups; kinetics : table of depth over time by scan, medium and force, which may be
+    empty conventions : {column of a scaling table: value} fraction_min : smallest fraction of defined discs for which a
+    mean is drawn
     """
     figure, (law, motion) = style.new_subplots(85, 1, 2)
     looks, hursts = style.series_looks(groups), style.hurst_looks(ds["hurst"].item() for ds in discs)

@@ -6,15 +6,15 @@ from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
 from viscorough_study.run.cases import medium_label
 
-_LOWEST = 1e-6  # lower end of the axis over the largest velocity: that of a solid decays exponentially
+_LOWEST = 1e-6  # lower end of the axis over the largest velocity, since velocities in a solid decay exponentially
 HOLLOW = {"linestyle": "", "markersize": 3, "markerfacecolor": "none"}
 
 
 @style.figure
 def plot_media(table):
-    """vt/h over time, one panel for each medium, and the depth u/h over X = F J(t)/(4hL) for all of them.
+    """Draw vt/h over time, a panel for each medium, and the depth u/h over X = F J(t)/(4hL) for all media.
 
-    table : of viscorough_study.comparisons.media_kinetics
+    table : table of viscorough_study.comparisons.media_kinetics
     Dotted lines have slope 1; dashed lines have the slope H/(1 + H) of Eq. 10 and pass through X = 0.01.
     """
     names, looks = list(dict.fromkeys(table["medium"])), style.hurst_looks(table["hurst"])
@@ -40,7 +40,7 @@ def plot_media(table):
 
 
 def _plot_velocity(axes, table, looks):
-    """vt/h over t in one medium, with guides."""
+    """Draw vt/h over t in one medium, with guides."""
     for hurst, part in table.groupby("hurst"):
         axes.plot(part["time"], part["velocity"], **looks[hurst] | {"marker": ""})
     axes.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $vt/h$")

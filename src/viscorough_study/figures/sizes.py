@@ -9,10 +9,10 @@ CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 
 @style.figure
 def plot_sizes(table, conventions):
-    """β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
+    """Draw β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
 
-    table : of fits.fit_table.sizes_table; conventions : {column of it: value}
-    The fixed window is the one at the largest X. Colours distinguish Hurst exponents; dotted lines are H/(1 + H),
+    table : table of fits.fit_table.sizes_table; conventions : {column of the table: value}
+    The fixed window is the window at the largest X. Colours distinguish Hurst exponents; dotted lines are H/(1 + H),
     Eq. 10; crosses are controls, discs whose spectrum has a roll-off.
     """
     fixed = table[~table["window_rule"].isin(FITTED["window_rule"])].sort_values("x_low", kind="stable")

@@ -1,6 +1,6 @@
 """Shared style of the figures: page sizes, colours, markers and line styles of series, ticks, saving.
 
-The colour, marker and line style of a Hurst exponent depend on its value alone, so that they agree in all figures.
+The colour, marker and line style of a Hurst exponent depend on its value alone, so they agree in all figures.
 Axis labels give units in parentheses after the symbol, and none for dimensionless quantities. No text is smaller than
 `SMALL`.
 """
@@ -17,16 +17,16 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
-from PIL import Image  # a dependency of matplotlib
+from PIL import Image  # matplotlib depends on it
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.run.readable import readable
 
 MM = 1 / 25.4
-WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one
+WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one column
 SMALL = 7  # points
-DPI = 200  # of pictures
-FEW_DECADES = 2.1  # range of a logarithmic axis below which ticks at decades alone are too few
+DPI = 200  # resolution of pictures
+FEW_DECADES = 2.1  # logarithmic axes over fewer decades need ticks between decades
 GREY, PALE = "0.4", "0.8"
 # The colours of Okabe and Ito, distinguishable with any colour vision.
 BLACK, BLUE, SKY_BLUE, GREEN = "#000000", "#0072b2", "#56b4e9", "#009e73"
@@ -68,9 +68,9 @@ in_style = rc_context(STYLE)
 
 
 def figure(plot):
-    """Decorator of every plotting function: draws in this style, with the ticks of `_set_ticks` on logarithmic axes.
+    """Decorate a plotting function: it draws in this style, with the ticks of `_set_ticks` on logarithmic axes.
 
-    A table without rows is refused as first argument.
+    It refuses a table without rows as its first argument.
     """
 
     @wraps(plot)
@@ -81,7 +81,7 @@ def figure(plot):
             raise ValueError(f"{plot.__name__}: the table has no rows; at least one is needed")
         drawn = plot(*arguments, **options)
         for axes in drawn.axes:
-            # Labels of minor ticks are empty, but would be measured one by one.
+            # Labels of minor ticks are empty, but matplotlib would measure each of them.
             axes.tick_params(which="minor", labelbottom=False, labelleft=False)
             for axis in (axes.xaxis, axes.yaxis):
                 if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
@@ -92,21 +92,22 @@ def figure(plot):
 
 
 def new_figure(height, width=WIDE):
-    """Empty figure; height in mm, width `WIDE` or `NARROW`."""
+    """Return an empty figure; height in mm, width `WIDE` or `NARROW`."""
     return Figure(figsize=(width, height * MM))
 
 
 def new_subplots(height, rows=1, columns=1, width=WIDE, **options):
-    """Figure, as of `new_figure`, and its axes, as of Figure.subplots."""
+    """Return a figure, as from `new_figure`, and its axes, as from Figure.subplots."""
     figure = new_figure(height, width)
     return figure, figure.subplots(rows, columns, **options)
 
 
 def new_panels(count, columns, height, rest, *, xlabel="", ylabel="", **sharing):
-    """Figure and the list of its `count` panels, in rows of `columns`.
+    """Return a figure and the list of its `count` panels, in rows of `columns`.
 
-    height : of a row of panels; rest : of titles, labels and legends in all [mm]
-    xlabel : of the lowest panel of a column; ylabel : of the first panel of a row; sharing : as in Figure.subplots
+    height : height of a row of panels; rest : total height of titles, labels and legends [mm]
+    xlabel : label of the lowest panel of a column; ylabel : label of the first panel of a row; sharing : as in
+    Figure.subplots
     """
     rows = -(-count // columns)
     figure, grid = new_subplots(height * rows + rest, rows, columns, squeeze=False, **sharing)
@@ -133,7 +134,7 @@ def save_figure(figure, *paths):
         figure.set_dpi(DPI)
         with atomic_write(path) as temporary:
             _WRITERS[suffix](figure, temporary)
-        figure.set_layout_engine("none")  # keeps the layout of the first format, which takes as long as drawing
+        figure.set_layout_engine("none")  # keep the layout of the first format; computing it takes as long as drawing
 
 
 def _write_pdf(figure, path):
@@ -142,7 +143,7 @@ def _write_pdf(figure, path):
 
 
 def _write_png(figure, path):
-    """Of at most 256 colours, a third of the size: the page embeds all figures."""
+    """Write a PNG file of at most 256 colours, with a third of the size: the page embeds all figures."""
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     colours = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3]).quantize(256, dither=Image.Dither.NONE)
@@ -153,7 +154,7 @@ _WRITERS = {".png": _write_png, ".pdf": _write_pdf}
 
 
 def hurst_looks(exponents):
-    """{Hurst exponent: color, marker, linestyle}, by ascending exponent."""
+    """Return {Hurst exponent: color, marker, linestyle}, by ascending exponent."""
     looks = {}
     for hurst in sorted(set(exponents)):
         # Distinct for all multiples of 0.1, and for neighbouring exponents. The power spreads the colours near H = 1.
@@ -163,24 +164,24 @@ def hurst_looks(exponents):
 
 
 def series_looks(names):
-    """{name: color, marker}, in the order of the names; the pairs differ, even where colours repeat."""
+    """Return {name: color, marker}, in the order of the names; the pairs differ, even if colours repeat."""
     looks = zip(dict.fromkeys(names), cycle(SERIES_COLORS), cycle(SERIES_MARKERS), strict=False)
     return {name: {"color": color, "marker": marker} for name, color, marker in looks}
 
 
 def count_text(counts):
-    """Number, or smallest and largest number, as text: "6", "6 to 54"."""
+    """Return a number, or the smallest and largest number, as text: "6", "6 to 54"."""
     low, high = min(counts), max(counts)
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"
 
 
 def handle(label, **look):
-    """Legend entry of a line or marker of this look."""
+    """Return a legend entry for a line or marker of this look."""
     return Line2D([], [], label=label, **look)
 
 
 def hurst_handles(looks, **changes):
-    """Legend handles of the Hurst exponents; changes : line properties that replace those of their looks."""
+    """Return legend handles of the Hurst exponents; changes : line properties that replace those of the looks"""
     return [handle(f"$H={hurst:g}$", **(look | changes)) for hurst, look in looks.items()]
 
 
@@ -198,9 +199,9 @@ def mark_with_interval(axes, x, y, interval, look, along="y"):
 
 
 def _set_ticks(axis):
-    """Set ticks of a logarithmic axis: at decades, over few decades also at 2 and 5, over less than one evenly spaced.
+    """Set ticks of a logarithmic axis: at decades, over few decades also at 2 and 5, below one decade evenly spaced.
 
-    Minor ticks are at the decades where not every decade has a major tick, otherwise between them.
+    If not every decade has a major tick, the other decades have minor ticks. Otherwise minor ticks divide the decades.
     """
     decades = np.ptp(np.log10(axis.get_view_interval()))
     axis.set_major_locator(LogLocator(numticks=9))

@@ -1,4 +1,4 @@
-"""Figure 1 of the paper: one indenter for each Hurst exponent."""
+"""Draw Figure 1 of the paper: one indenter for each Hurst exponent."""
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -10,7 +10,7 @@ COLORS = "cividis_r"  # from bright to dark, for any colour vision and in greysc
 
 @style.figure
 def plot_surfaces(examples):
-    """Discs side by side, four in a row, all in one colour scale; darker is higher.
+    """Draw discs side by side, four in a row, all in one colour scale; darker is higher.
 
     examples : list of (Hurst exponent, heights over rms height of shape (rows, columns), spacing over diameter)
     """

@@ -1,4 +1,4 @@
-"""Errors of the solvers against exact solutions."""
+"""Draw errors of the solvers against exact solutions."""
 
 import numpy as np
 from matplotlib.ticker import FixedLocator, NullLocator
@@ -10,9 +10,9 @@ LIMIT = {"color": "black", "linewidth": 2}
 
 @style.figure
 def plot_validation(table):
-    """Relative errors against exact solutions over the elements across the body, one panel for each quantity.
+    """Draw relative errors against exact solutions over the elements across the body, a panel for each quantity.
 
-    table : of viscorough_study.comparisons.validation
+    table : table of viscorough_study.comparisons.validation
     The black bar is the limit on the finest grid; a dotted line of the expected order leads to it.
     """
     quantities, cases = table["quantity"].unique(), table["case"].unique()
@@ -37,7 +37,7 @@ def plot_validation(table):
 
 
 def _case_looks(cases):
-    """Looks of cases named <body>_<method>: colour of the body, marker of the method."""
+    """Return looks of cases named <body>_<method>: colour of the body, marker of the method."""
     bodies, methods = (style.series_looks(case.partition("_")[part] for case in cases) for part in (0, 2))
     looks = {}
     for case in cases:

@@ -1,7 +1,7 @@
-"""The table of fits: β, ζ and λ of every ensemble under every convention that needs a fit.
+"""Compute the table of fits: β, ζ and λ of every ensemble under every convention that needs a fit.
 
-A row is an ensemble in one rms convention, average and window (`FITTED` of fits.conventions). Window and ζ
-are those of the plain reading of the law; fits.conventions has functions that select rows in any reading.
+A row is an ensemble in one rms convention, average and window (`FITTED` of fits.conventions). Window and ζ belong to
+the plain reading of the law; fits.conventions has functions that select rows in any reading.
 """
 
 import logging
@@ -38,7 +38,7 @@ SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a
 
 
 def scaling_table(discs, lines, *, seed, **fit):
-    """Fits of discs, one ensemble for each group and Hurst exponent, and of lines; λ where both have the same H.
+    """Fit discs, one ensemble for each group and Hurst exponent, and lines; λ if both have the same H.
 
     discs, lines : pools (viscorough_study.ensembles.pool); seed, fit : further arguments of `fit_rows`
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
@@ -56,13 +56,12 @@ def scaling_table(discs, lines, *, seed, **fit):
 
 
 def sizes_table(discs, lines, *, windows, **fit):
-    """Fits of ensembles on grids from coarse to fine, each separately, also in windows of fixed X.
+    """Fit ensembles on grids from coarse to fine, each separately, also in windows of fixed X.
 
     The window of region (b) moves with the grid: a finer grid resolves smaller X. In windows of fixed X only the grid
-    changes. A deviation from H/(1 + H) that becomes smaller in the moving window but not in the fixed ones depends on
-    the X of the window, not on the grid.
-    discs, lines : pools; windows : [(X_low, X_high)]; fit : further arguments of `fit_rows`
-    Returns a pandas.DataFrame with the columns of `SIZES`.
+    changes. A deviation from H/(1 + H) that becomes smaller in the moving window but not in fixed windows depends on
+    the X of the window, not on the grid. discs, lines : pools; windows : [(X_low, X_high)]; fit : further arguments of
+    `fit_rows` Returns a pandas.DataFrame with the columns of `SIZES`.
     """
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
@@ -73,11 +72,11 @@ def sizes_table(discs, lines, *, windows, **fit):
 
 
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
-    """Rows of the table (dicts with the keys of `COLUMNS`) of one ensemble; nan where there is no window.
+    """Return rows of the table (dicts with the keys of `COLUMNS`) of one ensemble; nan without a window.
 
     ensemble, lines : ensemble datasets (ensembles.averages); lines of the same Hurst exponent and abscissae,
-        for λ, which is nan without lines, or where they do not reach the stiffness of the discs
-    resamples, seed : of the bootstrap; limits : arguments of viscorough_study.fits.power_law.named_windows
+        for λ, which is nan without lines, or if they do not reach the stiffness of the discs
+    resamples, seed : arguments of the bootstrap; limits : arguments of viscorough_study.fits.power_law.named_windows
     Raises ValueError if a window has fewer than three abscissae.
     """
     rows = []
@@ -93,7 +92,7 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
 
 
 def _fit(ensemble, lines, window, **options):
-    """Columns of the fit of an ensemble in one rms convention; options : average, resamples and seed."""
+    """Return columns of the fit of an ensemble in one rms convention; options : average, resamples and seed"""
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
     betas, zetas = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
@@ -107,9 +106,9 @@ def _fit(ensemble, lines, window, **options):
 
 
 def calibrated(scaling, sizes, *, conventions, across):
-    """Fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law.
+    """Return fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law.
 
-    scaling : of `scaling_table`, with discs of `across` elements across; conventions : {convention: value}
+    scaling : table of `scaling_table`, with discs of `across` elements across; conventions : {convention: value}
     sizes : table of discs on grids from coarse to fine, with `elements`; it supplies Hurst exponents that the base
         discs lack, on the same grid
     """

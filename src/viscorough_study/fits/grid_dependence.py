@@ -1,9 +1,9 @@
-"""Whether the grid enters Eq. 1: κ at given u/h, and vt/h and u/h at given X, on grids from coarse to fine.
+"""Test the effect of the grid on Eq. 1: κ at given u/h, and vt/h and u/h at given X, on several grids.
 
 The paper takes F/(ηLv) = κ as a function of u/h and H alone, with an influence of the discretization in region (a)
-only. The grid can enter at two ends of a curve: at the lower end, one element touches up to X ∝ N^−(1+H) for N elements
-across, which leaves a term ∝ N^−H in u/h; at the upper end, complete contact recedes as the rms slope grows. Where u/h
-at given X changes with the grid and vt/h at the same X does not, it is the lower end.
+only. The grid can enter at two ends of a curve. At the lower end, one element touches up to X ∝ N^−(1+H) for N elements
+across, which leaves a term ∝ N^−H in u/h. At the upper end, complete contact moves to larger X as the rms slope grows.
+If u/h at given X changes with the grid and vt/h at the same X does not, the lower end is the cause.
 """
 
 import numpy as np
@@ -14,9 +14,9 @@ from scipy.special import stdtrit
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.intervals import UNDEFINED, described, three_columns
 
-DEPTHS = (0.5, 1.0, 2.0)  # u/h at which κ is compared
-FORCES = (0.01, 0.1, 1.0)  # X at which vt/h and u/h are compared
-ROUNDING = 1e-12  # least scatter of a logarithm, so that equal discs have a finite weight
+DEPTHS = (0.5, 1.0, 2.0)  # values of u/h for the comparison of κ
+FORCES = (0.01, 0.1, 1.0)  # values of X for the comparison of vt/h and u/h
+ROUNDING = 1e-12  # smallest scatter of a logarithm, so that equal discs have a finite weight
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
     "quantity": ("κ, vt/h or u/h, and where", ""),
@@ -30,9 +30,10 @@ COLUMNS = {
 
 
 def grid_dependence(discs, *, elements_min, rms_convention):
-    """A row for every Hurst exponent, quantity and grid; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return a row for every Hurst exponent, quantity and grid: a pandas.DataFrame with the columns of `COLUMNS`.
 
-    discs : pool of grids from coarse to fine; elements_min : in contact, from which on a grid is compared
+    discs : pool of grids from coarse to fine; elements_min : smallest number of elements in contact for a comparison of
+    grids
     """
     rows = []
     pool = ensembles(select(discs, group="sizes"), "hurst", "elements", rms_convention=rms_convention)
@@ -52,7 +53,7 @@ def grid_dependence(discs, *, elements_min, rms_convention):
 
 
 def _quantities(ensemble):
-    """{quantity: (its value, elements in contact) for every disc}; u/h = ∫dX/κ, with κ constant below the first X."""
+    """Return {quantity: (its value, elements in contact) of every disc}; u/h = ∫dX/κ, κ constant below the first X."""
     x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
     depth = x[0] / stiffness[:, :1] + cumulative_trapezoid(1 / stiffness, x, axis=1, initial=0)
     curves = [np.broadcast_to(x, depth.shape), depth, stiffness, ensemble["contact_count"].values]
@@ -69,16 +70,16 @@ def _quantities(ensemble):
 
 
 def _at(abscissa, curve, given):
-    """Logarithms of X, u/h, κ and the elements in contact where the abscissa is log(given); nan beyond the curve."""
+    """Interpolate logarithms of X, u/h, κ and elements in contact at an abscissa log(given); nan beyond the curve."""
     return [np.interp(np.log(given), abscissa, ordinate, left=np.nan, right=np.nan) for ordinate in curve]
 
 
 def _factor(grids):
-    """Factor for ten times as many elements, with its interval; nan for fewer than three grids.
+    """Return the factor for ten times as many elements, with its interval; nan for fewer than three grids.
 
-    A line is fitted to the means, weighted by the number of discs; its interval is widened where the means scatter
-    about it more than the discs explain. The logarithm of a quantity scatters over the discs of all grids alike: its
-    variance is pooled over the grids, since a few discs do not tell it, and the interval is that of Student's t with
+    A line is fitted to the means, weighted by the number of discs; its interval is widened if the means scatter about
+    it more than the discs explain. The logarithm of a quantity scatters equally over the discs of all grids. Its
+    variance is pooled over the grids, since a few discs do not determine it, and the interval follows Student's t with
     the pooled degrees of freedom.
     """
     if len(grids) < 3:

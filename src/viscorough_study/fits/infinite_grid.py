@@ -1,11 +1,11 @@
-"""Exponent of an infinitely fine grid: one power law with a correction to scaling, fitted to all grids at once.
+"""Fit the exponent of an infinitely fine grid: one power law with a correction, for all grids at once.
 
     vt/h = A X^β exp(B X^ω),    and the same for the interface, vt/h − X/κ_c
 
 To first order the correction is the factor 1 + B X^ω of the theory of corrections to scaling; as an exponential it
-leaves ln(vt/h) linear in ln A, β and B for a given ω, so that all resamples are fitted at once. Besides the
-realizations, a fit depends on its range: the number of elements in contact at which it begins and the X at which it
-ends. This dependence has an interval of its own, from the lowest to the highest end of the intervals of all ranges.
+leaves ln(vt/h) linear in ln A, β and B for a given ω, so all resamples are fitted at once. Besides the realizations, a
+fit depends on its range: the number of elements in contact at its start and the X at its end. A separate interval
+states this dependence, from the lowest to the highest end of the intervals of all ranges.
 """
 
 from itertools import product
@@ -19,7 +19,7 @@ from viscorough_study.fits.scaling_collapse import COLUMNS as COLLAPSE_COLUMNS
 from viscorough_study.fits.scaling_collapse import QUANTITIES, collapse_table, curve_table, grids
 
 OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial exponents of the correction
-CURVES_END = 1.0  # X up to which curves are drawn
+CURVES_END = 1.0  # end of the drawn curves in X
 FINDINGS = {True: "agrees", False: "departs", None: "undecided"}
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
@@ -43,7 +43,7 @@ COLUMNS = {
 
 
 def points(hurst_grids, quantity, *, elements_min, x_high):
-    """(ln X, ln of the quantity of ensemble and resamples, weights) of all grids in a row; None for fewer than two."""
+    """Return (ln X, ln of the quantity of ensemble and resamples, weights) of all grids; None for fewer than two."""
     parts = [
         (*curve, np.full(curve[0].size, float(grid.realizations)))
         for grid in hurst_grids
@@ -55,7 +55,7 @@ def points(hurst_grids, quantity, *, elements_min, x_high):
 
 
 def fit(log_x, log_y, weights, *, corrected):
-    """(ln A, β, B, ω) of every row of log_y, shape (rows, 4); B and ω are nan without a correction."""
+    """Return (ln A, β, B, ω) of every row of log_y, shape (rows, 4); B and ω are nan without a correction."""
     root = np.sqrt(weights)
     target = (log_y * root).T
     best, explained = np.full((len(log_y), 4), np.nan), np.full(len(log_y), -np.inf)
@@ -72,10 +72,10 @@ def fit(log_x, log_y, weights, *, corrected):
 
 
 def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
-    """Exponents of an infinitely fine grid: a table (pandas.DataFrame) with the columns of `COLUMNS`.
+    """Return exponents of an infinitely fine grid, a pandas.DataFrame with the columns of `COLUMNS`.
 
-    grids_by_source : {source: its grids, of fits.scaling_collapse.grids}; elements_min, x_high : of the ranges, of
-        which the first are those of the fit itself; tolerance : of β
+    grids_by_source : {source: its grids, from fits.scaling_collapse.grids}; elements_min, x_high : starts and ends of
+    the ranges, the range of the fit itself first; tolerance : tolerance of β
     """
     rows = []
     cases = [(source, *case) for source, by_hurst in grids_by_source.items() for case in by_hurst.items()]
@@ -97,7 +97,7 @@ def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
 
 
 def _columns(coefficients):
-    """Columns of one fit."""
+    """Return the columns of one fit."""
     ends = np.quantile(coefficients[1:], [0.025, 0.975], axis=0)
     amplitude, beta, correction, omega = np.vstack([coefficients[:1], ends]).T
     row = {"amplitude": np.exp(amplitude[0]), "correction": correction[0]}
@@ -105,12 +105,12 @@ def _columns(coefficients):
 
 
 def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
-    """{"collapse", "infinite_grid", "collapse_curves": table} of discs, of their control and of lines.
+    """Return {"collapse", "infinite_grid", "collapse_curves": table} of discs, their control and lines.
 
     Their columns are scaling_collapse.COLUMNS, `COLUMNS` and scaling_collapse.CURVES.
 
-    discs, lines : pools of grids from coarse to fine; ranges : setting `collapse`; tolerance : of exponents
-    conventions : those of the figures; options : fraction_min and seed, as in scaling_collapse.grids
+    discs, lines : pools of grids from coarse to fine; ranges : setting `collapse`; tolerance : tolerance of exponents
+    conventions : conventions of the figures; options : fraction_min and seed, as in scaling_collapse.grids
     """
     options |= {name: conventions[name] for name in ("average", "rms_convention")}
     options |= {"elements_min": min(ranges["elements_min"]), "resamples": ranges["resamples"]}

@@ -1,11 +1,11 @@
-"""Rough interface and flat punch as two springs in series.
+"""Model a rough disc as two springs in series: rough interface and flat punch.
 
 At large loads a rough disc acts as a flat punch in series with a compliant interface. Their compliances add, and so do
-velocities: vt/h = X/κ_c + g(X), where κ_c is the stiffness κ of the punch on the same grid, and g is the contribution
-of the interface. Where F is exponential in the mean separation, F ∝ exp(−s/u₀), the stiffness of the interface is F/u₀
-(Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. u₀/h is therefore taken where g is flat:
-the **plateau** is the range of X around the largest g in which g is at most a given fraction below it, and u₀/h is the
-mean of g over ln X on it. Lines of the MDR have κ_c = 1.
+velocities: vt/h = X/κ_c + g(X). Here κ_c is the stiffness κ of the punch on the same grid, and g is the contribution of
+the interface. If F is exponential in the mean separation, F ∝ exp(−s/u₀), the stiffness of the interface is F/u₀
+(Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. u₀/h is therefore the mean of g over ln
+X on the **plateau**: the range of X around the largest g with g at most a given fraction below it. Lines of the MDR
+have κ_c = 1.
 """
 
 import numpy as np
@@ -38,10 +38,10 @@ CURVES = {
 
 
 def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_convention):
-    """{"interface", "interface_curves": table} of discs and lines, lines at the Hurst exponents of the discs.
+    """Return {"interface", "interface_curves": table} of discs, and of lines at the Hurst exponents of the discs.
 
     discs, lines, size_discs, size_lines : pools, the last two of grids from coarse to fine
-    fit : further arguments of `fit_interface`; rms_convention : of the discs
+    fit : further arguments of `fit_interface`; rms_convention : convention of the discs
     Returns pandas.DataFrames with the columns of `COLUMNS` and `CURVES`.
     """
     pools = {("discs", "base"): discs, ("discs", "sizes"): size_discs, ("lines", "lines"): lines}
@@ -61,12 +61,12 @@ def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_conventio
 
 
 def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
-    """Interface of one ensemble in one rms convention: columns of `COLUMNS`, table of `CURVES`.
+    """Fit the interface of one ensemble in one rms convention: columns of `COLUMNS`, table of `CURVES`.
 
     punch : κ_c; plateau : fraction by which g is below its maximum at the ends of the plateau
-    fraction_min : smallest fraction of defined realizations for which an arithmetic mean is taken, as springs add
-    resamples, seed : of its bootstrap, as in viscorough_study.fits.power_law.fit_power_law
-    Abscissae at which one element is in contact, region (a), are omitted.
+    fraction_min : smallest fraction of defined realizations for an arithmetic mean, which is right because compliances
+    add resamples, seed : arguments of its bootstrap, as in viscorough_study.fits.power_law.fit_power_law Abscissae with
+    one element in contact, region (a), are omitted.
     """
     x, count, velocity = (ensemble[name].values for name in ("x", "contact_count_median", "velocity"))
     kept = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
@@ -81,6 +81,6 @@ def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
 
 
 def run_around(allowed, place):
-    """Indices of the run of allowed abscissae around `place`, with this one."""
+    """Return indices of the run of allowed abscissae around `place`, including this one."""
     runs, _ = label(allowed | (np.arange(len(allowed)) == place))
     return np.flatnonzero(runs == runs[place])

@@ -1,4 +1,4 @@
-"""95 % intervals of bootstrap samples and of independent samples, and their columns in tables.
+"""Compute 95 % intervals of bootstrap samples and of independent samples, and their columns in tables.
 
 A quantity has three columns in a table: its value, under its name, and the ends of its interval, under its name with
 the suffixes _low and _high.
@@ -8,31 +8,31 @@ import numpy as np
 from scipy.special import gammaincinv, ndtr, stdtrit
 
 UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that cannot be computed
-NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter
+NO_INTERVAL = (np.nan, np.nan)  # ends of the interval of a quantity without statistical scatter
 
 
 def described(name, text, ends="of its 95 % interval"):
-    """Descriptions of the columns of a quantity without unit and its interval, {column: (long_name, units)}."""
+    """Describe the columns of a quantity without unit and of its interval, {column: (long_name, units)}."""
     return {name: (text, "1")} | described_ends(name, ends)
 
 
 def described_ends(name, ends):
-    """Descriptions of the columns of the two ends of a range; ends : completes "lower end ..." and "upper end ..."."""
+    """Describe the columns of both ends of a range; ends : words after "lower end" and "upper end"."""
     return {f"{name}_{end}": (f"{side} end {ends}", "1") for end, side in (("low", "lower"), ("high", "upper"))}
 
 
 def three_columns(name, values):
-    """{column: value} of a quantity and its interval; values : value, low, high."""
+    """Return {column: value} of a quantity and its interval; values : value, low, high"""
     return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
 
 
 def interval(row, name):
-    """(value, low, high) of a quantity in a row of a table."""
+    """Return (value, low, high) of a quantity in a row of a table."""
     return tuple(row[column] for column in (name, f"{name}_low", f"{name}_high"))
 
 
 def resampled_means(values, resamples, random):
-    """Mean over the realizations in the first row, means of bootstrap resamples in the others.
+    """Return the mean over the realizations in the first row, and means of bootstrap resamples in the others.
 
     values : shape (realizations, abscissae), without nan; random : numpy.random.Generator
     Returns an array of shape (resamples + 1, abscissae).
@@ -43,13 +43,13 @@ def resampled_means(values, resamples, random):
 
 
 def with_interval(samples, realizations):
-    """Value and 95 % interval, (value, low, high), of bootstrap samples: percentiles, widened for few realizations.
+    """Return (value, low, high) with the 95 % interval of bootstrap samples, widened for few realizations.
 
-    samples : of the ensemble, then of its resamples, shape (resamples + 1,), or (resamples + 1, quantities) for one
-        interval per quantity; resamples with undefined (nan) values are omitted
+    samples : value of the ensemble, then of its resamples, shape (resamples + 1,), or (resamples + 1, quantities) for
+        one interval per quantity; resamples with undefined (nan) values are omitted
 
     Plain percentiles are too narrow for small n. The levels Φ(∓√(n/(n−1)) t), t the 97.5 % point of Student's
-    t with n − 1 degrees of freedom, make them the t interval for a mean (Hesterberg, The American
+    t with n − 1 degrees of freedom, give the t interval for a mean (Hesterberg, The American
     Statistician 69, 371 (2015): expanded percentile interval). Nan for a single realization.
     """
     value, samples = samples[0], samples[1:]
@@ -61,7 +61,7 @@ def with_interval(samples, realizations):
 
 
 def mean_with_interval(samples):
-    """Mean of independent samples and its interval by Student's t: (value, low, high); no interval for a single one.
+    """Return the mean of independent samples and its interval by Student's t, nan for a single sample.
 
     samples : shape (samples,), or (samples, quantities) for the mean of each
     """
@@ -71,17 +71,17 @@ def mean_with_interval(samples):
 
 
 def deviation_interval(deviation, freedom):
-    """Standard deviation of normal samples and its interval by the χ² distribution: (value, low, high)."""
+    """Return the standard deviation of normal samples and its interval by the χ² distribution: (value, low, high)."""
     ends = deviation * np.sqrt(freedom / (2 * gammaincinv(freedom / 2, [0.975, 0.025]))) if freedom else NO_INTERVAL
     return deviation, *ends
 
 
 def equivalence(interval, low, high):
-    """Whether a quantity with this 95 % interval lies in the range from low to high.
+    """Decide if a quantity with this 95 % interval lies in the range from low to high.
 
-    True if the whole interval lies in the range, False if it lies wholly outside, None if it contains an end of the
-    range or is undefined: then the data do not decide. This is a test of equivalence by two one-sided tests at 2.5 %
-    each (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
+    Returns True if the whole interval lies in the range, False if it lies wholly outside, None if it contains an end of
+    the range or is undefined: then the data do not decide. This is a test of equivalence by two one-sided tests at 2.5
+    % each (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
     """
     if not np.all(np.isfinite(interval)):
         return None
@@ -91,7 +91,7 @@ def equivalence(interval, low, high):
 
 
 def difference(first, second):
-    """Difference second − first of two independent quantities, (value, low, high), from their intervals."""
+    """Return the difference second − first of independent quantities, (value, low, high), from their intervals."""
     value = second[0] - first[0]
     below = np.hypot(second[0] - second[1], first[2] - first[0])
     above = np.hypot(second[2] - second[0], first[0] - first[1])

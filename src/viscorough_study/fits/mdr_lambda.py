@@ -1,9 +1,9 @@
-"""λ in C1D = λ q C2D of the line that represents a surface (paper, Eq. 13 and below), and its residual error.
+"""Fit λ in C1D = λ q C2D of the line that represents a surface (paper, Eq. 13), and its residual error.
 
 A line of the same L and s times the rms height, h1D = s h2D, has X1 = X/s and vt/h2D = s vt/h1D. The mean curves y3 of
-discs and y1 of lines match at X where y3(X) = s y1(X/s), that is y3(X)/X = y1(X1)/X1, the mean of 1/κ. C1D = π q C2D
-gives equal rms heights, C1D = λ q C2D gives (h1D/h2D)² = λ/π, so λ = π s². In general s depends on X; a λ that depends
-on the Hurst exponent alone is exact only if s is the same for all X.
+discs and y1 of lines match at X if y3(X) = s y1(X/s), that is y3(X)/X = y1(X1)/X1, the mean of 1/κ. C1D = π q C2D gives
+equal rms heights, C1D = λ q C2D gives (h1D/h2D)² = λ/π, so λ = π s². In general s depends on X; a λ that depends on the
+Hurst exponent alone is exact only if s is the same for all X.
 """
 
 from dataclasses import dataclass
@@ -13,15 +13,15 @@ import numpy as np
 from viscorough_study.fits.intervals import with_interval
 from viscorough_study.fits.power_law import in_window, log_means
 
-_BISECTIONS = 40  # of ln s; their error is far below the rounding of λ in the tables
+_BISECTIONS = 40  # bisections of ln s; their error is far below the rounding of λ in the tables
 
 
 @dataclass(frozen=True)
 class LineMatch:
-    """Mean curves of discs and lines: those of the ensembles in the first row, of their resamples in the others.
+    """Mean curves of discs and lines: of the ensembles in the first row, of their resamples in the others.
 
     x : X, shape (abscissae,), logarithmically uniform
-    discs, lines : ln of the mean of vt/h over X, shape (1 + resamples, abscissae), nan where a line is undefined
+    discs, lines : ln of the mean of vt/h over X, shape (1 + resamples, abscissae), nan if a line is undefined
     """
 
     x: np.ndarray
@@ -29,7 +29,7 @@ class LineMatch:
     lines: np.ndarray
 
     def stretch_at(self, x):
-        """ln s that matches discs and lines at X, shape (1 + resamples, X); nan where the lines do not reach."""
+        """Return ln s that matches discs and lines at X, shape (1 + resamples, X); nan where the lines do not reach."""
         wanted, log_x = np.log(np.atleast_1d(x)), np.log(self.x)
         complete = np.isfinite(self.lines[0])
         stretch = np.full((len(self.discs), wanted.size), np.nan)
@@ -37,17 +37,18 @@ class LineMatch:
             return stretch
         for row, discs, lines in zip(stretch, self.discs, self.lines, strict=True):
             target = np.interp(wanted, log_x, discs)
-            # 1/κ falls with X; it is constant only where every line has one point in contact, below every window.
+            # 1/κ falls with X. It is constant only if every line has one point in contact, which lies below every
+            # window.
             falling = lines[complete][::-1]
             row[:] = wanted - np.interp(target, falling, log_x[complete][::-1], left=np.nan, right=np.nan)
         return stretch
 
     def lambda_at(self, x):
-        """λ that matches discs and lines at X, shape (1 + resamples, X)."""
+        """Return λ that matches discs and lines at X, shape (1 + resamples, X)."""
         return np.pi * np.exp(2 * self.stretch_at(x))
 
     def deviation(self, stretch, chosen):
-        """ln of vt/h of the lines of stretch s over that of the discs, shape (1 + resamples, chosen abscissae).
+        """Return ln of vt/h of the stretched lines over vt/h of the discs, shape (1 + resamples, chosen abscissae).
 
         stretch : ln s, shape (1 + resamples,); chosen : mask of abscissae; nan beyond the range of the lines
         """
@@ -56,7 +57,8 @@ class LineMatch:
         return [np.interp(x, log_x, lines, left=np.nan, right=np.nan) for x, lines in rows] - self.discs[:, chosen]
 
     def best_stretch(self, window):
-        """ln s that minimizes the largest deviation over a window of X, shape (1 + resamples,); nan if there is none.
+        """Return ln s that minimizes the largest deviation over a window of X, shape (1 + resamples,); nan if none
+        does.
 
         At every X the deviation grows with s, so at the minimum the largest deviation occurs with both signs.
         """
@@ -72,9 +74,9 @@ class LineMatch:
 
 
 def match_lines(x, discs, lines, *, average, resamples, seed):
-    """LineMatch of an ensemble of discs and one of lines; both are resampled.
+    """Return the LineMatch of an ensemble of discs and an ensemble of lines; both are resampled.
 
-    x : X of both, shape (abscissae,); discs, lines : vt/h, (realizations, abscissae), nan where undefined
+    x : common X, shape (abscissae,); discs, lines : vt/h, (realizations, abscissae), nan where undefined
     average, resamples, seed : as in viscorough_study.fits.power_law.fit_power_law
     """
     generator, log_x = np.random.default_rng(seed), np.log(x)
@@ -85,10 +87,10 @@ def match_lines(x, discs, lines, *, average, resamples, seed):
 
 
 def match_lambda(x, discs, lines, window, **options):
-    """λ at the geometric centre of a window of X, and its 95 % interval: (value, low, high).
+    """Return λ at the geometric centre of a window of X, and its 95 % interval: (value, low, high).
 
     x, discs, lines, options : as in `match_lines`
-    Values are nan if the lines, where all of them are defined, do not reach the stiffness of the discs.
+    Values are nan if the lines do not reach the stiffness of the discs at abscissae with all lines defined.
     """
     match = match_lines(x, discs, lines, **options)
     return with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0], min(len(discs), len(lines)))

@@ -1,15 +1,15 @@
-"""Is a curve a power law? Two tests of the local slope d ln y/d ln X, which is constant for a power law.
+"""Test curves for a power law, by two tests of the local slope d ln y/d ln X, which must be constant.
 
 1. Within region (b): half the spread of the local slopes, from the smallest to the largest. The paper calls the curves
    nearly linear there.
 2. Without a region: the decades of X over which all local slopes lie within ± the tolerance of their mid-range. Every
-   curve whose slope increases at both ends has a flat piece in between, so this test is of its length.
+   curve with slopes that increase at both ends has a flat piece in between, so this test is about its length.
 
 Local slopes are slopes of straight lines over fixed widths, so the tested property does not choose the window.
 
-The control has a spectrum without long waves, hence no power law; a test that it passes cannot tell a power law from a
-bend. The error rates of the second test, the fractions of power laws that fail it and of curves like the control that
-pass it, are estimated from synthetic ensembles with the scatter of the real realizations.
+The control has a spectrum without long waves, hence no power law. A test that the control passes cannot distinguish a
+power law from a bend. The error rates of the second test, the fractions of power laws that fail it and of curves like
+the control that pass it, are estimated from synthetic ensembles with the scatter of the real realizations.
 """
 
 import logging
@@ -37,7 +37,7 @@ RESAMPLES_OF_DRAWS = 100  # bootstrap samples of each synthetic ensemble
 
 
 def inner_slopes(log_x, log_y, half_width):
-    """Abscissae with points over the whole width of `local_slopes`, and the slopes there.
+    """Return abscissae with points over the whole width of `local_slopes`, and the slopes there.
 
     log_x : ln X, equally spaced, shape (abscissae,); log_y : ln y, shape (curves, abscissae), without nan
     Returns arrays of shapes (inner,) and (curves, inner). Raises ValueError if there is no such abscissa.
@@ -49,7 +49,7 @@ def inner_slopes(log_x, log_y, half_width):
 
 
 def longest_plateau(slopes, tolerance):
-    """Number of steps of the longest run of slopes within ± tolerance of their mid-range, by curve.
+    """Return the number of steps of the longest run of slopes within ± tolerance of their mid-range, by curve.
 
     slopes : shape (curves, abscissae); returns an array of shape (curves,); a run of n + 1 slopes has n steps
     """
@@ -66,9 +66,9 @@ def longest_plateau(slopes, tolerance):
 
 
 def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
-    """Plateau of the mean over realizations, with 95 % bootstrap intervals.
+    """Measure the plateau of the mean over realizations, with 95 % bootstrap intervals.
 
-    log_x, log_y, half_width : as in `inner_slopes`, log_y of the realizations; random : numpy.random.Generator
+    log_x, log_y, half_width : as in `inner_slopes`, log_y for the realizations; random : numpy.random.Generator
     Returns a dict: decades, decades_low, decades_high.
 
     A resample has twice the variance of the mean, and scatter shortens plateaus, so the interval is biased to low
@@ -80,13 +80,13 @@ def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
 
 
 def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
-    """Fractions of synthetic ensembles that pass and that fail: (passed, failed).
+    """Return the fractions of synthetic ensembles that pass and that fail: (passed, failed).
 
     An ensemble passes if the whole interval of the decades is at least decades_min, and fails if it is below.
     mean : ln y of the curve common to all ensembles, shape (abscissae,)
-    residuals : ln y of realizations less their mean, shape (realizations, abscissae); every ensemble has as many, drawn
-        with replacement, so that it has the scatter and the correlation along X of the real one
-    draws : number of ensembles; options : further arguments of `plateau`
+    residuals : ln y of realizations less their mean, shape (realizations, abscissae); every ensemble draws the same
+    number with replacement, so it has the real scatter and the real correlation along X draws : number of ensembles;
+    options : further arguments of `plateau`
     """
     drawn = (residuals[random.integers(len(residuals), size=len(residuals))] for _ in range(draws))
     found = pd.DataFrame([plateau(log_x, mean + scatter, random=random, **options) for scatter in drawn])
@@ -95,10 +95,10 @@ def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
 
 
 def half_spread(ensemble, region, *, half_width, resamples, random):
-    """Half the spread of the local slopes of the geometric mean within region (b), with its 95 % bootstrap interval.
+    """Return half the spread of local slopes of the geometric mean within region (b), with its 95 % interval.
 
     ensemble : ensemble dataset of one rms convention; region : (X_low, X_high), or None
-    half_width : of local slopes, in ln X
+    half_width : half width of local slopes, in ln X
     Returns a dict: half_spread, half_spread_low, half_spread_high, region_decades; without a region only the last.
     """
     if region is None:
@@ -106,14 +106,14 @@ def half_spread(ensemble, region, *, half_width, resamples, random):
     x, log_y = ensemble["x"].values, np.log(ensemble["velocity"].values)
     log_y = log_y[np.isfinite(log_y[:, in_window(x, region)]).all(axis=1)]
     means = resampled_means(np.where(np.isfinite(log_y), log_y, 0.0), resamples, random)
-    means[:, ~np.isfinite(log_y).all(axis=0)] = np.nan  # local slopes leave out abscissae that a curve does not reach
+    means[:, ~np.isfinite(log_y).all(axis=0)] = np.nan  # local slopes leave out abscissae beyond the end of a curve
     slopes = local_slopes(np.log(x), means, half_width)[:, in_window(x, region)]
     columns = three_columns("half_spread", with_interval(np.ptp(slopes, axis=1) / 2, len(log_y)))
     return columns | {"region_decades": np.log10(region[1] / region[0])}
 
 
 def plateau_table(discs, *, control, rms_convention, region, seed, **options):
-    """Both tests for every Hurst exponent, of base discs and of a control; a pandas.DataFrame with `COLUMNS`.
+    """Apply both tests to base discs and a control at every Hurst exponent; a pandas.DataFrame with `COLUMNS`.
 
     discs : pool (viscorough_study.ensembles.pool); control : group without a power law, or None
     region : limits of region (b), arguments of viscorough_study.fits.power_law.find_region
@@ -133,13 +133,13 @@ def plateau_table(discs, *, control, rms_convention, region, seed, **options):
 
 
 def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_min, resamples, draws, random):
-    """Row of one ensemble, with the keys of `COLUMNS` except case_group; those of results are missing if undefined.
+    """Return the row of one ensemble, with the keys of `COLUMNS` except case_group, without undefined results.
 
     ensemble : ensemble dataset (viscorough_study.ensembles.averages) of one rms convention
     control : dataset of the control of the same Hurst exponent, or None
-    x_range : range of X of the plateau; half_width : of local slopes, in decades, which extend beyond x_range
-    tolerance : of the local slope; decades_min : length for which an ensemble passes; random : numpy.random.Generator
-    The results are undefined if a realization does not reach all abscissae.
+    x_range : range of X of the plateau; half_width : half width of local slopes, in decades; they extend beyond x_range
+    tolerance : tolerance of the local slope; decades_min : length with which an ensemble passes; random :
+    numpy.random.Generator The results are undefined if a realization does not reach all abscissae.
     """
     x, margin = ensemble["x"].values, 10 ** (half_width * (1 + ROUNDING))
     chosen = (x >= x_range[0] / margin) & (x <= x_range[1] * margin)
@@ -151,7 +151,7 @@ def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_mi
     row |= plateau(log_x, log_y, resamples=resamples, **options)
     residuals = log_y - log_y.mean(axis=0)
     options |= {"draws": draws, "decades_min": decades_min, "resamples": RESAMPLES_OF_DRAWS}
-    passed, failed = shares(log_x, 0 * log_x, residuals, **options)  # of power laws: a common slope has no effect
+    passed, failed = shares(log_x, 0 * log_x, residuals, **options)  # of power laws: the slope has no effect
     row |= {"power_law_passes": passed, "power_law_fails": failed}
     if control is not None:
         mean = np.log(control["velocity"].values[:, chosen]).mean(axis=0)

@@ -1,7 +1,7 @@
-"""Region (b) of an ensemble, and the power law in it (β, ζ).
+"""Find region (b) of an ensemble, and fit the power law in it (β, ζ).
 
 In region (b) κ = ζ X^α (paper, Eq. 3), hence vt/h = X/κ = X^β/ζ with β = 1 − α. Fits are made in this plain reading of
-the law; viscorough_study.fits.conventions has the others.
+the law; viscorough_study.fits.conventions has the other readings.
 
 Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn with replacement in a fixed window.
 They include the scatter between surfaces, but not the choice of the window, which fits in other windows show.
@@ -19,10 +19,10 @@ ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of deca
 
 
 def local_slopes(log_x, log_y, half_width):
-    """d ln y/d ln X of least-squares lines over the abscissae within ± half_width; of the shape of log_y.
+    """Return d ln y/d ln X of least-squares lines over abscissae within ± half_width; of the shape of log_y.
 
     log_x : ln X, shape (abscissae,); log_y : ln y, shape (abscissae,) or (curves, abscissae)
-    Abscissae at which a curve is undefined (nan) are omitted; nan where fewer than two remain.
+    Undefined points (nan) of a curve are omitted; the slope is nan if fewer than two points remain.
     """
     defined = np.atleast_2d(np.isfinite(log_y)).all(axis=0)
     near = (np.abs(log_x[:, None] - log_x) <= half_width * (1 + ROUNDING)) & defined
@@ -34,7 +34,9 @@ def local_slopes(log_x, log_y, half_width):
 
 
 def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_width, fraction_min, decades_min):
-    """Window (X_low, X_high) of region (b), None without one: the longest run of abscissae, in ln X, at which
+    """Return the window (X_low, X_high) of region (b), or None.
+
+    The window is the longest run of abscissae, in ln X, that meet all of these conditions:
 
     - the median number of elements in contact is at least elements_min: with fewer, the curve depends on the grid;
     - the geometric mean κ is at most stiffness_max: above, the finite size of the indenter matters, in the transition
@@ -46,7 +48,7 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
 
     mean : ensemble dataset (ensembles.averages) of one rms convention. No Hurst exponent enters the rule.
     config/README.md, section Scaling, describes the limits and recommends values.
-    There is no region (b) if no such run spans decades_min decades.
+    There is no region (b) if no run spans decades_min decades.
     """
     log_x, log_velocity = np.log(mean["x"].values), np.log(mean["velocity_geometric"].values)
     allowed = local_slopes(log_x, log_velocity, slope_half_width * np.log(10)) <= slope_max
@@ -55,20 +57,20 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
 
 
 def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(), **limits):
-    """The windows to be compared, {name: (X_low, X_high), or None where there is none}.
+    """Return the windows to be compared, {name: (X_low, X_high), or None}.
 
     - default: find_region with the limits;
     - lower_half, upper_half: its halves in ln X; the difference of their β reveals curvature that a single fit hides;
     - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid, whereas default
       begins at much smaller X for lines than for discs;
-    - "X = ... to ...": those of `fixed`, [(X_low, X_high)], with elements_min elements in contact at the lower end, as
-      in region (b), and enough realizations defined throughout; others are omitted.
+    - "X = ... to ...": windows of `fixed`, [(X_low, X_high)], with elements_min elements in contact at the lower end,
+      as in region (b), and enough realizations defined throughout; others are omitted.
 
-    All windows are determined from the geometric mean, also for fits to the arithmetic one.
+    All windows are determined from the geometric mean, also for fits to the arithmetic mean.
     """
     run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
     windows = dict.fromkeys(FITTED["window_rule"])
-    if region := find_region(mean, **run_limits, **limits):  # else the tables have nan and 0 decades
+    if region := find_region(mean, **run_limits, **limits):  # otherwise the tables have nan and 0 decades
         middle = np.sqrt(np.prod(region))
         windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
@@ -81,7 +83,7 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
 
 
 def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
-    """First and last X of the longest run of allowed abscissae in ln X; None if it is shorter than decades_min."""
+    """Return first and last X of the longest run of allowed abscissae in ln X; None if below decades_min."""
     x, stiffness = mean["x"].values, mean["stiffness_geometric"].values
     allowed = allowed & (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
     allowed &= mean["fraction_defined"].values >= fraction_min
@@ -91,7 +93,7 @@ def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
 
 
 def in_window(x, window):
-    """Whether abscissae lie in a window (X_low, X_high), ends included; of the shape of x."""
+    """Return True for abscissae in a window (X_low, X_high), ends included; of the shape of x."""
     return (x >= window[0] * (1 - ROUNDING)) & (x <= window[1] * (1 + ROUNDING))
 
 
@@ -99,13 +101,13 @@ def in_window(x, window):
 
 
 def fit_power_law(x, velocity, window, *, average, resamples, seed):
-    """β and ζ of vt/h = X^β/ζ: least squares of ln(vt/h) of the mean curve on ln X, equal weight for each abscissa.
+    """Fit β and ζ of vt/h = X^β/ζ by least squares of ln(vt/h) of the mean curve on ln X, with equal weights.
 
     x : X, shape (abscissae,), logarithmically uniform (viscorough_study.ensembles.averages.abscissa)
     velocity : vt/h, shape (realizations, abscissae), nan where undefined
     window : (X_low, X_high), ends included; average : "arithmetic" or "geometric" mean over the realizations
-    resamples : number of bootstrap samples; seed : int or SeedSequence. The same seed draws the same realizations
-        for every window and average, so that the bootstrap adds no noise to differences between conventions.
+    resamples : number of bootstrap samples; seed : int or SeedSequence. The same seed draws the same realizations for
+    every window and average, so the bootstrap adds no noise to differences between conventions.
 
     Returns two arrays of shape (resamples + 1,): β, and ζ in the plain reading, of the ensemble, then of its resamples.
     Raises ValueError if fewer than three abscissae lie in the window, or one of them has no realization.
@@ -125,18 +127,18 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
 
 
 def log_means(velocity, average, resamples, generator):
-    """ln of the mean of vt/h over the defined realizations: of the ensemble, then of its bootstrap resamples.
+    """Return ln of the mean of vt/h over the defined realizations: of the ensemble, then of its resamples.
 
     velocity : shape (realizations, abscissae), nan where undefined; average : "arithmetic" or "geometric"
     Returns an array of shape (resamples + 1, abscissae).
     """
     n = len(velocity)
-    # Multinomial counts of each realization, generated faster than by Generator.multinomial.
+    # This is faster than Generator.multinomial for the multinomial counts of each realization.
     drawn = generator.integers(n, size=(resamples, n)) + n * np.arange(resamples)[:, None]
     weights = np.bincount(drawn.ravel(), minlength=resamples * n).reshape(resamples, n)
     weights = np.vstack([np.ones(n), weights])
     defined = np.isfinite(velocity)
     values = np.where(defined, np.log(velocity) if average == "geometric" else velocity, 0)
-    with np.errstate(invalid="ignore", divide="ignore"):  # nan where a resample has no realization
+    with np.errstate(invalid="ignore", divide="ignore"):  # nan if a resample has no realization
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)

@@ -1,16 +1,17 @@
-"""Scaling collapse: a test, without fit or window, of one scaling law on all grids, and the exponents it admits.
+"""Test one scaling law on all grids by a collapse, without fit or window, and find the compatible exponents.
 
 With N elements across, contact of a single element gives vt/h ∝ XN for every surface. The law vt/h ∝ X^(H/(1+H)) can
-begin there on every grid only if (vt/h) N^H is one function of X N^(1+H) below the crossover to the punch. The same is
-true of any exponent β, with H' = β/(1 − β) in place of H: the exponents with which the curves collapse are an interval.
+begin at this contact on every grid only if (vt/h) N^H is one function of X N^(1+H) below the crossover to the punch.
+The same is true of any exponent β with H' = β/(1 − β) instead of H. The exponents that collapse the curves form an
+interval.
 
-The spread of the curves of all grids is compared with that of independent realizations of one curve: the means of
-bootstrap samples of every grid, shifted to the common curve (a test with the null hypothesis imposed). A grid has the
-weight of its number of realizations: weights from the scatter of few realizations would be too uncertain.
+The spread of the curves of all grids is compared with the spread of independent realizations of one curve: the means of
+bootstrap samples of every grid, shifted to the common curve (a test with the null hypothesis imposed). The weight of a
+grid is its number of realizations, since weights from the scatter of few realizations would be too uncertain.
 
-Two quantities are tested: vt/h itself, and the part of the interface, vt/h − X/κ_c with κ_c of the punch in series with
-it. Their height h is that over all waves of the spectrum, the limit of the paper's h, that over the waves of the grid,
-for N → ∞; at small H the part that a grid lacks is large on any grid.
+Two quantities are tested: vt/h itself, and the part of the interface, vt/h − X/κ_c with κ_c of the punch in series.
+Their height h is taken over all waves of the spectrum. It is the limit for N → ∞ of the paper's h, which is taken over
+the waves of the grid; at small H a large part of the heights is missing on any grid.
 """
 
 from dataclasses import dataclass
@@ -28,8 +29,8 @@ from viscorough_study.fits.power_law import ROUNDING, log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
 FINDINGS = ("collapses", "does not collapse", "undecided")
-STEP = 0.01  # of the trial exponents
-LATTICE = 256  # wave number up to which the waves of a disc are summed; beyond it the sum is an integral
+STEP = 0.01  # step of the trial exponents
+LATTICE = 256  # largest wave number in the sum over waves of a disc; beyond it the sum is an integral
 TRIED = 0.15  # largest distance of the trial exponents from H/(1 + H)
 THINNED = 2  # every second abscissa is used
 FEWEST = {"abscissae": 5, "realizations": 3}  # smallest numbers for a grid to be used
@@ -56,9 +57,9 @@ CURVES = {
 
 @dataclass(frozen=True)
 class Grid:
-    """Means of an ensemble on one grid over X at which enough elements are in contact.
+    """Means of an ensemble on one grid, at X with enough elements in contact.
 
-    number : N, elements across or points; realizations : of the ensemble
+    number : N, elements across or points; realizations : number in the ensemble
     log_x : ln X, equally spaced; log_velocity : ln(vt/h) of the ensemble and its resamples, (resamples + 1, abscissae)
     count : median of the elements in contact; punch : κ_c of the flat disc
     share : mean square of the heights over that of all waves of the spectrum (`variance_share`)
@@ -73,10 +74,10 @@ class Grid:
     share: float
 
     def curve(self, quantity, x_high, elements_min=0):
-        """(ln X, ln of the quantity of ensemble and resamples), None for too few abscissae.
+        """Return (ln X, ln of the quantity of ensemble and resamples), None for too few abscissae.
 
-        From the first abscissa on at which elements_min elements are in contact, up to x_high.
-        The variance of a mean is n/(n − 1) times that of bootstrap means, so that resamples are widened.
+        The curve starts at the first abscissa with elements_min elements in contact and ends at x_high. The variance of
+        a mean is n/(n − 1) times the variance of bootstrap means, so resamples are widened.
         """
         log_x, values = self.log_x, self.log_velocity
         if quantity == "interface":
@@ -93,7 +94,7 @@ class Grid:
 
 
 def curve_table(grids_by_hurst, x_high):
-    """Curves of all grids up to x_high, with the columns of `CURVES`; grids_by_hurst : as of `grids`."""
+    """Return curves of all grids up to x_high, with the columns of `CURVES`; grids_by_hurst : as from `grids`"""
     parts = [pd.DataFrame(columns=list(CURVES))]
     for hurst, hurst_grids in grids_by_hurst.items():
         for grid, quantity in product(hurst_grids, QUANTITIES):
@@ -104,10 +105,11 @@ def curve_table(grids_by_hurst, x_high):
 
 
 def variance_share(hurst, number, source):
-    """Fraction of the mean square height of a self-affine spectrum that the waves of a grid have.
+    """Return the fraction of a self-affine spectrum's mean square height that the waves of a grid have.
 
-    1 where it has no limit, for H = 0, and for controls, which have no self-affine spectrum. Waves of a disc have wave
-    vectors k with 1 <= |k| <= N/2 in the plane and weight |k|^(−2−2H), those of a line 1 <= k <= N/2 and k^(−1−2H).
+    It is 1 if there is no limit, for H = 0, and for controls, which have no self-affine spectrum. Waves of a disc have
+    wave vectors k with 1 <= |k| <= N/2 in the plane and weight |k|^(−2−2H); waves of a line have 1 <= k <= N/2 and
+    k^(−1−2H).
     """
     if hurst == 0 or source == "controls":
         return 1.0
@@ -123,10 +125,10 @@ def variance_share(hurst, number, source):
 
 
 def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, resamples, seed):
-    """{H: grids from coarse to fine} of a pool; source : discs, controls or lines.
+    """Return {H: grids from coarse to fine} of a pool; source : discs, controls or lines
 
-    Abscissae begin where the median number of elements in contact first reaches elements_min, and have at least the
-    fraction fraction_min of the curves defined. Grids of fewer than three realizations are omitted.
+    Abscissae begin when the median number of elements in contact first reaches elements_min; at least the fraction
+    fraction_min of the curves must be defined. Grids of fewer than three realizations are omitted.
     """
     group, grids_by_hurst = "controls" if source == "controls" else "sizes", {}
     generator = np.random.default_rng(seed)
@@ -145,9 +147,9 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
 
 
 def collapse_table(grids_by_source, *, x_high, tolerance):
-    """Rows of `COLUMNS` for every Hurst exponent, quantity and end of the range.
+    """Return rows of `COLUMNS` for every Hurst exponent, quantity and end of the range.
 
-    grids_by_source : {source: its `grids`}; x_high : ends of the range, X; tolerance : of β
+    grids_by_source : {source: its `grids`}; x_high : ends of the range, X; tolerance : tolerance of β
     """
     rows = []
     for source, grids_by_hurst in grids_by_source.items():
@@ -158,7 +160,7 @@ def collapse_table(grids_by_source, *, x_high, tolerance):
 
 
 def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
-    """Columns of one collapse; hurst_grids : grids of one Hurst exponent."""
+    """Return the columns of one collapse; hurst_grids : grids of one Hurst exponent"""
     curves = [(grid, grid.curve(quantity, x_high)) for grid in hurst_grids]
     curves = [(grid, tuple(values[..., ::THINNED] for values in curve)) for grid, curve in curves if curve is not None]
     expected = exponent_beta(hurst)
@@ -177,7 +179,7 @@ def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
 
 
 def p_value(curves, beta):
-    """Share of realizations of one curve with a larger spread than the curves collapsed with exponent β.
+    """Return the share of realizations of one curve whose spread exceeds the spread of the curves collapsed with β.
 
     curves : list of (Grid, (ln X, ln of the quantity, shape (resamples + 1, abscissae)))
     """

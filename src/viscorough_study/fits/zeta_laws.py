@@ -1,13 +1,13 @@
-"""The paper's laws of the prefactor compared by common measures, absolute and up to a factor common to all H.
+"""Compare the paper's laws of the prefactor by common measures, absolute and up to a factor common to all H.
 
 Each law is compared in two ways, with the logarithm r of a ratio for each Hurst exponent:
 
 - ζ, of a fit of region (b) with a fitted exponent, over the law;
-- the curve: vt/h over X^(H/(1+H))/ζ, with ζ by the law, at the abscissae that lie in the regions (b) of all Hurst
-  exponents. With Eq. 11 and the factor 1/Γ(2 − α) this is the ratio of both sides of Eq. 12, as in Fig. 3.
+- the curve: vt/h over X^(H/(1+H))/ζ, with ζ by the law, at abscissae in the regions (b) of all Hurst exponents. With
+  Eq. 11 and the factor 1/Γ(2 − α) this is the ratio of both sides of Eq. 12, as in Fig. 3.
 
 The measures are √⟨r²⟩, the deviation; exp⟨r⟩, the common factor; and √⟨(r − ⟨r⟩_H)²⟩, the spread between Hurst
-exponents: for ζ, the error of the law's shape in H; for curves, at each X, their distance from collapsing onto any one
+exponents: for ζ, the error of the law's shape in H; for curves, at each X, their distance from a collapse onto one
 curve. Intervals are from bootstrap samples of the realizations. Scatter adds to deviation and spread, so both are
 biased to large values.
 
@@ -23,13 +23,13 @@ from viscorough_study.fits.conventions import zeta_scale
 from viscorough_study.fits.intervals import UNDEFINED, with_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means, named_windows
 
-LAWS = {  # {name: (ζ as a function of H, whether the law has the factor 1/Γ(2 − α))}
+LAWS = {  # {name: (ζ as a function of H, True if the law has the factor 1/Γ(2 − α))}
     "Eq. 4, without Γ": (reference.zeta_elastic, False),
     "Eq. 4, with Γ": (reference.zeta_elastic, True),
     "Eq. 11, with Γ": (reference.zeta_viscous, True),
 }
-LAST = list(LAWS)[-1]  # the law with which the others are compared
-UNCOMPARED = dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))  # ratios where there is nothing to compare
+LAST = list(LAWS)[-1]  # the other laws are compared with this law
+UNCOMPARED = dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))  # ratios if there is nothing to compare
 COLUMNS = {
     "hurst_min": ("lowest Hurst exponent allowed", "1"),
     "quantity": ("what is compared with the law: zeta, or curve", ""),
@@ -43,7 +43,7 @@ COLUMNS = {
 
 
 def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
-    """`zeta_laws` of the base discs of a pool, in the default window of region (b).
+    """Return `zeta_laws` of the base discs of a pool, in the default window of region (b).
 
     conventions : average and rms convention, as in the figures; fit : arguments of power_law.named_windows
     """
@@ -54,13 +54,13 @@ def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
 
 
 def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed):
-    """Measures of every law, and differences between laws; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return measures of every law, and differences between laws: a pandas.DataFrame with the columns of `COLUMNS`.
 
     ensembles : {H: ensemble dataset of one rms convention} (viscorough_study.ensembles.averages)
     windows : {H: window of region (b), or None}; average : "arithmetic" or "geometric"
     hurst_mins : lowest Hurst exponents; the exponents from each of them upwards are compared
-    resamples, seed : of the bootstrap, which draws the realizations of each Hurst exponent independently
-    Values are nan where a Hurst exponent has no region (b) or, of curves, where the regions have no X in common.
+    resamples, seed : arguments of the bootstrap, which draws the realizations of each Hurst exponent independently
+    Values are nan for a Hurst exponent without a region (b), and for curves if the regions have no X in common.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, []
     for hurst_min in hurst_mins:
@@ -78,18 +78,18 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
 
 
 def measure_value(table, quantity, law, measure, hurst_min=0.0):
-    """Value and 95 % interval, (value, low, high), of one row of the table; nan without such a row."""
+    """Return the value and 95 % interval, (value, low, high), of one row of the table; nan without such a row."""
     rows = table.query("quantity == @quantity and law == @law and measure == @measure and hurst_min == @hurst_min")
     return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
 
 
 def difference(law):
-    """Name of the difference between a law and Eq. 11; positive if Eq. 11 is nearer."""
+    """Name the difference between a law and Eq. 11; it is positive if Eq. 11 is nearer."""
     return f"{law} minus {LAST}"
 
 
 def _measures(logarithms):
-    """{measure: values of ensemble and resamples}; logarithms : shape (resamples + 1, Hurst exponents, X)."""
+    """Return {measure: values of ensemble and resamples}; logarithms : shape (resamples + 1, Hurst exponents, X)"""
     mean_over_hursts = logarithms.mean(axis=1, keepdims=True)
     return {
         "deviation": np.sqrt(np.mean(logarithms**2, axis=(1, 2))),
@@ -99,9 +99,9 @@ def _measures(logarithms):
 
 
 def _ratios(ensembles, windows, *, average, resamples, seed):
-    """{quantity: {law: ln of ζ, or of vt/h of the curves, over the law}}, shape (resamples + 1, Hurst exponents, X).
+    """Return {quantity: {law: ln of ζ, or of vt/h, over the law}}, each (resamples + 1, Hurst exponents, X).
 
-    windows : of the ensembles; nan without a region (b), and of curves without common abscissae
+    windows : windows of the ensembles; values are nan without a region (b), and for curves without common abscissae
     """
     if not windows or None in windows:
         return {"zeta": UNCOMPARED, "curve": UNCOMPARED}

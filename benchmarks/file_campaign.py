@@ -3,10 +3,11 @@
     python benchmarks/file_campaign.py --files 10000 --seed 1 --output results/file_campaign.json
 
 Each file is made from a given map, spacing and unit (text_files.py), and read with viscorough.read_heights. It must be
-read exactly, with nan at missing points, or be refused by a ValueError of one line that names the file. A profile must
-be read exactly by viscorough.read_line, or be refused, and viscorough.read_heights must refuse it. Everything else
-counts as wrong: a different number, spacing or unit, a dropped missing point, a different error, a warning other than
-AccuracyWarning, or printed text. Files that do not hold a single map, or are contradictory, must be refused.
+read exactly, with nan at missing points, or be refused by a ValueError of one line that names the file.
+A profile must be read exactly by viscorough.read_line, or be refused, and viscorough.read_heights must refuse it.
+Everything else counts as wrong: a different number, spacing or unit, a dropped missing point, a different error, a
+warning other than AccuracyWarning, or printed text. Files that do not hold a single map, or are contradictory, must be
+refused.
 
 A file is marked *unambiguous* if its variations are ordinary and a human reader would give it one meaning: numbers in
 rows of equal length, one of the usual delimiters and decimal marks that cannot be confused with each other, the usual

@@ -44,7 +44,8 @@ def measure_disc(across, *, until_fraction, threads):
 
     across : elements across the disc
     threads : threads of a second run, which alternates with the first in ROUNDS rounds, or in one round if runs take
-    long Memory is the peak memory of this process.
+        long
+    Memory is the peak memory of this process.
     """
     indent(self_affine_disc(HURST, WARM_UP, seed=0), tolerance=TOLERANCE)
     disc = self_affine_disc(HURST, across, seed=realization_seed(SEED, *large_disc_key(across)))

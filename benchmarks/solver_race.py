@@ -192,7 +192,8 @@ def _loosest_tolerance(ask, required):
     """Return the loosest tolerance that meets the required residual, otherwise the best one, and the solution.
 
     ask : function that returns the solver's solution for a tolerance, None if it has none; tighter tolerances are then
-    not tried Tolerance and solution are None if no tolerance gave a solution.
+        not tried
+    Tolerance and solution are None if no tolerance gave a solution.
     """
     best, least = (None, None), np.inf
     for ratio in TOLERANCE_RATIOS:

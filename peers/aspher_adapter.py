@@ -4,7 +4,7 @@ Called as: python aspher_adapter.py MODE request.npz answer.npz (see exchange.py
     levels : projected conjugate gradients (Polonsky & Keer 1999), preconditioned by transforms of the whole grid
     nested : a cascade in single and then double precision; it starts from zero pressure at every level
     active_set : a cascade of hierarchical operators on the elements that can touch, in single precision: the fastest
-    mode if few elements touch; sides of a power of two give the deepest cascade
+        mode if few elements touch; sides of a power of two give the deepest cascade
 """
 
 import sys

@@ -29,7 +29,7 @@ class Page(HTMLParser):
     """Collect the contents of a page.
 
     elements : [(tag, attributes)]; numbers : [(section, attributes, text)]; texts : {section: text outside of numbers},
-    without the contents of the elements `QUOTED`; text : the whole text without styles and scripts
+        without the contents of the elements `QUOTED`; text : the whole text without styles and scripts
     """
 
     def __init__(self, html):

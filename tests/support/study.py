@@ -58,7 +58,7 @@ def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
     """Make discs with κ = ζ X^α from one element in contact to complete contact.
 
     square : factor on ζ in the convention with h of the square; bent : added to α; scatter : standard deviation of ln ζ
-    over 20 realizations
+        over 20 realizations
     """
     random = np.random.default_rng([seed, round(hurst * 1e6)])
     alpha = reference.exponent_alpha(hurst) + bent
@@ -84,7 +84,7 @@ def evidence(zeta=reference.zeta_elastic, **options):
     """Make evidence of four combinations and three Hurst exponents, with lines that equal the first combination.
 
     zeta : function of H; options : as in `ensemble`. The caller may change the returned copy; the same evidence is made
-    once.
+        once.
     """
     made = _evidence(zeta, **options)
     return replace(made, discs=made.discs.copy(deep=True), tables={name: t.copy() for name, t in made.tables.items()})
@@ -175,7 +175,7 @@ def ensemble_of(x, stiffness, count=None, *, conventions=("disc",), **coords):
     x : X, shape (abscissae,); stiffness : κ, shape (conventions, realizations, abscissae), the first axes optional
 
     count : elements in contact, by default κ N of N elements; conventions : names of the rms heights; coords : hurst,
-    case, elements
+        case, elements
     """
     stiffness = np.array(stiffness, ndmin=3)
     coords = {"hurst": 0.7, "case": "c", "elements": 10**6} | coords

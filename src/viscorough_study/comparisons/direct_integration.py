@@ -25,7 +25,7 @@ COLUMNS = {
 BODIES = {"sphere": (reference.sphere(1.0), 1 / 3), "cone": (reference.cone(1.0), 1 / 2)}
 RADII = 6, 0.35  # smallest contact radius compared [elements], which the grid resolves, and largest [L]
 BODY_FRACTION = 0.4  # contact fraction slightly above the fraction at the largest radius
-DISC_FRACTION = 0.5  # contact fraction up to which rough discs are integrated
+DISC_FRACTION = 0.5  # largest contact fraction in the integration of rough discs
 FIRST_EVENT = 10  # first event of a rough disc: before it, too few elements are in contact for a power law
 LAST_FORCE = 0.9  # fraction of the largest force that both curves reach
 TOLERANCE = 1e-6  # tolerance of the elastic curve
@@ -35,8 +35,10 @@ def compare_direct(*, hursts, elements, impulses, seed):
     """Return depths by direct integration over elastic depths, as a pandas.DataFrame with the columns of `COLUMNS`.
 
     For sphere and cone the elastic depth is the exact solution, so the ratio includes the error of the grid. For rough
-    discs, one for each Hurst exponent, it is the depth of the same disc by boundary elements. hursts : Hurst exponents;
-    elements : across all indenters; impulses : number of impulses ∫F dt/η per indenter seed : root of the discs' seeds
+    discs, one for each Hurst exponent, it is the depth of the same disc by boundary elements.
+    hursts : Hurst exponents;
+    elements : across all indenters; impulses : number of impulses ∫F dt/η per indenter
+    seed : root of the discs' seeds
     """
     rows = []
     for name, (body, alpha) in BODIES.items():

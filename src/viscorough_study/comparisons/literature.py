@@ -27,7 +27,7 @@ COLUMNS = {
 }
 OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, for quantities that need it
 NONE = dict.fromkeys(OURS, np.nan)
-X_COMPARED = 0.01  # X in region (b) at which lines are compared with their discs
+X_COMPARED = 0.01  # X in region (b) for the comparison of lines with their discs
 
 
 def literature(scaling, interface, reduction, *, entries, conventions):

@@ -89,8 +89,9 @@ def mean_gaps(indenter, curve, force, tolerance):
     """Return the mean gap between indenter and deformed surface over all elements, at F/G; shape (forces,) [length].
 
     curve : LoadingCurve of the indenter; tolerance : tolerance of the contacts of a map, which are solved at the
-    curve's depths. Springs of a line deflect by u − g in contact, on average by F/(4GL), so the mean gap is ⟨g⟩ − u +
-    F/(4GL). Values are nan beyond the end of the curve, and for forces that are nan.
+        curve's depths.
+    Springs of a line deflect by u − g in contact, on average by F/(4GL), so the mean gap is ⟨g⟩ − u + F/(4GL). Values
+    are nan beyond the end of the curve, and for forces that are nan.
     """
     depth, _ = curve.at_force(force)
     if indenter.heights.ndim == 1:

@@ -59,8 +59,9 @@ def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
     """Return the three tables of discs and lines, {name in `TABLES`: table with its columns}.
 
     discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae; common Hurst exponents
-    are compared average, resamples, seed : arguments of the bootstrap, as in
-    viscorough_study.fits.power_law.fit_power_law limits : arguments of viscorough_study.fits.power_law.named_windows
+        are compared
+    average, resamples, seed : arguments of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
+    limits : arguments of viscorough_study.fits.power_law.named_windows
     Without a region (b) there are no rows of λ, and the values of the other tables are nan.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, {name: [] for name in TABLES}

@@ -68,8 +68,10 @@ def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
 
     Their columns are `COLUMNS`, fit_table.COLUMNS and `KINETICS`.
     pool : pool of all scans; curves, names, forces : for each scan the Content of its curve, its name and its forces
-    [N] media : mappings with a name and the keys of a medium; times : low, high [s], per_decade fit : settings in
-    section `scaling` Times at which a depth lies beyond the end of its curve are omitted.
+        [N]
+    media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
+    fit : settings in section `scaling`
+    Times at which a depth lies beyond the end of its curve are omitted.
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
     media, times = named_media(media), abscissa(**times)

@@ -19,7 +19,7 @@ from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.kinetics import kinetics
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
-RADII = np.linspace(0.2, 0.45, 26)  # contact radii at which solutions are compared [L]
+RADII = np.linspace(0.2, 0.45, 26)  # contact radii for the comparison of solutions [L]
 ELLIPSES = np.linspace(0.3, 0.5, 11)  # major semi-axes of the flat ellipses [L]; the minor ones are half as long
 FORCE, VISCOSITY = 10.0, 1e6  # force and viscosity of the viscous cases; F/η is far from 1, so a missing F or η shows
 TOLERANCE = 1e-5  # tolerance of the contact problems on bodies and punches
@@ -32,7 +32,7 @@ CORRESPONDENCE_TOLERANCE = 1e-11  # tolerance of the elastic curve compared with
 # of first order if an edge singularity or a count of elements enters. Depth and velocity at a given impulse inherit the
 # orders of force and stiffness. Direct integration and the correspondence are both exact on the same grid.
 ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "punch_stiffness": 1, "correspondence": 0}
-GRIDS_FOR_ORDER = 3  # smallest number of grids from which an order is determined
+GRIDS_FOR_ORDER = 3  # smallest number of grids for an order
 
 COLUMNS = {
     "case": ("body and method", ""),

@@ -59,8 +59,8 @@ def with_averages(curves):
     of curves intended to reach it.
 
     curves : dataset with κ (stiffness) and elements in contact (contact_count), nan where undefined, with the
-    dimensions `DIMENSIONS` (a single rms convention has no dimension); its coordinates are x, X, and until_x, the X at
-    the end of the computed curves
+        dimensions `DIMENSIONS` (a single rms convention has no dimension); its coordinates are x, X, and until_x, the X
+        at the end of the computed curves
     """
     velocity = curves["x"] / curves["stiffness"]
     defined, expected = velocity.notnull(), curves["until_x"] * (1 + ROUNDING) >= curves["x"]

@@ -12,7 +12,7 @@ def ensemble_disc(elements, surface, seed):
     """Return the Indenter of one realization, and {convention: its rms height} in its unit of length.
 
     elements : number across the disc; surface : arguments of self_affine_disc with rms, diameter, rms_over and
-    length_unit
+        length_unit
 
     The nominal rms height is taken over the disc, or over the periodic square that the disc is cut from, by rms_over.
     The conventions are the rms height over the disc, over the square, and over the ensemble. The last is the mean over

@@ -6,7 +6,7 @@ from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
 
 LIGHTEST = 0.35  # opacity of the coarsest grid
-SHIFT = 3.0  # factor by which curves of successive H are separated
+SHIFT = 3.0  # factor between curves of successive H
 
 
 @style.figure

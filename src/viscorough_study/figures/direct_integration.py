@@ -11,7 +11,7 @@ def plot_direct_integration(table):
     """Draw the depth by direct integration over the elastic depth, and Eq. 8, against the elements in contact.
 
     table : table of comparisons.direct_integration; each indenter has a panel, with the largest deviation of the ratio
-    from 1
+        from 1
     """
     cases = list(table["case"].unique())
     layout = {"columns": min(3, len(cases)), "height": 42, "rest": 16, "xlabel": "elements in contact"}

@@ -15,8 +15,9 @@ def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min
 
     groups : {name: ensemble dataset of its scans}; discs : ensemble datasets of discs, one for each Hurst exponent
     scaling : table of fits of the groups; kinetics : table of depth over time by scan, medium and force, which may be
-    empty conventions : {column of a scaling table: value} fraction_min : smallest fraction of defined discs for which a
-    mean is drawn
+        empty
+    conventions : {column of a scaling table: value}
+    fraction_min : smallest fraction of defined discs for which a mean is drawn
     """
     figure, (law, motion) = style.new_subplots(85, 1, 2)
     looks, hursts = style.series_looks(groups), style.hurst_looks(ds["hurst"].item() for ds in discs)

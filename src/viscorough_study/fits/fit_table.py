@@ -60,8 +60,9 @@ def sizes_table(discs, lines, *, windows, **fit):
 
     The window of region (b) moves with the grid: a finer grid resolves smaller X. In windows of fixed X only the grid
     changes. A deviation from H/(1 + H) that becomes smaller in the moving window but not in fixed windows depends on
-    the X of the window, not on the grid. discs, lines : pools; windows : [(X_low, X_high)]; fit : further arguments of
-    `fit_rows` Returns a pandas.DataFrame with the columns of `SIZES`.
+    the X of the window, not on the grid.
+    discs, lines : pools; windows : [(X_low, X_high)]; fit : further arguments of `fit_rows`
+    Returns a pandas.DataFrame with the columns of `SIZES`.
     """
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
@@ -74,8 +75,8 @@ def sizes_table(discs, lines, *, windows, **fit):
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
     """Return rows of the table (dicts with the keys of `COLUMNS`) of one ensemble; nan without a window.
 
-    ensemble, lines : ensemble datasets (ensembles.averages); lines of the same Hurst exponent and abscissae,
-        for λ, which is nan without lines, or if they do not reach the stiffness of the discs
+    ensemble, lines : ensemble datasets (ensembles.averages); lines of the same Hurst exponent and abscissae, for λ,
+        which is nan without lines, or if they do not reach the stiffness of the discs
     resamples, seed : arguments of the bootstrap; limits : arguments of viscorough_study.fits.power_law.named_windows
     Raises ValueError if a window has fewer than three abscissae.
     """

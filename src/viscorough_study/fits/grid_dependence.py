@@ -33,7 +33,7 @@ def grid_dependence(discs, *, elements_min, rms_convention):
     """Return a row for every Hurst exponent, quantity and grid: a pandas.DataFrame with the columns of `COLUMNS`.
 
     discs : pool of grids from coarse to fine; elements_min : smallest number of elements in contact for a comparison of
-    grids
+        grids
     """
     rows = []
     pool = ensembles(select(discs, group="sizes"), "hurst", "elements", rms_convention=rms_convention)

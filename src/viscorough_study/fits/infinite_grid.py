@@ -75,7 +75,7 @@ def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
     """Return exponents of an infinitely fine grid, a pandas.DataFrame with the columns of `COLUMNS`.
 
     grids_by_source : {source: its grids, from fits.scaling_collapse.grids}; elements_min, x_high : starts and ends of
-    the ranges, the range of the fit itself first; tolerance : tolerance of β
+        the ranges, the range of the fit itself first; tolerance : tolerance of β
     """
     rows = []
     cases = [(source, *case) for source, by_hurst in grids_by_source.items() for case in by_hurst.items()]

@@ -65,8 +65,9 @@ def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
 
     punch : κ_c; plateau : fraction by which g is below its maximum at the ends of the plateau
     fraction_min : smallest fraction of defined realizations for an arithmetic mean, which is right because compliances
-    add resamples, seed : arguments of its bootstrap, as in viscorough_study.fits.power_law.fit_power_law Abscissae with
-    one element in contact, region (a), are omitted.
+        add
+    resamples, seed : arguments of its bootstrap, as in viscorough_study.fits.power_law.fit_power_law
+    Abscissae with one element in contact, region (a), are omitted.
     """
     x, count, velocity = (ensemble[name].values for name in ("x", "contact_count_median", "velocity"))
     kept = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)

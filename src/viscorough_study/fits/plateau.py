@@ -85,7 +85,8 @@ def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
     An ensemble passes if the whole interval of the decades is at least decades_min, and fails if it is below.
     mean : ln y of the curve common to all ensembles, shape (abscissae,)
     residuals : ln y of realizations less their mean, shape (realizations, abscissae); every ensemble draws the same
-    number with replacement, so it has the real scatter and the real correlation along X draws : number of ensembles;
+        number with replacement, so it has the real scatter and the real correlation along X
+    draws : number of ensembles;
     options : further arguments of `plateau`
     """
     drawn = (residuals[random.integers(len(residuals), size=len(residuals))] for _ in range(draws))
@@ -139,7 +140,8 @@ def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_mi
     control : dataset of the control of the same Hurst exponent, or None
     x_range : range of X of the plateau; half_width : half width of local slopes, in decades; they extend beyond x_range
     tolerance : tolerance of the local slope; decades_min : length with which an ensemble passes; random :
-    numpy.random.Generator The results are undefined if a realization does not reach all abscissae.
+        numpy.random.Generator
+    The results are undefined if a realization does not reach all abscissae.
     """
     x, margin = ensemble["x"].values, 10 ** (half_width * (1 + ROUNDING))
     chosen = (x >= x_range[0] / margin) & (x <= x_range[1] * margin)

@@ -47,8 +47,8 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
       is biased.
 
     mean : ensemble dataset (ensembles.averages) of one rms convention. No Hurst exponent enters the rule.
-    config/README.md, section Scaling, describes the limits and recommends values.
-    There is no region (b) if no run spans decades_min decades.
+    config/README.md, section Scaling, describes the limits and recommends values. There is no region (b) if no run
+    spans decades_min decades.
     """
     log_x, log_velocity = np.log(mean["x"].values), np.log(mean["velocity_geometric"].values)
     allowed = local_slopes(log_x, log_velocity, slope_half_width * np.log(10)) <= slope_max
@@ -107,7 +107,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     velocity : vt/h, shape (realizations, abscissae), nan where undefined
     window : (X_low, X_high), ends included; average : "arithmetic" or "geometric" mean over the realizations
     resamples : number of bootstrap samples; seed : int or SeedSequence. The same seed draws the same realizations for
-    every window and average, so the bootstrap adds no noise to differences between conventions.
+        every window and average, so the bootstrap adds no noise to differences between conventions.
 
     Returns two arrays of shape (resamples + 1,): β, and ζ in the plain reading, of the ensemble, then of its resamples.
     Raises ValueError if fewer than three abscissae lie in the window, or one of them has no realization.

@@ -62,7 +62,7 @@ class Grid:
     number : N, elements across or points; realizations : number in the ensemble
     log_x : ln X, equally spaced; log_velocity : ln(vt/h) of the ensemble and its resamples, (resamples + 1, abscissae)
     count : median of the elements in contact; punch : κ_c of the flat disc
-    share : mean square of the heights over that of all waves of the spectrum (`variance_share`)
+    share : mean square of the heights over the mean square of all waves of the spectrum (`variance_share`)
     """
 
     number: int
@@ -76,8 +76,8 @@ class Grid:
     def curve(self, quantity, x_high, elements_min=0):
         """Return (ln X, ln of the quantity of ensemble and resamples), None for too few abscissae.
 
-        The curve starts at the first abscissa with elements_min elements in contact and ends at x_high. The variance of
-        a mean is n/(n − 1) times the variance of bootstrap means, so resamples are widened.
+        The curve starts at the first abscissa with elements_min elements in contact and ends at x_high.
+        The variance of a mean is n/(n − 1) times the variance of bootstrap means, so resamples are widened.
         """
         log_x, values = self.log_x, self.log_velocity
         if quantity == "interface":

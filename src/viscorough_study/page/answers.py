@@ -1,4 +1,4 @@
-"""Numbers of the answers at the top of the page, of the advice on methods, and of their failures."""
+"""Collect numbers of the answers at the top of the page, of the advice on methods, and of their failures."""
 
 from collections import Counter
 
@@ -10,19 +10,19 @@ from viscorough_study.robustness.stress_solutions import MODELS
 from viscorough_study.verdicts.claims import counted_verdicts
 
 GROUPS = {"path": "elastic path", "marching": "direct integration in time", "model": "model"}
-ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # allowed errors of the velocity for which the fastest method is given
+ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # allowed errors of the velocity for which the page names the fastest method
 ADVISED = 1e-2  # allowed error of the advice at the top of the page
 
 
 def verdict_counts(results):
-    """[Number] of claims on physics by verdict, from best to worst; a claim has the verdict over all its cases."""
+    """Return [Number] of claims on physics by verdict, from best to worst; all cases of a claim have one verdict."""
     numbers = counted_verdicts(results.tables["claims"])
     column, origin = "verdict over all cases of a claim on physics", results.origin("claims")
     return [Number(number, "claims", column, counted=verdict, origin=origin) for verdict, number in numbers]
 
 
 def answers(results):
-    """{name: numbers} of the sentences that answer the questions at the top of the page."""
+    """Return {name: numbers} of the sentences that answer the questions at the top of the page."""
 
     def cases(claim):
         return results.records("claims", claim=claim)
@@ -54,7 +54,7 @@ def answers(results):
 
 
 def rough_disc(results):
-    """Rows of the table of methods for the largest rough disc on which errors are compared."""
+    """Return rows of the table of methods for the largest rough disc in the comparison of errors."""
     methods = results.tables["methods"]
     rough = methods[methods["hurst"].notna() & methods["group"].isin(GROUPS)]
     rough = rough[rough["elements"] == rough["elements"].max()]
@@ -62,7 +62,7 @@ def rough_disc(results):
 
 
 def fastest_methods(results):
-    """{allowed error: {group: fastest method of the group that reaches it, or None}}."""
+    """Return {allowed error: {group: fastest method of the group that reaches it, or None}}."""
     rough, methods = rough_disc(results), {}
     for error in ERRORS:
         rows = fastest(rough, error)
@@ -71,13 +71,13 @@ def fastest_methods(results):
 
 
 def method_row(results, row):
-    """The record of a row of the table of methods, with the name of the method as in the figure."""
+    """Return the record of a row of the table of methods, with the name of the method as in the figure."""
     record = results.record("methods", row)
     return record | {"method": record["method"].removeprefix("path, ").replace("at the depths", "given levels")}
 
 
 def best_model(results):
-    """The most accurate model on the rough disc; None if none was measured."""
+    """Return the most accurate model on the rough disc; None if none was measured."""
     models = rough_disc(results).query("group == 'model'")
     return method_row(results, models["error"].idxmin()) if len(models) else None
 
@@ -86,7 +86,7 @@ def best_model(results):
 
 
 def failures(results):
-    """Counts of the failure map, and for every method the number of cases by outcome."""
+    """Return counts of the failure map, and for every method the number of cases by outcome."""
     table = results.tables["failure_map"]
     outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
     return {

@@ -1,4 +1,4 @@
-"""The article, results/article.pdf: its text in Typst, filled with the contents of the page and with further tables."""
+"""Make the article, results/article.pdf: its text in Typst, filled with contents of the page and further tables."""
 
 import json
 import re
@@ -18,15 +18,15 @@ from viscorough_study.run.readable import readable
 from viscorough_study.verdicts.claims import HELD, KINDS, counted_verdicts
 
 AUDITED, PLAIN = "1e-05", "1e-03"  # tolerances of the audits and curves whose sum rules are shown
-CASES_MAX = 4  # cases of one outcome of a claim that are listed
+CASES_MAX = 4  # largest number of listed cases with one outcome
 _MARKUP = re.compile(r"""([\\#*_`$<>@\[\]~/"'=+-])""")
 
 
 def article(project, contents, *, paper, figures, repository):
-    """The article, content of a PDF file.
+    """Return the article as content of a PDF file.
 
     project : folder of the project, which has template, style, citation, literature and published results
-    contents : of a run (assembly.contents_of); paper : content of resources/paper/numbers.yaml
+    contents : contents of a run (assembly.contents_of); paper : content of resources/paper/numbers.yaml
     figures : folder of the figures; repository : address of the code, or an empty text
     """
     names = ("style.typ", "article.typ.jinja")
@@ -70,7 +70,7 @@ def article(project, contents, *, paper, figures, repository):
 
 
 def as_markup(value):
-    """A value of a placeholder: numbers of three digits, and texts whose signs have no meaning in Typst."""
+    """Return a value of a placeholder: numbers of three digits, and texts whose characters are no markup of Typst."""
     if isinstance(value, Markup):
         return value
     if isinstance(value, Number):
@@ -81,16 +81,16 @@ def as_markup(value):
 
 
 def counted_physics(table):
-    """Claims on physics: their heading, their number, and {verdict: number of them} from best to worst."""
+    """Return claims on physics: their heading, their number, and {verdict: number of claims} from best to worst."""
     counts = dict(counted_verdicts(table))
     return {"heading": KINDS["physics"], "all": sum(counts.values()), "counts": counts}
 
 
 def cases_by_outcome(results, claim):
-    """{outcome: cases of a claim}, with outcomes "pass", "undecided" and "fail".
+    """Return {outcome: cases of a claim}, with outcomes "pass", "undecided" and "fail".
 
-    Of more than `CASES_MAX` cases of one outcome those farthest from the paper's value are listed; `more` counts the
-    others. `paper` is the paper's value where the cases share it, otherwise each case has its own.
+    Of more than `CASES_MAX` cases of one outcome the list keeps the cases farthest from the paper's value; `more`
+    counts the others. `paper` is the paper's value if the cases share it, otherwise each case has its own.
     """
     rows = results.rows("claims", claim=claim)
     undecided = rows["verdict"] == "undecided"
@@ -106,13 +106,13 @@ def cases_by_outcome(results, claim):
 
 
 def prefactors(results, conventions):
-    """ζ of the run beside Eqs. 4 and 11, at each Hurst exponent of the discs.
+    """Compare ζ of the run with Eqs. 4 and 11, at each Hurst exponent of the discs.
 
-    rows : H, Eq. 4, Eq. 11 without its factor 1/Γ(2 − α), ζ with its interval, and its extremes over conventions; as
-        ratio_if_radius ζ over Eq. 11, both with the factor, if L were the radius of the disc
-    between : whether ζ lies between both formulas at every H
-    conventions : number of combinations of conventions; agreeing : largest number of them in which ζ has the value of
-        one of the formulas within its tolerance, over formulas and H
+    rows : H, Eq. 4, Eq. 11 without its factor 1/Γ(2 − α), ζ with its interval, and its extremes over conventions;
+        ratio_if_radius is ζ over Eq. 11, both with the factor, if L were the radius of the disc
+    between : True if ζ lies between both formulas at every H
+    conventions : number of combinations of conventions;
+        agreeing : largest number of them, over formulas and H, with ζ equal to the formula within its tolerance
     radius : smallest and largest ratio_if_radius
     """
     every, rows = results.rows("scaling", source="discs", case_group="base"), []
@@ -122,7 +122,7 @@ def prefactors(results, conventions):
         numbers |= {"least": zeta.min(), "largest": zeta.max()}
         without_gamma = eq_11 * _gamma(reference.exponent_beta(row.hurst))
         numbers |= {"eq_4": reference.zeta_elastic(row.hurst), "eq_11": without_gamma}
-        # X and κ double if L is the radius, and ζ = κ/X^α grows by 2^β.
+        # X and κ double if L is the radius, so ζ = κ/X^α grows by 2^β.
         rows.append(numbers | {"ratio_if_radius": 2**row.beta * row.zeta / _gamma(row.beta) / eq_11})
     ratios = [row["ratio_if_radius"] for row in rows]
     both = results.tables["claims"].query("claim in ('zeta_elastic', 'zeta_viscous')")
@@ -136,12 +136,12 @@ def prefactors(results, conventions):
 
 
 def _gamma(beta):
-    """Γ(2 − α) with α = 1 − β."""
+    """Return Γ(2 − α) with α = 1 − β."""
     return reference.velocity_law(1.0, 1.0, 1 - beta) / reference.velocity_law(1.0, 1.0, 1 - beta, gamma=True)
 
 
 def small_hurst(results):
-    """What the departure at the smallest Hurst exponent of the discs consists of; None for a part without a value.
+    """Return the parts of the departure at the smallest Hurst exponent of the discs; None for a part without value.
 
     hurst : the Hurst exponent; region : the row of table `plateaus` with the length of region (b)
     own, equal : β of lines minus β of discs, each in its own region (b), and both at the same X
@@ -171,13 +171,13 @@ def small_hurst(results):
 
 
 def citation_key(source):
-    """Key of a source: up to three surnames and the year, as in "persson-2007"."""
+    """Return the key of a source: up to three surnames and the year, as in "persson-2007"."""
     names = source["source"].replace(" and ", ", ").split(", ")
     return "-".join([*names[:3], str(source["year"])]).lower().replace(" ", "-")
 
 
 def sources_by_basis(sources):
-    """{how statements on it are known: keys of the sources}, for a sentence of the article that cites all of them."""
+    """Return {basis of statements on them: keys of the sources}, for a sentence that cites all of them."""
     groups = {}
     for source in sources:
         groups.setdefault(source["sure"], []).append(citation_key(source))
@@ -185,7 +185,7 @@ def sources_by_basis(sources):
 
 
 def bibliography(original, sources):
-    """References in the YAML of Hayagriva, which Typst reads: the paper (key "paper"), and sources with their titles.
+    """Return references in the YAML of Hayagriva, which Typst reads: the paper (key "paper"), and sources with titles.
 
     original : entry of CITATION.cff; sources : entries of resources/literature/stiffness.yaml
     """
@@ -207,7 +207,7 @@ def _entry(title, authors, place, year):
 
 
 def control(results):
-    """The largest g of periodic surfaces and its X, for each Hurst exponent, without and with a roll-off."""
+    """Return the largest g of periodic surfaces and its X, for each Hurst exponent, without and with a roll-off."""
     table, rows = results.tables["periodic"], []
     for hurst, part in table.groupby("hurst"):
         kinds = (part[part["roll_off_wavelength"].notna() == flag] for flag in (False, True))
@@ -217,7 +217,7 @@ def control(results):
 
 
 def sum_rules_shown(content):
-    """For each indenter: levels and relative deviations of both integrals, of a plain curve and of an audit."""
+    """Return, for each indenter, levels and relative deviations of both integrals, of a plain curve and of an audit."""
     return [
         {
             "indenter": name,

@@ -1,4 +1,4 @@
-"""Assembly of the contents of the page and of the article, from tables and ensembles."""
+"""Assemble the contents of the page and of the article from tables and ensembles."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from viscorough_study.verdicts.claims import findings
 
 
 def contents_of(project, discs, lines, *, tables, claims, numbers):
-    """{name: content} of a run, for the templates of page and article.
+    """Return {name: content} of a run, for the templates of page and article.
 
     project : folder of the project, which has published numbers, the verdicts of the full scale, and the list of tables
     discs, lines : paths of the pools

@@ -1,4 +1,4 @@
-"""Calculator of the page: the calibrated law as numbers for a script that mirrors viscorough.estimates."""
+"""Build the calculator of the page: the calibrated law as numbers for a script that mirrors viscorough.estimates."""
 
 import json
 
@@ -9,7 +9,7 @@ from viscorough.reference import one_element_stiffness
 
 
 def calculator(section, script):
-    """Section of the page, with the numbers of the law and the script.
+    """Return the section of the page, with the numbers of the law and the script.
 
     section, script : texts of HTML and JavaScript
     """
@@ -18,6 +18,6 @@ def calculator(section, script):
 
 
 def law_table():
-    """{number of the law: its values over ascending H}."""
+    """Return {number of the law: its values over ascending H}."""
     table = {name: values.tolist() for name, values in interface_calibration().items()}
     return table | {"of_one_element": [1 / one_element_stiffness(ACROSS) - 1] * len(table["hurst"])}

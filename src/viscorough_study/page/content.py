@@ -1,4 +1,4 @@
-"""Contents of the page below the answers: verdicts, tables and scale of the run."""
+"""Collect the contents of the page below the answers: verdicts, tables and scale of the run."""
 
 import json
 
@@ -29,10 +29,10 @@ VERDICT_SHORT = {
 
 
 def verdicts(results, statements, published):
-    """{kind: claims}, each claim with its statement, its verdict, and the numbers of the cases displayed.
+    """Return {kind: claims}, each claim with its statement, its verdict, and the numbers of the displayed cases.
 
     statements : content of resources/paper/claims.yaml
-    published : table of the verdicts of the full scale; `full_scale` is the verdict there if it differs
+    published : table of the verdicts at full scale; `full_scale` is this verdict if it differs
     """
     claims, at_full_scale = {heading: [] for heading in KINDS.values()}, overall(published)
     for name, verdict in overall(results.tables["claims"]).items():
@@ -61,7 +61,7 @@ def verdicts(results, statements, published):
 
 
 def other_solvers(path):
-    """Time of other solvers over that of the elastic path: their versions, rows, date and machine of measurement.
+    """Return times of other solvers over the elastic path: their versions, rows, date and machine of measurement.
 
     path : table of published ratios
     """
@@ -76,7 +76,7 @@ def other_solvers(path):
 
 
 def scenes(results):
-    """{scene: {choice of levels: its record}}"""
+    """Return {scene: {choice of levels: its record}}."""
     scenes = {}
     for record in results.records("level_placement"):
         scenes.setdefault(record["scene"], {})[record["choice"]] = record
@@ -84,7 +84,7 @@ def scenes(results):
 
 
 def media(results):
-    """Exponent of vt/h in time for every medium and Hurst exponent: at the first time, near X = 0.01, at the last."""
+    """Return the exponent of vt/h in time by medium and H: at the first time, near X = 0.01, at the last time."""
     table, rows = results.tables["media"], []
     for (name, hurst), part in table.groupby(["medium", "hurst"], sort=False):
         middle = np.log(part["x"] / 0.01).abs().idxmin()
@@ -95,7 +95,7 @@ def media(results):
 
 
 def measured(results, conventions):
-    """Measured scans, their contacts, and the power law of each group in the conventions of the figures.
+    """Return measured scans, their contacts, and the power law of each group in the conventions of the figures.
 
     Lists are empty if there are none.
     """
@@ -113,11 +113,12 @@ def measured(results, conventions):
 
 
 def scale(discs, lines, numbers):
-    """Scale of a run, from its ensembles, and of the paper.
+    """Return the scale of a run, from its ensembles, and of the paper.
 
-    Its name is "coarse" if the discs are too coarse for a power law, "paper" if discs and lines are at least as many as
-    the paper's and the discs as fine, otherwise "trial".
-    discs, lines : paths of the pools; numbers : content of resources/paper/numbers.yaml
+    Its name is "coarse" if the discs are too coarse for a power law. It is "paper" if there are at least as many discs
+    and lines as in the paper, and the discs are as fine. Otherwise it is "trial".
+    discs, lines : paths of the pools;
+    numbers : content of resources/paper/numbers.yaml
     """
     pools = {"discs": _pool(discs), "lines": _pool(lines)}
     elements, reduction = numbers["boundary_elements"], numbers["reduction"]
@@ -139,7 +140,7 @@ def scale(discs, lines, numbers):
 
 
 def _pool(path):
-    """Realizations and settings of the first case of a pool, and its Hurst exponents and groups."""
+    """Return realizations and settings of the first case of a pool, and its Hurst exponents and groups."""
     with opened(path) as file:
         settings = json.loads(file.getncattr("settings"))
         case, hurst, group = (np.ma.getdata(file[name][...]) for name in ("case", "hurst", "group"))

@@ -1,4 +1,4 @@
-"""Published results and those of this run, as the page presents the table `literature`."""
+"""Present published results and the results of this run, from the table `literature`."""
 
 from viscorough_study.comparisons.literature import cited
 
@@ -18,7 +18,7 @@ KNOWN = {
 
 
 def discussion(results):
-    """Sources by year, and for each quantity the values of this study and of the literature by Hurst exponent.
+    """Return sources by year, and for each quantity the values of this study and of the literature by Hurst exponent.
 
     quantities : {quantity: records of its first row at each H, with theirs : [(citation, low, high)]}
     """
@@ -38,5 +38,5 @@ def discussion(results):
 
 
 def _credit(row):
-    """Citation of a number, marked if it is quoted from later work."""
+    """Return the citation of a number, marked if it is quoted from later work."""
     return cited(row["source"], row["year"]) + (", as quoted" if row["sure"] == "quoted" else "")

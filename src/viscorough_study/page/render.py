@@ -1,4 +1,4 @@
-"""The page as one HTML file, with embedded figures, captions, and numbers linked to their place in a table."""
+"""Render the page as one HTML file with embedded figures, captions, and numbers linked to their table cells."""
 
 import base64
 import re
@@ -16,11 +16,11 @@ WIDE = 600  # pixels; wider images scroll on a phone
 
 
 def render(template, style, figures, captions, *, conventions, **content):
-    """HTML of the page.
+    """Return the HTML of the page.
 
     template, style : text of the template and of the style sheet
     figures : {name: path of its PNG}; captions : {name: path of its caption for Snakemake's report}
-    conventions : of the figures, named in captions
+    conventions : conventions of the figures, named in captions
     content : variables of the template
     """
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True)
@@ -34,7 +34,7 @@ def render(template, style, figures, captions, *, conventions, **content):
 
 
 def number(value, scale=1, unit=""):
-    """A Number as an element that names its place in a table; a dash for None."""
+    """Return a Number as an element that names its place in a table; a dash for None."""
     if value is None or (text := readable(scale * value.value)) == "–":
         return "–"
     attributes = Markup(" ").join(Markup('{}="{}"').format(*attribute) for attribute in value.attributes.items())
@@ -42,12 +42,12 @@ def number(value, scale=1, unit=""):
 
 
 def percent(value):
-    """A Number in percent."""
+    """Return a Number in percent."""
     return number(value, scale=100, unit=" %")
 
 
 def embedded_png(content):
-    """src, width and height of an image, and whether it scrolls on a phone.
+    """Return src, width and height of an image, and True if it scrolls on a phone.
 
     The smallest text of the figures, 7 points, becomes 13 pixels high.
     """
@@ -58,7 +58,7 @@ def embedded_png(content):
 
 
 def caption(text, conventions):
-    """A caption of the report, reStructuredText with placeholders of Snakemake, as HTML."""
+    """Return a caption of the report, reStructuredText with placeholders of Snakemake, as HTML."""
     snakemake = {"params": {"conventions": conventions}}
     text = jinja2.Template(text, undefined=jinja2.StrictUndefined).render(snakemake=snakemake)
     parts = publish_parts(text, writer="html5", settings_overrides={"report_level": 2, "halt_level": 2})

@@ -1,7 +1,7 @@
-"""Tables of results for the page, and numbers with their place in a table.
+"""Read tables of results for the page, and keep numbers together with their place in a table.
 
 Every number that the page states in a sentence is a `Number`. Its place in a table, the rule that made the table and
-the source file of the computation become part of the page, so that a reader or a test can look them up.
+the source file of the computation become part of the page, and a reader or a test can look them up.
 """
 
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ _ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}  # option
 class Number:
     """A number of the page and its place in a table of results/tables: column, and row of the CSV counted from 0.
 
-    counted : of a number of rows, the value that is counted in the column; then there is no row
+    counted : for a number of rows, the value counted in the column; such a number has no row
     origin : rule that made the table and source file of the computation, as text
     """
 
@@ -33,7 +33,7 @@ class Number:
 
     @property
     def attributes(self):
-        """Attributes of the HTML element that holds the number: its value, a tooltip, and its place.
+        """Return attributes of the HTML element that holds the number: its value, a tooltip, and its place.
 
         The tooltip has the line in the CSV file, counted from 1 with the header.
         """
@@ -51,8 +51,8 @@ class Number:
 class Results:
     """Tables by name, as pandas.DataFrames indexed by the row of the CSV, and their recorded settings.
 
-    settings : {table: mapping}, empty for tables that record none
-    origins : {table: (rule, source file)} of `table_origins`; without it, numbers state no origin
+    settings : {table: mapping}, empty for tables without recorded settings
+    origins : {table: (rule, source file)} from `table_origins`; without it, numbers state no origin
     """
 
     tables: dict
@@ -60,36 +60,36 @@ class Results:
     origins: dict = field(default_factory=dict)
 
     def rows(self, table, **wanted):
-        """Rows of a table with these values, {column: value}."""
+        """Return rows of a table with these values, {column: value}."""
         rows = self.tables[table]
         return rows[(rows[list(wanted)] == list(wanted.values())).all(axis=1)]
 
     def number(self, table, row, column):
-        """The number at a place of a table."""
+        """Return the number at a place of a table."""
         value = float(self.tables[table].at[row, column])
         return Number(value, table, column, int(row), origin=self.origin(table, row))
 
     def record(self, table, row):
-        """{column: Number, or text} of one row."""
+        """Return {column: Number, or text} of one row."""
         values = self.tables[table].loc[row].items()
         return {name: value if isinstance(value, str) else self.number(table, row, name) for name, value in values}
 
     def records(self, table, **wanted):
-        """The records of the rows with these values, {column: value}."""
+        """Return the records of the rows with these values, {column: value}."""
         return [self.record(table, row) for row in self.rows(table, **wanted).index]
 
     def extremes(self, rows, table, column):
-        """The smallest and the largest number in a column of some rows of a table; (None, None) if there is none."""
+        """Return the smallest and largest number in a column of some rows of a table; (None, None) if there is none."""
         ends = rows[column].dropna().agg(["idxmin", "idxmax"]) if rows[column].notna().any() else ()
         return tuple(self.number(table, row, column) for row in ends) or (None, None)
 
     def count(self, table, column, counted):
-        """Number of rows with the value `counted` in a column."""
+        """Return the number of rows with the value `counted` in a column."""
         number = int((self.tables[table][column] == counted).sum())
         return Number(number, table, column, counted=counted, origin=self.origin(table))
 
     def origin(self, table, row=None):
-        """Rule that made a table and source file of the computation, as text; of a claim's row, its criterion."""
+        """Return the rule of a table and the source file of its computation; a claim's row names its criterion."""
         if table not in self.origins:
             return ""
         rule, source = self.origins[table]
@@ -99,7 +99,7 @@ class Results:
 
 
 def table_origins(registry):
-    """{table: (rule that makes it, source file of its function or else of its script)}.
+    """Return {table: (rule that makes it, source file of its function or, without a function, of its script)}.
 
     registry : section `tables` of workflow/results.yaml
     """
@@ -112,14 +112,14 @@ def table_origins(registry):
 
 
 def _source_file(module):
-    """Path of a module in the folder of the project."""
+    """Return the path of a module in the folder of the project."""
     return f"src/{module.replace('.', '/')}.py"
 
 
 def read_results(tables, origins):
-    """Results of the tables at {name: path of the CSV}; the NetCDF files have the same names in the same folder.
+    """Read Results from {name: path of the CSV}; the NetCDF files have the same names in the same folder.
 
-    origins : of `table_origins`
+    origins : from `table_origins`
     """
     files = {name: Path(path).with_suffix(".nc") for name, path in tables.items()}
     settings = {name: read_recorded(file, "settings", missing={}) for name, file in files.items()}

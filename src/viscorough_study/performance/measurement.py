@@ -1,4 +1,4 @@
-"""Cost and error of every method on one problem.
+"""Measure cost and error of every method on one problem.
 
 The error of a method is the root mean square of the relative deviation of its velocities from the reference solution.
 """
@@ -33,18 +33,18 @@ COLUMNS = {
 
 
 def measure_problems(*, problems, seed, levels, repeats, longest):
-    """`measure` on one thread of problems given by the arguments of `named_problem`; seed : root of rough discs."""
-    compile_kernels()  # so that loading compiled code is not timed
-    with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
+    """Apply `measure` on one thread to problems given by arguments of `named_problem`; seed : root of rough discs"""
+    compile_kernels()  # load compiled code before the timing
+    with threadpool_limits(1):  # Snakemake gives the job all cores, so no other job runs
         indenters = (named_problem(**problem, levels=levels, root=seed) for problem in problems)
         return pd.concat([measure(indenter, repeats, longest=longest) for indenter in indenters], ignore_index=True)
 
 
 def measure(problem, repeats, *, longest, methods=METHODS):
-    """Cost and error of every method that can solve a problem, at every value of its parameter.
+    """Measure cost and error of every method that can solve a problem, at every value of its parameter.
 
-    repeats : number of interleaved repeats after the first run, which gives errors, and the time of runs
-        longer than MAX_REPEATED
+    repeats : number of interleaved repeats after the first run, which gives errors, and the time of runs longer than
+        MAX_REPEATED
     longest : seconds after which a method is neither repeated nor tried at finer values
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, one row per method and value.

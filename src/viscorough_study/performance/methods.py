@@ -22,12 +22,12 @@ from viscorough.viscous.integration.stepping import march_steps
 
 @dataclass(frozen=True)
 class Method:
-    """A method; `values` are those of its parameter, from coarse to fine.
+    """A method; `values` are the values of its parameter, from coarse to fine.
 
     run : function of problem and value; returns the velocities vt at the problem's levels, and the number of steps:
         levels, events, time steps or points
-    group : of methods in tables and figures; largest : elements across the indenter up to which it is measured
-    rough_only : whether it applies to rough discs only
+    group : group in tables and figures; largest : largest number of elements across in measurements
+    rough_only : True if it applies to rough discs only
     """
 
     name: str
@@ -43,14 +43,14 @@ class Method:
 
 
 def _automatic(problem, tolerance):
-    """Levels chosen automatically, and interpolation between them."""
+    """Choose levels automatically, and interpolate between them."""
     curve = indent(problem.indenter, tolerance=tolerance, until_fraction=1, until_force=problem.force[-1] * (1 + 1e-12))
     _, stiffness = curve.at_force(problem.force)
     return problem.force / stiffness, curve.depth.size
 
 
 def _at_levels(problem, tolerance):
-    """Exactly the problem's depths, with the exact tangent stiffness there."""
+    """Take exactly the problem's depths, with the exact tangent stiffness there."""
     curve = indent(problem.indenter, tolerance=tolerance, depths=problem.depth)
     return curve.force / curve.stiffness, curve.depth.size
 
@@ -59,23 +59,23 @@ def _at_levels(problem, tolerance):
 
 
 def _events(problem, fraction):
-    """Direct integration from contact event to contact event, up to a contact fraction."""
+    """Integrate directly from contact event to contact event, up to a contact fraction."""
     events = march_events(problem.indenter, until_fraction=fraction)
     return problem.force / events.resistance[events.event_at(problem.force)], events.impulse.size
 
 
 def _steps(scheme, problem, number):
-    """A number of steps of the impulse in equal ratios, and interpolation between their ends."""
+    """Take a number of steps of the impulse in equal ratios, and interpolate between their ends."""
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AccuracyWarning)  # the table has the error of too few steps
+        warnings.simplefilter("ignore", AccuracyWarning)  # the table contains the error of too few steps
         steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size
 
 
 def _implicit(problem, tolerance):
-    """Backward Euler steps that end at the problem's impulses."""
+    """Take backward Euler steps that end at the problem's impulses."""
     steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
     return problem.force / steps.resistance, steps.impulse.size
 
@@ -84,14 +84,14 @@ def _implicit(problem, tolerance):
 
 
 def _reduction(problem, points):
-    """MDR with the exact line of a body of revolution, or for a rough disc one random line of the same h, L and H."""
+    """Apply the MDR to a body's exact line, or for a rough disc to one random line of the same h, L and H."""
     line = problem.body.mdr_line(points) if problem.body else self_affine_line(problem.hurst, points, seed=problem.seed)
     _, stiffness = reduce(line, until_force=problem.force[-1] * (1 + 1e-12)).at_force(problem.force)
     return problem.force / stiffness, points
 
 
 def _law(problem, gamma):
-    """The closed law, Eq. 12, with or without the factor 1/Γ(2−α), in units of h = 1."""
+    """Evaluate the closed law, Eq. 12, with or without the factor 1/Γ(2−α), in units of h = 1."""
     return reference.rate_law(problem.force / 4, problem.hurst, gamma=bool(gamma)), 0
 
 

@@ -14,8 +14,8 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.run.seeds import method_problem_key, realization_seed
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
-FINAL_X, FINAL_FRACTION = 30.0, 0.9  # X and contact fraction at which a rough disc's curve ends
-REFERENCE_TOLERANCE = 1e-11  # of the reference velocities of rough discs
+FINAL_X, FINAL_FRACTION = 30.0, 0.9  # X and contact fraction at the end of a rough disc's curve
+REFERENCE_TOLERANCE = 1e-11  # tolerance of the reference velocities of rough discs
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,8 @@ class Problem:
     """An indenter with h = L = 1 and its reference solution; arrays of shape (levels,).
 
     depth, force, velocity : u, F/G and vt = (F/G)/(k/G) of the reference solution
-    hurst, seed : of a rough disc; body : of a body of revolution with an exact solution; otherwise nan or None
+    hurst, seed : arguments of a rough disc, otherwise nan and None; body : body of revolution with an exact solution,
+        otherwise None
     """
 
     name: str
@@ -37,9 +38,10 @@ class Problem:
 
 
 def named_problem(name, elements, levels, *, root=None, hurst=None):
-    """A problem by the name of its body, "sphere", "cone" or "rough disc", a self-affine one.
+    """Return the problem of a body named "sphere", "cone" or "rough disc" (self-affine).
 
-    elements : across the indenter; levels : number of depths; root, hurst : root seed and Hurst exponent of a disc
+    elements : number across the indenter; levels : number of depths; root, hurst : root seed and Hurst exponent of a
+        disc
     Sphere and cone are at contact radii from 0.1 to 0.45 L, with the velocities of the exact solution; discs at depths
     in equal ratios from just above the second contact to FINAL_X or FINAL_FRACTION.
     """

@@ -1,4 +1,4 @@
-"""Time of computations; repeats are interleaved, so that changes of the machine's speed affect all alike."""
+"""Time computations; repeats are interleaved, so changes of the machine's speed affect all computations alike."""
 
 import os
 import platform
@@ -9,19 +9,19 @@ import numpy as np
 
 
 def interleaved(functions, repeats):
-    """{name: (wall, processor) seconds} of functions that have run before, medians over interleaved repeats."""
+    """Return {name: (wall, processor) seconds} of functions that have run before, medians over interleaved repeats."""
     times = [[timed(function)[1:] for function in functions.values()] for _ in range(repeats)]
     return dict(zip(functions, map(tuple, np.median(times, axis=0).tolist()), strict=True))
 
 
 def timed(function):
-    """Result of a function, and its wall and processor seconds."""
+    """Return the result of a function, and its wall and processor seconds."""
     wall, processor = time.perf_counter(), time.process_time()
     return function(), time.perf_counter() - wall, time.process_time() - processor
 
 
 def machine():
-    """Name, processor and cores of this machine, to be recorded with the times measured on it."""
+    """Return name, processor and cores of this machine, to be recorded with the times measured on it."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.is_file() else []
     names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]

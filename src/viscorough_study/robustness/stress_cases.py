@@ -1,4 +1,4 @@
-"""Stress-test cases: indenters and loads for every method."""
+"""Build stress-test cases: indenters and loads for every method."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -19,11 +19,11 @@ class StressCase:
     """An indenter, its load, and the parameters of the methods.
 
     hurst : Hurst exponent assumed for the power law, and for a line with the same spectrum
-    fractions : contact fractions between which the solutions are compared
+    fractions : contact fractions at the ends of the comparison
     body : the indenter as a body of revolution with a power-law profile, whose line is exact; or None
-    tolerance : of the elastic path; steps : number of steps of explicit marching
+    tolerance : tolerance of the elastic path; steps : number of steps of explicit marching
     force : F at equal intervals of time; constant by default
-    stated : reason, in their documentation, why models do not apply to this case
+    stated : reason in the documentation of models why they do not apply to this case
     medium : a viscoelastic medium; None for a Newtonian one
     medium_load : (time, force) in it, up to a factor of the force
     """
@@ -43,11 +43,11 @@ class StressCase:
 
 
 def stress_cases(seed, across, grids, hurst_min):
-    """All stress-test cases of the failure map, group by group.
+    """Yield all stress-test cases of the failure map, group by group.
 
     seed : SeedSequence of the rough discs; across : elements across the maps
     grids : elements across the discs of the group that varies the grid
-    hurst_min : Hurst exponent above which the paper says that Eq. 5 holds (resources/paper/numbers.yaml)
+    hurst_min : limit of H in the paper; it states that Eq. 5 holds above it (resources/paper/numbers.yaml)
     """
     disc = partial(self_affine_disc, elements_across=across, seed=seed)
     usual = {"indenter": disc(0.7), "hurst": 0.7}
@@ -59,9 +59,9 @@ def stress_cases(seed, across, grids, hurst_min):
 
 
 def _disc_cases(disc, usual, grids, hurst_min):
-    """Rough discs: numbers of time steps, Hurst exponents, grids, and contact fractions.
+    """Yield rough discs with several numbers of time steps, Hurst exponents, grids, and contact fractions.
 
-    disc : makes them from a Hurst exponent; usual : the disc of most cases, and its Hurst exponent
+    disc : function that makes them from a Hurst exponent; usual : the disc of most cases, and its Hurst exponent
     """
     elements = usual["indenter"].elements
     for steps, name in ((4096, "4096 steps"), (256, "256 steps"), (16, "16 steps"), (1, "one step")):
@@ -82,13 +82,13 @@ def _disc_cases(disc, usual, grids, hurst_min):
 
 
 def _shape(across, function):
-    """Map of `across` elements across, whose heights are 0.1 times a function of x and y from −1 to 1."""
+    """Return a map of `across` elements across, with heights of 0.1 times a function of x and y from −1 to 1."""
     x = (np.arange(across) - (across - 1) / 2) * 2 / across
     return Indenter(0.1 * (function(x[:, None], x) + np.zeros((across, across))), 2 / across)
 
 
 def _tied_cases(across, seed):
-    """Maps with many elements of exactly the same height."""
+    """Yield maps with many elements of exactly the same height."""
 
     def tied(name, heights, **options):
         return StressCase("ties", name, Indenter(heights, 1.0), stated=NOT_SELF_AFFINE, **options)
@@ -122,7 +122,7 @@ def _shape_cases(across):
 
 
 def _question_cases(usual):
-    """The usual disc: in extreme units, under varying forces, and with other tolerances."""
+    """Yield the usual disc in extreme units, under varying forces, and with other tolerances."""
     rough = usual["indenter"]
     for name, height, length in (
         ("heights times 1e12", 1e12, 1.0),
@@ -145,7 +145,7 @@ def _question_cases(usual):
 
 
 def _medium_cases(usual):
-    """Media and loads in them; times are from 0 to 1, and a repeated time marks a step."""
+    """Yield media and loads in them; times are from 0 to 1, and a repeated time marks a step."""
     step, ramp = ((0, 1), (1, 1)), ((0, 0), (0.5, 0.4), (1, 1))
     hold, unloading = ((0, 0), (0.1, 1), (1, 1)), ((0, 0), (0.4, 1), (0.5, 0.3), (1, 0.3))
     solid = StandardLinearSolid(3.0, 1.0, 0.3)

@@ -1,8 +1,8 @@
-"""Solutions of a stress-test case by every method, relative to the reference solution.
+"""Solve a stress-test case by every method, relative to the reference solution.
 
 The reference is the dense solution on the same elements, exact to rounding: forces at given depths. By the
 correspondence principle they are also the impulses ∫F dt/η at which the indenter reaches these depths in a viscous
-half-space. Elastic methods give the forces at the depths, the others the depths at the forces or impulses.
+half-space. Elastic methods give the forces at the depths, other methods the depths at the forces or impulses.
 """
 
 import warnings
@@ -30,14 +30,14 @@ from viscorough.viscous.media import Newtonian
 DENSE_ONLY = SolverOptions(dense_contacts=10**9, dense_interactions=10**12)
 GRID_ONLY = SolverOptions(dense_contacts=0, dense_interactions=0)
 DOUBLE_ON_GRID = replace(GRID_ONLY, precision="double", exact_gap_below=0.0)
-DEPTHS = 6  # number of depths at which solutions are compared
-INTERPOLATED_FORCES = 20  # forces between two of these depths at which interpolated depths are compared
+DEPTHS = 6  # number of depths in the comparison of solutions
+INTERPOLATED_FORCES = 20  # forces between two of these depths in the comparison of interpolated depths
 REFERENCE_TOLERANCE = 1e-11
 BISECTIONS = 12  # in the search for the depth of a contact fraction
 BEYOND_FULL_CONTACT = 3.0  # factor on the depth of full contact
-LINE_POINTS = 2**14  # of lines of the MDR
-CURVE_TOLERANCE = 1e-6  # of loading curves for the correspondence
-STEPS, REFERENCE_STEPS = 64, 1024  # between the samples of a force in a medium
+LINE_POINTS = 2**14  # points of lines of the MDR
+CURVE_TOLERANCE = 1e-6  # tolerance of loading curves for the correspondence
+STEPS, REFERENCE_STEPS = 64, 1024  # steps between the samples of a force in a medium
 LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0  # a model may be off by a factor of 2 for one realization
 
 
@@ -54,7 +54,7 @@ class Solution:
 
 
 def reference_solution(case):
-    """Solution of a case at `DEPTHS` depths, in equal ratios between those of the case's contact fractions."""
+    """Solve a case at `DEPTHS` depths, in equal ratios between the depths of the case's contact fractions."""
     solver = ContactSolver(case.indenter, REFERENCE_TOLERANCE, DENSE_ONLY)
     first = _depth_of_fraction(solver, case.fractions[0], 0.0)
     last = _depth_of_fraction(solver, min(case.fractions[1], 1.0), first)
@@ -66,7 +66,7 @@ def reference_solution(case):
 
 
 def _depth_of_fraction(solver, fraction, low):
-    """Reduced depth above `low` at which a contact fraction is reached, by doubling and bisection."""
+    """Return the reduced depth above `low` of a contact fraction, by doubling and bisection."""
     contact, gap = solver.unloaded_state(), solver.elements.initial_gap
     high = max(2 * low, gap[gap > 0][0] if gap[-1] > 0 else 1.0)
     while (deeper := solver.advance_reduced(contact, high)).count < fraction * solver.elements.count:
@@ -85,13 +85,13 @@ def _depth_of_fraction(solver, fraction, low):
 
 
 def _path(options, case, solution):
-    """Forces of the elastic loading path."""
+    """Return forces of the elastic loading path."""
     curve = indent(case.indenter, tolerance=case.tolerance, depths=solution.depth, options=options)
     return curve.force / solution.force
 
 
 def _interpolated(case, solution):
-    """Depths interpolated between automatic levels, at several forces from each of these depths to the next one."""
+    """Return depths interpolated between automatic levels, at several forces from each depth to the next."""
     curve = indent(case.indenter, tolerance=case.tolerance, until_fraction=1.0, until_force=solution.force[-1])
     kinetics(curve, 1.0, 1.0, solution.force[:1])  # refuses forces beyond the last level
     ends = np.minimum(solution.force, curve.force[-1])
@@ -102,18 +102,18 @@ def _interpolated(case, solution):
 
 
 def _last_fraction(case, solution):
-    """Contact fraction a little above that of the last depth."""
+    """Return a contact fraction slightly above the contact fraction of the last depth."""
     return min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
 
 
 def _events(case, solution):
-    """Depths of the direct integration from contact event to contact event."""
+    """Return depths of the direct integration from contact event to contact event."""
     events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
     return events.depth_at(solution.force) / solution.depth
 
 
 def _steps(case, solution):
-    """Depths by the case's number of explicit steps: uniform in time, or in equal ratios for a constant force."""
+    """Return depths by the case's number of explicit steps: uniform in time, or in equal ratios if F is constant."""
     if min(case.force) == max(case.force):
         ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
     else:
@@ -126,7 +126,7 @@ def _steps(case, solution):
 
 
 def _reduction(case, solution):
-    """Depths by the MDR, with the exact line of a body of revolution or a random line of the same h, L and H."""
+    """Return depths by the MDR, with a body's exact line or a random line of the same h, L and H."""
     across = case.indenter.spacing * len(case.indenter.heights)
     random_line = partial(self_affine_line, rms=np.nanstd(case.indenter.heights), length=across, seed=1)
     line = case.body.mdr_line(LINE_POINTS, across) if case.body else random_line(case.hurst, LINE_POINTS)
@@ -135,7 +135,7 @@ def _reduction(case, solution):
 
 
 def _power_law(gamma, case, solution):
-    """Depths by Eq. 6, or with gamma Eq. 8, with Eqs. 4 and 5, or the exact α and ζ of a body of revolution."""
+    """Return depths by Eq. 6, or with gamma Eq. 8, with Eqs. 4 and 5, or the exact α and ζ of a body of revolution."""
     across, rms = case.indenter.spacing * len(case.indenter.heights), np.nanstd(case.indenter.heights)
     zeta, alpha = reference.zeta_elastic(case.hurst), reference.exponent_alpha(case.hurst)
     if case.body is not None:
@@ -150,12 +150,12 @@ def _power_law(gamma, case, solution):
     return rms * reference.depth_law(x, zeta, alpha, gamma=gamma) / solution.depth
 
 
-# ---- in a viscoelastic medium, or a Newtonian one under a constant force if the case has none; the reference is the
-# direct integration from contact event to contact event, exact while the contact grows, or one in many steps
+# ---- in a viscoelastic medium, or, for cases without one, in a Newtonian medium under a constant force. The reference
+# is direct integration from contact event to contact event, which is exact while the contact grows, or in many steps.
 
 
 def _by_correspondence(case, solution):
-    """Depths by the correspondence, over those of the reference."""
+    """Return depths by the correspondence over the depths of the reference."""
     curve = indent(case.indenter, tolerance=CURVE_TOLERANCE, until_fraction=1.0, until_force=solution.force[-1])
     if case.medium is None:
         return kinetics(curve, 1.0, Newtonian(1.0), solution.force).depth / solution.depth
@@ -165,7 +165,7 @@ def _by_correspondence(case, solution):
 
 
 def _by_steps(case, solution):
-    """Depths by the second-order steps of direct integration, over those of the reference."""
+    """Return depths by the second-order steps of direct integration over the depths of the reference."""
     if case.medium is None:
         times = np.append(0.0, solution.force)
         motion = march(case.indenter, Load(times, force=np.ones(times.size)), Newtonian(1.0))
@@ -174,7 +174,7 @@ def _by_steps(case, solution):
 
 
 def _history(case, solution):
-    """Times from 0 to 1, with steps, and a force whose elastic equivalent stays below the solution's last force."""
+    """Return times from 0 to 1, with steps, and a force whose elastic equivalent stays below the last force."""
     times, shape = np.array(case.medium_load).T
     largest = solution.force[-1] / case.medium.creep_compliance(times[-1]) / shape.max()
     return times, 0.999 * largest * shape
@@ -190,7 +190,7 @@ def _motion_reference(case, solution):
 
 
 def _stepped(case, solution, number):
-    """Depths at the samples of the force, with `number` steps between them, shorter ones first."""
+    """Return depths at the samples of the force, with `number` steps between them, shorter steps first."""
     history = np.array(_history(case, solution))  # times and forces
     parts, place = [history[:, :1]], [0]
     for start, end in pairwise(history.T):
@@ -209,8 +209,8 @@ def _ratios(depth, reference):
 # ---- all methods
 
 
-# {name: (function of case and solution, which returns depths or forces over those of the reference solution,
-# largest error for which the method holds, as a function of the case)}
+# {name: (function of case and solution that returns depths or forces over the reference solution, function of the case
+# that returns the largest error for which the method holds)}
 METHODS = {
     "path, dense": (partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance),
     "path, grid, double": (partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance),
@@ -224,4 +224,4 @@ METHODS = {
     "power law": (partial(_power_law, False), lambda case: LIMIT_MODEL),
     "power law with Γ": (partial(_power_law, True), lambda case: LIMIT_MODEL),
 }
-MODELS = ("MDR", "power law", "power law with Γ")  # which are not exact
+MODELS = ("MDR", "power law", "power law with Γ")  # approximations

@@ -1,11 +1,11 @@
-"""Tables of cases: the ensembles, batches and indenters of the settings, and the memory of their jobs.
+"""Make tables of cases: the ensembles, batches and indenters of the settings, and the memory of their jobs.
 
 A case is a dictionary that describes one ensemble of surfaces, or several, for the jobs that compute them. The
-combinations of one Hurst exponent are batched side by side, so that a job has the same realizations of all of them;
-numbers 1 to 9 are one case, 10 to 19 the next, so that a tenth combination does not change the curves of the first
-nine. Grids from coarse to fine are batched in sequence, so that a job can hold many small discs. Names of cases are
-parts of file names, which contain no floating-point numbers; names of ensembles are in the tables. Cases of the same
-kind form a group; the curves of all cases evaluated together are brought to common abscissae in one pool.
+combinations of one Hurst exponent are batched side by side, so a job has the same realizations of all combinations.
+Numbers 1 to 9 are one case, 10 to 19 the next, so a tenth combination does not change the curves of the first nine.
+Grids from coarse to fine are batched in sequence, so a job can hold many small discs. Names of cases are parts of
+file names, which contain no floating-point numbers; names of ensembles are in the tables. Cases of the same kind form a
+group; the curves of all cases evaluated together are brought to common abscissae in one pool.
 """
 
 import itertools
@@ -27,17 +27,17 @@ UNIT_LINE = {"rms": 1.0, "length": 1.0}
 
 
 def hurst_id(hurst):
-    """Name of a Hurst exponent in file names, such as h01000 for 0.1."""
+    """Return the name of a Hurst exponent in file names, such as h01000 for 0.1."""
     return f"h{round(hurst * 1e4):05d}"
 
 
 def disc_cases(settings):
-    """{case: its description} of every case of discs.
+    """Return {case: its description} of every case of discs.
 
     A description has pool, group, realizations, batch, indentation and ensembles; each ensemble has name, spawn_key,
     elements, surface (arguments of self_affine_disc) and realizations, in base cases also combination. The number of
-    the realization is appended to the spawn key (run.seeds). Realizations of the case are those of all ensembles
-    together, or of each one if `side_by_side` is true.
+    the realization is appended to the spawn key (run.seeds). Realizations are counted over all ensembles of the case
+    together, or for each ensemble if `side_by_side` is true.
     """
     return _paper_discs(settings) | _size_discs(settings)
 
@@ -63,13 +63,13 @@ def _paper_discs(settings):
 
 
 def _changes_of_variants(settings):
-    """{variant: settings of its surfaces that differ from `surface`}."""
+    """Return {variant: settings of its surfaces that differ from `surface`}."""
     variants = settings["variants"]["cases"]
     return {variant["name"]: {key: value for key, value in variant.items() if key != "name"} for variant in variants}
 
 
 def surfaces_left_open(settings):
-    """Groups of discs whose surfaces differ only in conventions that the paper leaves open.
+    """Return groups of discs whose surfaces differ only in conventions that the paper leaves open.
 
     Variants with other differences, such as a roll-off, are controls, and are omitted.
     """
@@ -79,7 +79,7 @@ def surfaces_left_open(settings):
 
 def _size_discs(settings):
     sizes = settings["sizes"]
-    ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}  # all at the same X
+    ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}  # all end at the same X
     shared = {"pool": "size_discs", "indentation": settings["indentation"] | ends}
     surface, powers = settings["surface"] | UNIT_DISC, [{"hurst": hurst} for hurst in sizes["hurst"]]
     cases = {}
@@ -96,19 +96,19 @@ def _size_discs(settings):
 
 
 def _ensemble(name, spawn_key, surface, grid):
-    """An ensemble of a case; grid : settings, among them its realizations, and elements or points."""
+    """Return an ensemble of a case; grid : settings, among them its realizations, and elements or points"""
     numbers = {key: grid[key] for key in ("elements", "points", "realizations") if key in grid}
     return {"name": name, "spawn_key": spawn_key, "surface": surface} | numbers
 
 
 def _joint_case(ensembles, batch, group, **shared):
-    """A case whose ensembles are batched in sequence; shared : what it has in common with other cases."""
+    """Return a case whose ensembles are batched in sequence; shared : entries that it shares with other cases"""
     realizations = sum(ensemble["realizations"] for ensemble in ensembles)
     return shared | {"group": group, "ensembles": ensembles, "realizations": realizations, "batch": batch}
 
 
 def line_cases(settings):
-    """{line: its description} of every case of lines.
+    """Return {line: its description} of every case of lines.
 
     A description has the form of a case of discs, with points instead of elements, the arguments of self_affine_line as
     surface, and until_x instead of indentation.
@@ -129,7 +129,7 @@ def line_cases(settings):
 
 
 def method_problems(settings):
-    """Arguments of performance.problems.named_problem of every indenter on which methods are compared."""
+    """Return arguments of performance.problems.named_problem for every indenter in the comparison of methods."""
     methods = settings["methods"]
     bodies = [{"name": body, "elements": n} for body in methods["bodies"] for n in methods["bodies_elements"]]
     return bodies + [
@@ -138,19 +138,19 @@ def method_problems(settings):
 
 
 def first_combination(settings):
-    """Names of the ensembles of the first combination, one for every Hurst exponent."""
+    """Return names of the ensembles of the first combination, one for every Hurst exponent."""
     first = settings["discs"]["combinations"][0]["number"]
     return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
 
 
 def combined_ensembles(settings):
-    """{name: ensemble} of every combination and Hurst exponent."""
+    """Return {name: ensemble} of every combination and Hurst exponent."""
     bases = (case for case in disc_cases(settings).values() if case["group"] == "base")
     return {ensemble["name"]: ensemble for case in bases for ensemble in case["ensembles"]}
 
 
 def example_discs(settings):
-    """Ensembles, as of a batch, of the first disc of every Hurst exponent: of the first combination, with h = L = 1."""
+    """Return ensembles, as in a batch, of the first disc of every H: of the first combination, with h = L = 1."""
     ensembles = combined_ensembles(settings)
     examples = [_in_batch(ensembles[name], [0, 1]) for name in first_combination(settings)]
     return [example | {"surface": example["surface"] | UNIT_DISC} for example in examples]
@@ -160,15 +160,15 @@ def example_discs(settings):
 
 
 def batches(case):
-    """Names of a case's batches, first and last realization: 0000-0007, 0008-0015, ..."""
+    """Return names of a case's batches, first and last realization: 0000-0007, 0008-0015, ..."""
     number, size = case["realizations"], case["batch"]
     return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
 
 
 def batch_ensembles(case, batch):
-    """Ensembles of a batch, each with name, spawn_key, surface, elements or points, and numbers of its realizations.
+    """Return ensembles of a batch, each with name, spawn_key, surface, elements or points, and numbers.
 
-    numbers : first realization of the batch in this ensemble, and the one after its last
+    numbers : first realization of the batch in this ensemble, and last realization plus 1
     """
     first, last = map(int, batch.split("-"))
     parts, before = [], 0
@@ -186,7 +186,7 @@ def _in_batch(ensemble, numbers):
 
 
 def pool_batches(cases, pool):
-    """[(case, batch)] of all cases of a pool, in the order of the table."""
+    """Return [(case, batch)] of all cases of a pool, in the order of the table."""
     return [(name, batch) for name, case in cases.items() if case["pool"] == pool for batch in batches(case)]
 
 
@@ -196,28 +196,28 @@ BASE_MEMORY = 700  # Python with its imports and, in a Slurm job, two surroundin
 
 
 def generation_memory(ensembles):
-    """Memory for a disc and the square that it is cut from."""
+    """Return memory for a disc and the square that it is cut from."""
     bytes_ = max((24 + 64 * ensemble["surface"]["period"] ** 2) * ensemble["elements"] ** 2 for ensemble in ensembles)
     return round(BASE_MEMORY + bytes_ / 1e6)
 
 
 def disc_memory(case):
-    """Memory for a disc and the fields of the solver on a doubled grid."""
+    """Return memory for a disc and the fields of the solver on a doubled grid."""
     return round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
 
 
 def measured_memory(case):
-    """Memory for a scan with at least four bytes per height in its file, and the fields of the solver on its grid."""
+    """Return memory for a scan with at least four bytes per height, and the fields of the solver on its grid."""
     return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
 
 
 def line_memory(case):
-    """Memory for spectrum, heights and gaps of a line."""
+    """Return memory for spectrum, heights and gaps of a line."""
     return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case["ensembles"]) / 1e6)
 
 
 def pool_memory(cases, pool, ensemble):
-    """Memory for all realizations of a pool on common abscissae, twice; ensemble : setting of that name."""
+    """Return memory for all realizations of a pool on common abscissae, twice; ensemble : setting of that name"""
     members = [member for case in cases.values() if case["pool"] == pool for member in case.get("ensembles", [case])]
     realizations = sum(member["realizations"] for member in members)
     abscissae = 1 + ensemble["per_decade"] * math.log10(ensemble["x_high"] / ensemble["x_low"])
@@ -226,5 +226,5 @@ def pool_memory(cases, pool, ensemble):
 
 
 def medium_label(name):
-    """Name of a medium of the settings as text: "Standard linear solid"."""
+    """Return the name of a medium of the settings as text: "Standard linear solid"."""
     return name.replace("_", " ").capitalize().replace("Kelvin voigt", "Kelvin-Voigt")

@@ -8,7 +8,7 @@ from viscorough.errors import ConvergenceError
 
 
 def run_job(names, call):
-    """Run a script, whose global names these are, as a job of Snakemake, with its log; otherwise do nothing.
+    """Run a script with these global names as a job of Snakemake, with its log; otherwise do nothing.
 
     call : function of the job
     """
@@ -20,8 +20,8 @@ def run_job(names, call):
 def log_to(path):
     """Log messages, warnings and uncaught exceptions to a file, which is replaced, and to stderr.
 
-    The traceback of an uncaught exception goes to both, except that of a ValueError or ConvergenceError, whose message
-    suffices on stderr, and goes only to the file. An interrupt has none.
+    The traceback of an uncaught exception goes to both, but the traceback of a ValueError or ConvergenceError goes only
+    to the file, since the message suffices on stderr. An interrupt has none.
     """
     in_file, on_stderr = logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler()
     form = {"format": "%(asctime)s %(levelname)s %(message)s", "datefmt": "%Y-%m-%d %H:%M:%S"}

@@ -1,10 +1,10 @@
-"""Numbers as text, on the page, in the article and in figures."""
+"""Write numbers as text, for the page, the article and figures."""
 
 import numpy as np
 
 
 def readable(value):
-    """A number as text of three digits, such as 0.397, 51433, 1.2×10⁻⁵; a dash where there is none."""
+    """Return a number as text of three digits, such as 0.397, 51433, 1.2×10⁻⁵; a dash if there is none."""
     if value is None or np.isnan(value):
         return "–"
     if np.isinf(value):

@@ -1,4 +1,4 @@
-"""Cost of the rules of the workflow, from the benchmark files that Snakemake writes for every job."""
+"""Sum up the cost of the workflow's rules from the benchmark files that Snakemake writes for every job."""
 
 import math
 import os
@@ -46,10 +46,10 @@ def rule_costs(benchmarks):
 
 
 def _shares(ends, seconds):
-    """Share of each job in the time during which any job ran [s], divided equally among simultaneous jobs.
+    """Return the share of each job in the time with running jobs [s], divided equally among simultaneous jobs.
 
-    The shares add up to at least the time of all jobs over the number of cores, also where files were copied without
-    their times, so that the jobs appear to have run at the same time.
+    The shares add up to at least the time of all jobs over the number of cores. This matters for files that were copied
+    without their times: their jobs appear to have run at the same time.
     """
     starts, shares = ends - seconds, np.zeros(len(ends))
     moments = np.unique([*starts, *ends])
@@ -60,19 +60,19 @@ def _shares(ends, seconds):
 
 
 def duration_text(seconds):
-    """A duration as text, such as "50 seconds", "5.5 minutes", "3.1 hours"."""
+    """Return a duration as text, such as "50 seconds", "5.5 minutes", "3.1 hours"."""
     if seconds < 100:
         return f"{seconds:.0f} seconds"
     return f"{seconds / 60:.1f} minutes" if seconds < 6000 else f"{seconds / 3600:.1f} hours"
 
 
 def versions():
-    """{package: version} of Python and of the packages that compute, store and draw."""
+    """Return {package: version} of Python and of the packages that compute, store and draw."""
     return {"Python": platform.python_version()} | {name: version(name) for name in PACKAGES}
 
 
 def _time_and_memory(path):
-    """Seconds and megabytes of a job."""
+    """Return seconds and megabytes of a job."""
     try:
         job = pd.read_csv(path, sep="\t", na_values="-").iloc[-1]
         seconds, memory = float(job["s"]), float(job.fillna(0.0)["max_rss"])  # not measured for the shortest jobs

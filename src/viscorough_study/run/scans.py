@@ -1,4 +1,4 @@
-"""Cases of the measured surfaces that the settings name."""
+"""Make cases of the measured surfaces that the settings name."""
 
 import hashlib
 import re
@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def scans(entries, indentation):
-    """{scan: description of its case (run.cases), an ensemble of one realization} of all files.
+    """Return {scan: description of its case (run.cases), an ensemble of one realization} of all files.
 
     entries : the setting `measured`; its patterns are relative to the working directory
     indentation : setting of that name
@@ -36,7 +36,7 @@ def scans(entries, indentation):
 
 
 def _content(file):
-    """Size and digest of a file, so that a scan is recomputed only if its content changes."""
+    """Return size and digest of a file, so a scan is recomputed only if its content changes."""
     with open(file, "rb") as opened:
         digest = hashlib.file_digest(opened, "sha256").hexdigest()[:16]
     return {"digest": digest, "bytes": Path(file).stat().st_size}

@@ -1,8 +1,8 @@
-"""Validation of the settings, by their schema and against each other: one line for the first error.
+"""Validate the settings, by their schema and against each other, with one line for the first error.
 
-In addition to the keywords of JSON schemas, the schema has `eachOnce` for lists of distinct entries, or, with the name
-of a key, of mappings distinct in that key; and `decimals`, the largest number of decimals, so that different Hurst
-exponents have different file names.
+In addition to the keywords of JSON schemas, the schema has `eachOnce` and `decimals`. `eachOnce` requires distinct
+entries of a list or, with the name of a key, mappings that differ in this key. `decimals` is the largest number of
+decimals, so different Hurst exponents have different file names.
 """
 
 import difflib
@@ -13,15 +13,15 @@ from itertools import chain
 
 import jsonschema
 
-# Keywords of a schema that an error message quotes.
+# Schema keywords that an error message quotes.
 _LIMITS = ("type", "enum", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems", "decimals")
 
 
 def check_settings(settings, schema, sources=None):
     """Raise ValueError unless the settings agree with the schema and with each other.
 
-    schema : of JSON, with a unit and a description for every key
-    sources : {name: settings that it gives}, each of which overrides those before it; by default none is named
+    schema : JSON schema, with a unit and a description for every key
+    sources : {name: settings that it gives}; later sources override earlier ones; by default messages name no source
     The message is one line with the source, key, value and allowed values.
     """
     standard = jsonschema.Draft202012Validator
@@ -50,7 +50,7 @@ def source_of(path, sources):
 
 
 def _is_whole(_, value):
-    return isinstance(value, int) and not isinstance(value, bool)  # JSON would take 3.0
+    return isinstance(value, int) and not isinstance(value, bool)  # JSON would accept 3.0
 
 
 def _is_finite(_, value):
@@ -128,7 +128,7 @@ def _too_short_wave(settings):
             )
 
 
-# Ends of ranges, and the least factor between them.
+# Ends of ranges, and the smallest factor between them.
 _RANGES = [
     ("ensemble.x_low", "ensemble.x_high", 10),
     ("reduction.x_low", "reduction.x_high", 10),
@@ -141,7 +141,7 @@ _RANGES = [
     ("verdicts.plateau_range.1", "ensemble.x_high", 1),
     ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
 ]
-# {setting with a list: the lower end for its entries, or None if each entry is a range itself}
+# {setting with a list: setting with the lower end for its entries, or None if each entry is a range itself}
 _RANGES_IN_LISTS = {
     "sizes.windows": None,
     "collapse.x_high": "ensemble.x_low",
@@ -157,14 +157,14 @@ def _empty_range(settings):
     for low_name, high_name, factor in ranges:
         paths = _path(low_name), _path(high_name)
         low, high = (_value(settings, path) for path in paths)
-        if high < factor * low * (1 - 1e-9):  # rounding
+        if high < factor * low * (1 - 1e-9):  # allows for rounding
             fault = "in the wrong order" if high < low else "too close"
             allowed = f"the second from {factor} times the first"
             yield paths, f"{_range_name(*paths)}: {low} and {high} are {fault}; allowed: {allowed}"
 
 
 def _path(name):
-    """Path of a setting from its name with points; whole numbers are positions in a list."""
+    """Return the path of a setting from its name with points; whole numbers are positions in a list."""
     return [int(key) if key.isdecimal() else key for key in name.split(".")]
 
 
@@ -173,12 +173,12 @@ def _value(settings, path):
 
 
 def _name(path):
-    """Name of a setting as in messages: sizes.windows[0]."""
+    """Return the name of a setting as in messages: sizes.windows[0]."""
     return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path)[1:]
 
 
 def _range_name(low, high):
-    """Name of a range from the paths of its ends."""
+    """Return the name of a range from the paths of its ends."""
     if low[:-1] != high[:-1]:
         return f"{_name(low)} and {_name(high)}"
     return f"{_name(low)} and {high[-1]}" if isinstance(low[-1], str) else _name(low[:-1])
@@ -204,7 +204,7 @@ def _too_short_curve(settings):
 
 
 def _wrong_medium(settings):
-    from viscorough.io.media import medium_from_mapping  # takes long to import
+    from viscorough.io.media import medium_from_mapping  # this import takes long
 
     for i, case in enumerate(settings["media"]["cases"]):
         try:

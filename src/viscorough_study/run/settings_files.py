@@ -1,4 +1,4 @@
-"""Reading of settings files, with errors in one line that name file and line.
+"""Read settings files, with errors in one line that name file and line.
 
     python -m viscorough_study.run.settings_files mine.yaml
 
@@ -16,7 +16,7 @@ from viscorough.io.unique_keys import UniqueKeys
 
 
 def read_settings_file(path):
-    """The mapping in a file. Raises ValueError with one line that names the file and, where possible, the line."""
+    """Read the mapping in a file. Raise a one-line ValueError that names the file and, if possible, the line."""
     with reading(path, "a mapping of YAML in UTF-8 is needed"):
         settings = yaml.load(Path(path).read_bytes().decode("utf-8-sig"), UniqueKeys)
         if not isinstance(settings, dict):
@@ -27,7 +27,7 @@ def read_settings_file(path):
 def check_command_line(arguments):
     """End this process with one line if a file of settings on the command line of Snakemake cannot be read.
 
-    arguments : of Snakemake, with --configfile or --configfiles followed by paths, or --configfile=path
+    arguments : arguments of Snakemake, with --configfile or --configfiles followed by paths, or --configfile=path
     """
     paths, reads_paths = [], False
     for argument in arguments:

@@ -1,10 +1,11 @@
-"""Digests of the source code of rules, so that an edit reruns exactly the rules that use the edited code.
+"""Compute digests of the source code of rules, so that an edit reruns exactly the rules that use it.
 
-Snakemake compares the parameters of a rule with those of its last run, but ignores changes of the modules that a script
-imports. A digest of them as a parameter closes this gap. It covers the script and all modules of our packages that it
-imports, directly or through other modules, including imports inside functions. It is computed from syntax trees without
-docstrings, so that wording, comments and layout change no digest; tables (.csv) in the folder `data` beside a module
-that names them are part of it. The syntax tree, and with it the digest, may differ between versions of Python.
+Snakemake compares the parameters of a rule with the parameters of its last run, but ignores changes of the modules that
+a script imports. A digest of these modules as a parameter closes this gap. It covers the script and all modules of our
+packages that it imports, directly or through other modules, including imports inside functions. It is computed from
+syntax trees without docstrings, so wording, comments and layout change no digest. Tables (.csv) in the folder `data`
+next to a module that names them are part of it. The syntax tree, and with it the digest, may differ between versions of
+Python.
 
 Imports by names computed at run time are not followed. A name imported from a package itself, which may be looked up
 lazily, therefore counts as an import of all modules of the package.
@@ -24,10 +25,10 @@ _WITH_DOCSTRING = (ast.Module, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassD
 
 
 class SourceDigests:
-    """Digests of scripts; modules are read once, and parsed again only if their text has changed.
+    """Compute digests of scripts; modules are read once, and parsed again only if their text has changed.
 
-    folder : of the packages
-    kept : file that keeps what was parsed for later runs; nothing depends on whether it is there
+    folder : folder of the packages
+    kept : cache file for later runs
     """
 
     def __init__(self, folder, kept):
@@ -36,7 +37,7 @@ class SourceDigests:
         self._used = {}
 
     def digest(self, script, *functions):
-        """Sixteen hexadecimal digits for a script and the modules that it uses.
+        """Return sixteen hexadecimal digits for a script and the modules that it uses.
 
         functions : dotted names of functions that the script imports by name at run time
         """
@@ -49,7 +50,7 @@ class SourceDigests:
         return _digest("\n".join(sorted(lines)))
 
     def _module(self, path):
-        """(digest of the syntax tree, files of the modules that are imported) of a file."""
+        """Return (digest of the syntax tree, files of the imported modules) of a file."""
         if path not in self._modules:
             text = path.read_text(encoding="utf-8")
             tables = {path.parent / "data" / name for name in re.findall(r"[\"'](\w+\.csv)[\"']", text)}
@@ -60,14 +61,14 @@ class SourceDigests:
         return self._modules[path]
 
     def keep(self):
-        """Write the file that keeps what was parsed."""
+        """Write the cache file."""
         if self._used.keys() != self._known.keys():
             self._kept.parent.mkdir(exist_ok=True)
             with atomic_write(self._kept) as temporary:
                 temporary.write_text(json.dumps(self._used))
 
     def _files(self, parts):
-        """Files behind an imported name, such as ["viscorough", "lines", "SelfAffineLines"]; none if it is not ours."""
+        """Return the files of an imported name, such as ["viscorough", "lines", "SelfAffineLines"], if it is ours."""
         for length in (len(parts), len(parts) - 1) if parts[0] in PACKAGES else ():
             place = self.folder.joinpath(*parts[:length])
             if place.with_suffix(".py").is_file():
@@ -78,7 +79,7 @@ class SourceDigests:
 
 
 def _parsed(text, tables):
-    """(digest of the syntax tree and the tables, imported names) of the text of a module."""
+    """Return (digest of the syntax tree and the tables, imported names) of the text of a module."""
     tree, names = ast.parse(text), set()
     for node in _statements(tree):
         if isinstance(node, _WITH_DOCSTRING) and ast.get_docstring(node, clean=False) is not None:
@@ -88,7 +89,7 @@ def _parsed(text, tables):
 
 
 def _statements(tree):
-    """Iterator over the statements of a syntax tree, at any depth, each before those in it."""
+    """Yield the statements of a syntax tree, at any depth, each before the statements in it."""
     waiting = [tree]
     while waiting:
         yield (node := waiting.pop())
@@ -97,7 +98,7 @@ def _statements(tree):
 
 
 def _imported_names(node):
-    """Dotted names that a statement imports. Raises ValueError for a relative import."""
+    """Return dotted names that a statement imports. Raises ValueError for a relative import."""
     if isinstance(node, ast.Import):
         return [alias.name for alias in node.names]
     if not isinstance(node, ast.ImportFrom):

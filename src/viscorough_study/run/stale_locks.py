@@ -1,8 +1,8 @@
-"""Removal of stale locks of Snakemake, which killed runs leave behind and which would block the next run.
+"""Remove stale locks of Snakemake, which killed runs leave behind and which would block the next run.
 
 Snakemake writes no process number into its locks. Every Snakemake in a folder therefore also holds a shared lock of the
-operating system, which is released whenever its process ends. A process that obtains this lock exclusively is alone,
-and all locks of Snakemake that it finds belong to killed runs.
+operating system, which is released whenever its process ends. If a process obtains this lock exclusively, no other
+Snakemake is running, and all locks of Snakemake belong to killed runs.
 """
 
 import contextlib

@@ -1,7 +1,7 @@
-"""Tidy tables, written as CSV and NetCDF.
+"""Read and write tidy tables as CSV and NetCDF.
 
-The NetCDF file, which has a digest of its own (viscorough.io.digest), also has the digest of the CSV file. A table that
-was cut short or changed since it was written is therefore refused, while the CSV holds nothing but the table.
+The NetCDF file contains its own digest (viscorough.io.digest) and the digest of the CSV file. So a table that was
+truncated or changed after writing is refused, while the CSV contains only the table.
 """
 
 import io
@@ -34,7 +34,7 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
     ds = xr.Dataset(attrs={"title": title} | (attributes or {}) | {CSV_DIGEST: sha256(csv).hexdigest()})
     for name, (long_name, units) in columns.items():
         values, attributes = table[name].to_numpy(), {"long_name": long_name, "units": units}
-        if not values.size:  # the types of empty columns are unspecified
+        if not values.size:  # empty columns have no types
             values = values.astype(float if units else str)
         if values.dtype.kind not in "biuf":
             values, attributes = values.astype(str), {"long_name": long_name}
@@ -62,14 +62,14 @@ def read_table(csv_path, **options):
 
 
 def recorded(**mappings):
-    """Attributes for write_table that record mappings as JSON, such as settings and machine; see `read_recorded`."""
+    """Return attributes for write_table that record mappings, such as settings, as JSON; see `read_recorded`."""
     return {name: json.dumps(mapping) for name, mapping in mappings.items()}
 
 
 def read_recorded(nc_path, name, missing=None):
-    """Mapping recorded as an attribute of a NetCDF file, of a table or of an ensemble.
+    """Return a mapping recorded as an attribute of a NetCDF file, of a table or of an ensemble.
 
-    missing : returned if the file has no such attribute; if it is None, that raises a ValueError
+    missing : value returned if the file has no such attribute; None raises a ValueError
     """
     with opened(nc_path) as file:
         return json.loads(file.getncattr(name)) if missing is None or name in file.ncattrs() else missing

@@ -1,4 +1,4 @@
-"""The answer of the study in one paragraph, from the verdicts: what holds, where, and by how much the rest differs."""
+"""Answer the study's question in one paragraph, from the verdicts: agreements, and sizes of the differences."""
 
 from viscorough_study.verdicts.claims import HELD, overall
 
@@ -17,9 +17,9 @@ REGION_C = {
 
 
 def answer(table):
-    """The answer as a paragraph of plain text, from a table of verdicts (verdicts.claims.judge).
+    """Return the answer as a paragraph of plain text, from a table of verdicts (verdicts.claims.judge).
 
-    Hurst exponents at which a claim holds are listed, and where it fails the difference stands beside them. Claims that
+    The paragraph lists the Hurst exponents at which a claim holds, and gives the difference at the others. Claims that
     the data do not decide are left out, except the collapse and the exponents.
     """
     verdicts = overall(table)
@@ -42,18 +42,18 @@ _LAST = (
 
 
 def _outcome(verdict):
-    """True if a claim holds, False if it fails at all its cases, else None."""
+    """Return True if a claim holds, False if it fails at all its cases, and None otherwise."""
     return True if verdict in HELD else False if verdict == "not reproduced" else None
 
 
 def _statement(verdicts, names, texts):
-    """The text for claims with one common outcome; empty for any other outcome."""
+    """Return the text for claims with one common outcome; empty for any other outcome."""
     outcomes = {_outcome(verdicts[name]) for name in names}
     return texts.get(outcomes.pop(), "") if len(outcomes) == 1 else ""
 
 
 def _boundary_elements(table):
-    """The sentence on the exponent of boundary elements, at all its Hurst exponents."""
+    """Return the sentence on the exponent of boundary elements, at all its Hurst exponents."""
     cases = _exponents(table, "beta", "discs")
     parts = [f"is H/(1 + H) at H = {_joined(_hursts(cases, HELD))} (the paper: above 0.4)"] if _any(cases, HELD) else []
     differences = [(case["difference"], hurst) for hurst, case in cases.items() if case["verdict"] == "not reproduced"]
@@ -65,7 +65,7 @@ def _boundary_elements(table):
 
 
 def _reduction(table):
-    """The sentence on the exponent of the MDR, and on its difference from boundary elements."""
+    """Return the sentence on the exponent of the MDR, and on its difference from boundary elements."""
     cases = _exponents(table, "beta_lines", "lines")
     text = "The method of dimensionality reduction (MDR) "
     failing = [hurst for hurst, case in cases.items() if case["verdict"] not in HELD]
@@ -80,7 +80,7 @@ def _reduction(table):
 
 
 def _exponents(table, claim, source):
-    """{H: verdict of a case, and β minus H/(1 + H)} by ascending H, of discs or lines."""
+    """Return {H: verdict of a case, and β minus H/(1 + H)} by ascending H, of discs or lines."""
     claimed, small = table[table["claim"] == claim], table[table["claim"] == "exponent_small_hurst"]
     small = small[small["case"].str.endswith(source)]
     cases = {
@@ -92,7 +92,7 @@ def _exponents(table, claim, source):
 
 
 def _hurst(case):
-    """Hurst exponent in the name of a case, such as "H = 0.4, discs"."""
+    """Return the Hurst exponent in the name of a case, such as "H = 0.4, discs"."""
     return float(case.removeprefix("H = ").split(",")[0])
 
 
@@ -105,7 +105,7 @@ def _any(cases, verdicts):
 
 
 def _joined(texts, *, comma=False):
-    """Texts joined by commas and "and"; with a comma before "and" if `comma`."""
+    """Join texts by commas and "and"; with a comma before "and" if `comma`."""
     *first, last = texts
     return ", ".join(first) + (", and " if comma else " and ") + last if first else last
 

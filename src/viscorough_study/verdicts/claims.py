@@ -1,16 +1,16 @@
-"""Verdicts on the paper's claims: a table of all cases, the verdict on each claim, and a summary in Markdown.
+"""Judge the paper's claims: a table of all cases, the verdict on each claim, and a summary in Markdown.
 
 resources/paper/claims.yaml gives the statement, kind, criterion and tolerance of every claim, and the reason of the
 tolerance. The function of a criterion has the name of the claim and is in one of the modules of criteria (`JUDGES`). It
 yields the cases of the claim from the evidence (verdicts.evidence.Evidence) and the tolerance.
 
-Other random surfaces give other numbers, on which a verdict must not depend: where a quantity has a 95 % interval, the
+Other random surfaces give other numbers, and a verdict must not depend on them. If a quantity has a 95 % interval, the
 claim is reproduced only if the whole interval lies within the tolerance, and not reproduced only if it lies wholly
-outside; otherwise it is undecided. viscorough_study.verdicts.evidence.Evidence.within describes how the numbers of
+outside. Otherwise it is undecided. viscorough_study.verdicts.evidence.Evidence.within describes how the numbers of
 cases and of realizations enter.
 
 The scoreboard (`counted_verdicts`) counts the claims on physics only. Identities and bookkeeping cannot fail by the
-physics, and what the paper does not say is not among its claims.
+physics, and statements beyond the paper are not its claims.
 """
 
 from collections import Counter
@@ -33,7 +33,7 @@ MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_cr
 
 
 def _criteria(module):
-    """{claim: criterion} of a module: its public functions of evidence and tolerance."""
+    """Return {claim: criterion} of a module: its public functions of evidence and tolerance."""
     public = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
     return {name: f for name, f in public.items() if [*signature(f).parameters][:2] == ["evidence", "tolerance"]}
 
@@ -45,7 +45,7 @@ KINDS = {
     "bookkeeping": "Bookkeeping (not counted)",
     "beyond": "Beyond the paper (not counted)",
 }
-# What the claims that fail have in common: {finding of a claim in claims.yaml: the finding in words}.
+# Common causes of claims that fail: {finding of a claim in claims.yaml: the finding in words}.
 FINDINGS = {
     "small_hurst": "at small H the exponents depart from H/(1 + H), on every grid tried at fixed X",
     "prefactor": "the prefactor differs",
@@ -75,16 +75,15 @@ COLUMNS = {
     "reason": ("why the tolerance is what it is", ""),
     "figure": ("figure that shows it", ""),
 }
-SMALLEST_SHARE = 0.5  # of the paper's elements across; on coarser grids region (b) is hardly long enough for a fit
-CASES_SHOWN_MAX = 10  # number of cases of a claim above which the summary shows three
+SMALLEST_SHARE = 0.5  # of the paper's elements across; on coarser grids region (b) is too short for a fit
+CASES_SHOWN_MAX = 10  # a claim with more cases shows three of them in the summary
 
 
 def judge(claims, evidence):
-    """Verdicts on the claims; a pandas.DataFrame with the columns of `COLUMNS`, one row per case of a claim.
+    """Judge the claims: return a pandas.DataFrame with the columns of `COLUMNS`, one row per case of a claim.
 
     claims : {name: title, quantity, kind, where, statement, criterion, tolerance, reason, figure}
-    A case whose quantity cannot be computed from the evidence, such as an exponent where there is no region (b), is
-    undecided.
+    A case whose quantity cannot be computed from the evidence, such as an exponent without a region (b), is undecided.
     """
     rows = []
     for name, claim in claims.items():
@@ -93,16 +92,16 @@ def judge(claims, evidence):
 
 
 def is_trial(elements_across, paper_elements_across):
-    """Whether discs are too coarse for a power law, so that verdicts mean nothing."""
+    """Return True if discs are too coarse for a power law, so that verdicts mean nothing."""
     return elements_across < SMALLEST_SHARE * paper_elements_across
 
 
 def scale_attributes(evidence):
-    """Attributes of the table of verdicts on the scale of the study, taken from the results, not from the settings.
+    """Return attributes of the table of verdicts on the scale of the study, from the results, not the settings.
 
-    elements_across : of the discs; paper_elements_across : of the paper's discs
+    elements_across : number across the discs; paper_elements_across : number across the paper's discs
     realizations : smallest number of discs of a Hurst exponent
-    trial : 1 for a trial, whose verdicts mean nothing, else 0
+    trial : 1 for a trial, whose verdicts mean nothing, otherwise 0
     scale : a sentence with these numbers
     """
     across, paper = evidence.across, evidence.paper_value("boundary_elements", "elements_across")
@@ -115,35 +114,35 @@ def scale_attributes(evidence):
 
 
 def overall(table):
-    """{claim: verdict}, from the verdicts of the claim's cases.
+    """Return {claim: verdict}, from the verdicts of the claim's cases.
 
     A claim with some cases that hold and some that fail is reproduced in part. Otherwise it has the worst verdict of
-    its cases, in the order of `VERDICTS`: a claim with cases that fail and none that hold is not reproduced, and one
-    with cases that hold and cases that the data do not decide is undecided.
+    its cases, in the order of `VERDICTS`: a claim with failing cases and no holding ones is not reproduced; a claim
+    with holding and undecided cases is undecided.
     """
     return {claim: _of_cases(verdicts) for claim, verdicts in table.groupby("claim", sort=False)["verdict"]}
 
 
 def _of_cases(verdicts):
-    """Verdict on a claim from those on its cases."""
+    """Return the verdict on a claim from the verdicts on its cases."""
     if "not reproduced" in set(verdicts) and verdicts.isin(HELD).any():
         return "reproduced in part"
     return max(verdicts, key=VERDICTS.index)
 
 
 def counted_verdicts(table):
-    """[(verdict, its number of claims on physics)], from best to worst."""
+    """Return [(verdict, its number of claims on physics)], from best to worst."""
     numbers = Counter(overall(physics(table)).values())
     return [(verdict, numbers[verdict]) for verdict in VERDICTS if numbers[verdict]]
 
 
 def physics(table):
-    """The cases of claims on physics, which the scoreboard counts."""
+    """Return the cases of claims on physics, which the scoreboard counts."""
     return table[table["kind"] == "physics"]
 
 
 def verdict_text(rows):
-    """Verdict on a claim as text; one in part names the Hurst exponents at which it holds.
+    """Return the verdict on a claim as text; a verdict "in part" names the Hurst exponents at which it holds.
 
     rows : the cases of one claim
     """
@@ -155,7 +154,7 @@ def verdict_text(rows):
 
 
 def case_counts(rows):
-    """Number of cases that hold and number of undecided ones as text, such as "2 of 4 cases, 1 undecided".
+    """Return the numbers of holding and of undecided cases as text, such as "2 of 4 cases, 1 undecided".
 
     rows : the cases of one claim; the text is empty if all of them hold or all of them fail
     """
@@ -166,9 +165,9 @@ def case_counts(rows):
 
 
 def findings(table, claims):
-    """{finding in words: claims on physics that are not reproduced, or only in part, for this reason}.
+    """Return {finding in words: claims on physics that are not reproduced, or only in part, for this reason}.
 
-    claims : {name: content of claims.yaml}, of which those that may fail name a finding of `FINDINGS`
+    claims : {name: content of claims.yaml}; claims that may fail name a finding of `FINDINGS`
     """
     verdicts = overall(physics(table))
     failed = [name for name, verdict in verdicts.items() if verdict in ("reproduced in part", "not reproduced")]
@@ -177,7 +176,7 @@ def findings(table, claims):
 
 
 def place(claim):
-    """Where the paper makes a claim, and whether it quotes it from earlier work.
+    """Return the place of a claim in the paper, and a remark if the paper quotes earlier work.
 
     claim : content of claims.yaml
     """
@@ -185,9 +184,12 @@ def place(claim):
 
 
 def deciding_case(rows):
-    """Index of the case that decides a claim: the one farthest from the paper's value among those of the worst verdict.
+    """Return the index of the case that decides a claim.
 
-    rows : the cases of one claim; the first such case if none can be compared with a value of the paper
+    Of all cases with the worst verdict it is the case farthest from the paper's value, or the first if none can be
+    compared with the paper.
+
+    rows : the cases of one claim
     """
     rows = rows[rows["verdict"] == max(rows["verdict"], key=VERDICTS.index)]
     distance = (rows["value"] - rows["expected"]).abs()
@@ -195,10 +197,10 @@ def deciding_case(rows):
 
 
 def markdown(table, claims):
-    """The verdicts as tables in Markdown, one for each kind: a row for each claim, and below it one for each case.
+    """Return the verdicts as Markdown tables, one for each kind: a row for each claim, then a row for each case.
 
-    Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the one that is farthest from what the paper
-    says. The number of conventions in which a case is met follows its verdict.
+    Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the case farthest from the paper. After the
+    verdict of a case comes the number of conventions that meet it.
     """
     parts, verdicts = [], overall(table)
     for kind, heading in KINDS.items():
@@ -219,7 +221,7 @@ def markdown(table, claims):
 
 
 def cases_shown(rows):
-    """The cases of a claim that a summary shows: all, or three if they are more than `CASES_SHOWN_MAX`."""
+    """Return the cases of a claim that a summary shows: all, or three if they are more than `CASES_SHOWN_MAX`."""
     if len(rows) <= CASES_SHOWN_MAX:
         return rows
     farthest = np.abs(rows["value"] - rows["expected"]).idxmax()
@@ -227,7 +229,7 @@ def cases_shown(rows):
 
 
 def _case_line(row):
-    """Row of one case in the summary."""
+    """Return the row of one case in the summary."""
     said = _digits(row["expected"]) if np.isfinite(row["expected"]) else ""
     verdict = row["verdict"] + (f": {row['convention']}" if row["convention"] else "")
     if np.isfinite(row["conventions"]):
@@ -237,7 +239,7 @@ def _case_line(row):
 
 
 def value_text(row):
-    """Value of a case, its interval in brackets, and its range, as text."""
+    """Return the value of a case, its interval in brackets, and its range, as text."""
     if not np.isfinite(row["value"]):
         return "–"
     text = _digits(row["value"])

@@ -1,4 +1,4 @@
-"""The evidence by which the paper's claims are judged, and the outcome of one case of a claim."""
+"""Hold the evidence for judging the paper's claims, and the outcome of one case of a claim."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,7 +13,7 @@ from viscorough_study.fits.conventions import FITTED, as_text, select, source_va
 from viscorough_study.fits.intervals import NO_INTERVAL, equivalence, interval
 from viscorough_study.fits.power_law import find_region
 
-# Verdicts on claims, from best to worst. A case has one of them except "reproduced in part" (verdicts.claims.overall).
+# Verdicts on claims, from best to worst. A case cannot have the verdict "reproduced in part" (verdicts.claims.overall).
 VERDICTS = (
     "reproduced",
     "reproduced under a stated convention",
@@ -21,7 +21,7 @@ VERDICTS = (
     "undecided",
     "not reproduced",
 )
-OUTCOMES = {True: "reproduced", False: "not reproduced", None: "undecided"}  # whether a criterion is met: its verdict
+OUTCOMES = {True: "reproduced", False: "not reproduced", None: "undecided"}  # {criterion is met: its verdict}
 # Columns of a case in the table of verdicts (verdicts.claims), which describes them.
 CASE = ("case", "value", "low", "high", "least", "largest", "expected", "verdict")
 CASE += ("convention", "conventions", "agreeing", "contradicting")
@@ -31,15 +31,15 @@ FEW_WIDENED = 20.0  # widening factor that verdicts from few realizations must s
 
 @dataclass(frozen=True)
 class Evidence:
-    """Data, settings and numbers of the paper by which claims are judged.
+    """Data, settings and numbers of the paper for judging claims.
 
     discs : pool of the base discs (viscorough_study.ensembles.pool)
     tables : {name: pandas.DataFrame} of the tables of the workflow that some criterion reads
-    numbers : content of resources/paper/numbers.yaml; conventions : those of the figures, {convention: value}
+    numbers : content of resources/paper/numbers.yaml; conventions : conventions of the figures, {convention: value}
     surfaces : groups of cases whose surfaces differ only in conventions that the paper leaves open
     across : elements across a disc; limits : arguments of viscorough_study.fits.power_law.find_region
     rules : decades_min and end_decades, as the settings in section `verdicts`
-    resamples, seed : of bootstraps
+    resamples, seed : arguments of bootstraps
     """
 
     discs: xr.Dataset
@@ -55,18 +55,18 @@ class Evidence:
 
     @cached_property
     def pooled(self):
-        """{H: all discs of this exponent as one ensemble, in the rms convention of the figures}, by ascending H."""
+        """Return {H: all discs of this exponent as one ensemble, in the figures' rms convention}, by ascending H."""
         return dict(sorted(self._ensembles(self.discs, "hurst").items()))
 
     @cached_property
     def whole(self):
-        """{H: the discs of `pooled` whose curves extend to region (c)}, those of the largest X."""
+        """Return {H: the discs of `pooled` whose curves extend to region (c)}, the discs with the largest X."""
         longest = pool.select(self.discs, until_x=self.discs["until_x"].values.max())
         return dict(sorted(self._ensembles(longest, "hurst").items()))
 
     @cached_property
     def combinations(self):
-        """{H: list of the ensembles of all combinations of force, viscosity, size and rms height}, as in `pooled`."""
+        """Return {H: list of the ensembles of all combinations of force, viscosity, size and rms height}."""
         return {h: list(self._ensembles(pool.select(self.discs, hurst=h), "case").values()) for h in self.pooled}
 
     def _ensembles(self, discs, name):
@@ -74,41 +74,42 @@ class Evidence:
 
     @cached_property
     def regions(self):
-        """{H: window (X_low, X_high) of region (b) of the pooled discs, None without one}."""
+        """Return {H: window (X_low, X_high) of region (b) of the pooled discs, None without one}."""
         return {hurst: find_region(ensemble, **self.limits) for hurst, ensemble in self.pooled.items()}
 
     def fits(self, source, **wanted):
-        """Base fits of "discs" or "lines", one row per Hurst exponent, in the conventions of the figures.
+        """Return base fits of "discs" or "lines", one row per Hurst exponent, in the conventions of the figures.
 
-        wanted : conventions in place of those of the figures
+        wanted : conventions that replace the conventions of the figures
         """
         wanted = self.conventions | wanted | source_values(source) | {"case_group": "base"}
         return select(self.tables["scaling"], wanted).set_index("hurst")
 
     def every_fit(self, source):
-        """Fits of "discs" or "lines" in every convention that needs a fit, of all surfaces left open by the paper."""
+        """Return fits of "discs" or "lines" in every convention that needs a fit, of all surfaces left open."""
         table = self.tables["scaling"]
         return table[(table["source"] == source) & table["case_group"].isin(self.surfaces)]
 
     def paper_value(self, section, name):
-        """A number that the paper states (resources/paper/numbers.yaml)."""
+        """Return a number that the paper states (resources/paper/numbers.yaml)."""
         return self.numbers[section][name]["value"]
 
     def are_few(self, realizations):
-        """Whether these are fewer realizations than the paper averages for a curve."""
+        """Return True for fewer realizations than the paper averages for a curve."""
         return realizations < self.paper_value("boundary_elements", "realizations_min")
 
     def within(self, values, low, high, *, realizations, cases=1):
-        """Whether a quantity lies in the range from low to high; None if the data do not decide (`equivalence`).
+        """Decide if a quantity lies in the range from low to high; None if the data do not decide (`equivalence`).
 
         values : value and 95 % interval; realizations : their number; cases : number of cases of the claim
 
-        All cases of a claim must lie within the range, for which their separate intervals are valid (intersection-union
-        test: Berger, Technometrics 24, 295 (1982)). A single case outside refutes the claim, and of many cases one may
-        be outside by chance: for this test intervals are widened to 95 % for all cases together (Bonferroni).
-        Verdicts from fewer realizations than the paper averages must hold with intervals `FEW_WIDENED` times as wide:
-        by Chebyshev's inequality one quantity lies beyond those in less than 0.07 % of all draws, for any distribution.
-        A reduced scale then decides only what other surfaces would confirm, and leaves the rest undecided.
+        A claim holds if all its cases lie within the range. For this test their separate intervals are valid
+        (intersection-union test: Berger, Technometrics 24, 295 (1982)). A single case outside refutes the claim. Since
+        one of many cases may be outside by chance, this test uses intervals widened to 95 % for all cases together
+        (Bonferroni). Verdicts from fewer realizations than the paper averages must hold with intervals `FEW_WIDENED`
+        times as wide: by Chebyshev's inequality a quantity lies beyond such an interval in less than 0.07 % of all
+        draws, for any distribution. So a run at reduced scale decides only cases that other surfaces would confirm, and
+        leaves the others undecided.
         """
         factor = FEW_WIDENED if self.are_few(realizations) else 1.0
         if equivalence(widened(values, factor), low, high):
@@ -119,13 +120,13 @@ class Evidence:
     def case(
         self, name, values, expected, allowed, *, extremes=NO_INTERVAL, others=None, holds_in="", own="", **counted
     ):
-        """Case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
+        """Return the case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
 
         counted : realizations and cases, as in `within`
         others : value and interval in every combination of the conventions that the paper leaves open, shape
-            (combinations, 3); few realizations do not tell in which of them a claim holds
+            (combinations, 3); few realizations do not show which of them a claim holds in
         holds_in : combination in words in which every case of the claim holds, "" if there is none
-        own : that of the case itself in words, by default the conventions of the figures
+        own : the combination of the case itself in words, by default the conventions of the figures
         """
         met = self.within(values, *allowed, **counted)
         if others is None or self.are_few(counted["realizations"]):
@@ -137,11 +138,12 @@ class Evidence:
         return judged(name, values, expected, met, holds_in, extremes=extremes, counts=counts)
 
     def cases_in_conventions(self, own, every, column, law, tolerance, *, names, compared=True, relative=False):
-        """Cases of a quantity that must be near the law, one for each H, with its values in all conventions.
+        """Yield cases of a quantity that must be near the law, one for each H, with its values in all conventions.
 
         own, every : rows by H in the conventions of the figures, and in every combination, with `hurst` and names
-        column : of the quantity; law : function of H; relative : whether the tolerance is that of the ratio to the law
-        names : columns that name a combination; compared : mask of the rows in whose combinations the claim may hold
+        column : column of the quantity; law : function of H; relative : True if the tolerance applies to the ratio to
+            the law
+        names : columns that name a combination; compared : mask of the rows with combinations that count for the claim
         """
         columns = [column, f"{column}_low", f"{column}_high"]
         expected = law(every["hurst"])
@@ -160,23 +162,23 @@ class Evidence:
 
 
 def widened(values, factor):
-    """Ends of an interval with their distances from the value multiplied by a factor; values : value, low, high."""
+    """Widen an interval: multiply the distances of its ends from the value by a factor; values : value, low, high"""
     value, low, high = values
     return value - factor * (value - low), value + factor * (high - value)
 
 
 def hurst_name(hurst):
-    """Name of the case of a Hurst exponent."""
+    """Return the name of the case of a Hurst exponent."""
     return f"H = {hurst:g}"
 
 
 def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, counts=(np.nan,) * 3):
-    """Case with its verdict: a dict with the keys `CASE`.
+    """Return a case with its verdict: a dict with the keys `CASE`.
 
     values : value, low, high; extremes : least, largest
-    met : whether the criterion is met in any convention, None where the data do not decide (`Evidence.within`); a value
-        that could not be computed is never decided
-    convention : in which alone it is met, if any; counts : conventions, agreeing, contradicting
+    met : True if the criterion is met in any convention, None if the data do not decide (`Evidence.within`); an
+        undefined value is always undecided
+    convention : the only convention that meets it, if any; counts : conventions, agreeing, contradicting
     """
     if not np.isfinite(values[0]):
         met, convention = None, ""
@@ -187,6 +189,6 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, 
 
 
 def exact(name, value, expected, met, values):
-    """Case of a quantity without statistical scatter; values : over grids, times or realizations, for its extremes."""
+    """Return the case of a quantity without statistical scatter; values : samples that give its extremes"""
     extremes = min(values, default=np.nan), max(values, default=np.nan)
     return judged(name, (float(value), *NO_INTERVAL), expected, bool(met), extremes=extremes)

@@ -1,4 +1,4 @@
-"""Criteria of claims on the variables that determine the contact, tested on one small rough disc.
+"""Judge claims on the variables that determine the contact, tested on one small rough disc.
 
 The claims follow from the equations of the contact for every surface, so a small disc shows them exactly. The
 integration in time solves a contact problem in every step and never uses the correspondence with the elastic problem.
@@ -19,9 +19,9 @@ from viscorough.viscous.media import Newtonian
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 from viscorough_study.verdicts.evidence import exact, hurst_name
 
-ACROSS = 33  # elements across the disc
+ACROSS = 33  # number of elements across the disc
 DEPTH = 1.5  # in rms heights; some tens of elements are in contact
-IMPULSE = 2.0  # ∫F dt/η over hL at which force histories end
+IMPULSE = 2.0  # ∫F dt/η over hL at the end of force histories
 HISTORIES = {  # times, and forces over IMPULSE, linear between times; a repeated time marks a step
     "constant": ([0.0, 1.0], [1.0, 1.0]),
     "growing": ([0.0, 0.25, 0.5, 0.75, 1.0], [0.0, 0.5, 1.0, 1.5, 2.0]),
@@ -32,23 +32,23 @@ HISTORIES = {  # times, and forces over IMPULSE, linear between times; a repeate
 }
 SCALES = (1e-3, 0.2, 7.0)  # factors of heights and depth
 UNITS = ((7.0, 1.0), (1e-3, 3.0), (0.2, 1e-2))  # factors of heights and of lengths in the plane
-FORCES = np.geomspace(1e-3, 1, 31)  # X at which curves are compared
+FORCES = np.geomspace(1e-3, 1, 31)  # values of X for the comparison of curves
 DRIVES = ((1.0, 1.0), (1.0, 5.0), (1e-2, 1.0), (30.0, 0.2))  # forces over hL and viscosities of one indentation
-STEPS = 10  # of equal impulse, in each direct integration
+STEPS = 10  # steps of equal impulse in each direct integration
 
 
 def _disc(evidence, hurst):
-    """The small disc of a Hurst exponent, of rms height and diameter 1."""
+    """Return the small disc of a Hurst exponent, of rms height and diameter 1."""
     return self_affine_disc(hurst, ACROSS, seed=realization_seed(evidence.seed, *gamma_factor_key(hurst)))
 
 
 def _case(name, deviations, tolerance):
-    """Case of the largest of several deviations, which should vanish."""
+    """Return the case of the largest of several deviations, which should vanish."""
     return exact(name, max(deviations), 0.0, max(deviations) <= tolerance, deviations)
 
 
 def history(evidence, tolerance):
-    """Differences at the end of force histories of equal impulse: elements in contact, and relative depths.
+    """Yield differences at the end of force histories of equal impulse: elements in contact, and relative depths.
 
     Histories of equal impulse reach equal depths, and should have equal contact.
     """
@@ -64,7 +64,7 @@ def history(evidence, tolerance):
 
 
 def depth_over_rms(evidence, tolerance):
-    """Number of elements whose contact at u/h changes when u and h are multiplied by the same factor."""
+    """Yield the number of elements whose contact changes when u and h are multiplied by the same factor."""
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         touching = contact_at(disc, depth=DEPTH).contact
@@ -75,10 +75,11 @@ def depth_over_rms(evidence, tolerance):
 
 
 def one_surface(evidence, tolerance):
-    """Relative differences between one surface and the same surface in other units.
+    """Yield relative differences between one surface and the same surface in other units.
 
-    κ(X) with other heights and another diameter, for every Hurst exponent, and, for the smallest one, F/(ηvL) of direct
-    integrations with other forces and viscosities at the same Ft/η, hence in the same contact.
+    They are differences of κ(X) with other heights and another diameter, for every Hurst exponent. For the smallest
+    exponent they are also differences of F/(ηvL) from direct integrations with other forces and viscosities at the same
+    Ft/η, hence in the same contact.
     """
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
@@ -91,13 +92,13 @@ def one_surface(evidence, tolerance):
 
 
 def _resistance(disc, force, viscosity):
-    """F/(ηvL) over steps of equal impulse Ft/η in a direct integration; v : velocity over a step."""
+    """Return F/(ηvL) over steps of equal impulse Ft/η in a direct integration; v : velocity over a step"""
     times = np.linspace(0.0, IMPULSE * viscosity / force, STEPS + 1)
     depth = march(disc, Load(times, force=np.full(times.size, force)), Newtonian(viscosity)).depth
     return force / (viscosity * np.diff(depth) / np.diff(times))
 
 
 def _stiffness(indenter, rms, diameter):
-    """κ at the dimensionless forces `FORCES`, for a surface of these lengths."""
+    """Return κ at the dimensionless forces `FORCES`, for a surface of these lengths."""
     force = 4 * rms * diameter * FORCES
     return indent(indenter, until_force=force[-1]).at_force(force)[1] / diameter

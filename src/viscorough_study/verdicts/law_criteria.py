@@ -1,7 +1,7 @@
-"""Criteria of claims that fitted exponents and curves follow a law of the paper.
+"""Judge claims that fitted exponents and curves follow a law of the paper.
 
-Where a claim holds in some of the conventions that the paper leaves open and fails in others, the verdict says so,
-whether those of the figures are among the former or the latter, and names the convention.
+A claim may hold in some of the conventions that the paper leaves open and fail in others. The verdict then states both,
+and names the convention, whichever of them the figures use.
 """
 
 import numpy as np
@@ -13,14 +13,14 @@ from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
 from viscorough_study.verdicts.evidence import hurst_name, judged
 from viscorough_study.verdicts.region_criteria import combinations_case
 
-SHARE_OF_SQUARE = 0.75  # lower bound of the fraction of a square's elements that its disc has
+SHARE_OF_SQUARE = 0.75  # lower bound of the share of a square's elements in its disc
 
 
 # ---- exponents
 
 
 def beta(evidence, tolerance, source="discs"):
-    """β against H/(1 + H), for the Hurst exponents for which the paper says that it holds."""
+    """Compare β with H/(1 + H), for the Hurst exponents with this claim of the paper."""
     fits, every = evidence.fits(source), evidence.every_fit(source)
     fits = fits[fits.index > evidence.paper_value("agreement", "beta_hurst_min")]
     named = {"names": list(FITTED), "compared": every["case_group"] == "base"}
@@ -28,12 +28,12 @@ def beta(evidence, tolerance, source="discs"):
 
 
 def beta_lines(evidence, tolerance):
-    """β of lines against H/(1 + H)."""
+    """Compare β of lines with H/(1 + H)."""
     return beta(evidence, tolerance, "lines")
 
 
 def exponent_small_hurst(evidence, tolerance):
-    """β of discs and of lines minus H/(1 + H), for the Hurst exponents of discs for which the paper claims nothing."""
+    """Yield β of discs and of lines minus H/(1 + H), for the discs' Hurst exponents without a claim of the paper."""
     of_discs = evidence.fits("discs")
     small = of_discs.index[of_discs.index <= evidence.paper_value("agreement", "beta_hurst_min")]
     for source in ("discs", "lines"):
@@ -47,7 +47,7 @@ def exponent_small_hurst(evidence, tolerance):
 
 
 def coincide(evidence, tolerance):
-    """β of lines minus β of discs, with the conventions in which the difference is smallest."""
+    """Return β of lines minus β of discs, with the conventions that make the difference smallest."""
     discs, lines = (evidence.every_fit(source).query("case_group == 'base'") for source in ("discs", "lines"))
     both = discs.merge(lines, on=["hurst", "average", "window_rule"], how="left", suffixes=("", "_of_lines"))
     of_lines = tuple(both[f"{name}_of_lines"] for name in ("beta", "beta_low", "beta_high"))
@@ -59,7 +59,7 @@ def coincide(evidence, tolerance):
 
 
 def hurst_only(evidence, tolerance):
-    """Standard deviation of β between combinations of force, viscosity, size and rms height, without sampling."""
+    """Yield the standard deviation of β over combinations of force, viscosity, size and h, without sampling scatter."""
     if None in evidence.regions.values():
         yield judged("all H", UNDEFINED, 0.0, None)
         return
@@ -69,9 +69,9 @@ def hurst_only(evidence, tolerance):
 
 
 def no_grid(evidence, tolerance):
-    """Factor by which a tenfold number of elements changes κ at given u/h (fits.grid_dependence); extremes: of κ.
+    """Yield the factor on κ at given u/h for a tenfold number of elements (fits.grid_dependence); extremes: of κ.
 
-    How many realizations a grid has enters by the interval of the factor, which is over grids.
+    The number of realizations of a grid enters through the interval of the factor.
     """
     table, ends = evidence.tables["grid_dependence"], (1 / (1 + tolerance), 1 + tolerance)
     table = table[table["quantity"].str.startswith("κ at u/h") & (table["compared"] == 1)].dropna(subset="factor")
@@ -85,9 +85,9 @@ def no_grid(evidence, tolerance):
 
 
 def realizations(evidence, tolerance):
-    """Half the width of the 95 % interval of β from as many indentations as the paper averages in Fig. 4.
+    """Return half the width of the 95 % interval of β for the paper's number of indentations in Fig. 4.
 
-    Its interval is that of the standard deviation of a normal distribution, by the χ² distribution.
+    Its interval follows from the χ² distribution of a standard deviation of normal samples.
     """
     number = evidence.paper_value("boundary_elements", "realizations_fig4")
 
@@ -99,7 +99,7 @@ def realizations(evidence, tolerance):
 
 
 def _cases_in_regions(evidence, evaluate, expected, allowed):
-    """Cases of a quantity in region (b) of the pooled discs, one for each Hurst exponent; undecided without a region.
+    """Yield cases of a quantity in region (b) of the pooled discs, one for each H; undecided without a region.
 
     evaluate : function of H, ensemble and window; returns value and interval, and the number of realizations
     """
@@ -111,7 +111,7 @@ def _cases_in_regions(evidence, evaluate, expected, allowed):
 
 
 def _slopes(ensemble, window):
-    """Slope of ln(vt/h) over ln X in a window, for every realization defined there."""
+    """Return the slope of ln(vt/h) over ln X in a window, for every realization defined in it."""
     inside = in_window(ensemble["x"].values, window)
     log_x, log_velocity = np.log(ensemble["x"].values[inside]), np.log(ensemble["velocity"].values[:, inside])
     log_velocity = log_velocity[np.isfinite(log_velocity).all(axis=1)]
@@ -119,7 +119,7 @@ def _slopes(ensemble, window):
 
 
 def alpha_limit(evidence, tolerance):
-    """β at H = 1, where the paper calls the exponent exact: of lines, and of discs on the paper's grid."""
+    """Yield β at H = 1, for which the paper calls the exponent exact: of lines, and of discs on the paper's grid."""
     wanted = evidence.conventions | source_values("discs") | {"case_group": "sizes"}
     discs = select(evidence.tables["sizes"], wanted).set_index("hurst")
     discs = discs[discs["elements"] >= SHARE_OF_SQUARE * evidence.across**2].sort_values("elements", kind="stable")
@@ -134,7 +134,7 @@ def alpha_limit(evidence, tolerance):
 
 
 def depth(evidence, tolerance):
-    """(1 − α)κu/(hX) at the centre, where u/h = ∫dX/κ, with κ constant below the first abscissa."""
+    """Return (1 − α)κu/(hX) at the centre of region (b), with u/h = ∫dX/κ, and κ constant below the first abscissa."""
 
     def ratio(hurst, ensemble, betas, zetas, centre):
         x, softness = ensemble["x"].values, 1 / ensemble["stiffness"].values
@@ -149,7 +149,7 @@ def depth(evidence, tolerance):
 
 
 def master_curve(evidence, tolerance):
-    """vt/h over the right side of Eq. 12 as printed, of discs, and of lines at the same Hurst exponents."""
+    """Yield vt/h over the right side of Eq. 12 as printed, of discs, and of lines at the same Hurst exponents."""
 
     def ratio(hurst, ensemble, betas, zetas, centre):
         return centre**betas / zetas / reference.rate_law(centre, hurst, gamma=True)
@@ -161,7 +161,7 @@ def master_curve(evidence, tolerance):
     for hurst, row in lines.iterrows():
         centre = np.sqrt(row["x_low"] * row["x_high"])
         value = ratio(hurst, None, row["beta"], row["zeta"], centre)
-        # The relative error of ζ, which is that at X = 1, bounds that at the centre of the fit.
+        # The relative error of ζ belongs to X = 1, and bounds the error at the centre of the fit.
         zeta, zeta_low, zeta_high = interval(row, "zeta")
         values = value, value * zeta / zeta_high, value * zeta / zeta_low
         context = {"realizations": row["realizations"], "cases": len(discs) + len(lines)}
@@ -169,9 +169,9 @@ def master_curve(evidence, tolerance):
 
 
 def _cases_at_centre(evidence, tolerance, ratio):
-    """Cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
+    """Return cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
 
-    ratio : function of H, ensemble, β and ζ fitted in region (b), and centre; returns it and its resamples
+    ratio : function of H, ensemble, β and ζ fitted in region (b), and centre; returns the ratio and its resamples
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
 

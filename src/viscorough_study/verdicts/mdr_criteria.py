@@ -1,8 +1,8 @@
-"""Criteria of claims on lines that represent surfaces: λ, exponents, contact area, separation, single surfaces.
+"""Judge claims on lines that represent surfaces: λ, exponents, contact area, separation, single surfaces.
 
-The paper calls the applicability of the method of dimensionality reduction proven, and compares exponents. The other
-quantities that a line would have to reproduce are judged here as well: Lyashenko, Pastewka & Persson (Tribology Letters
-52, 223 (2013)) find that it reproduces neither contact area nor separation.
+The paper calls the applicability of the method of dimensionality reduction proven, and compares exponents. Other
+quantities that a line should reproduce are judged here as well: Lyashenko, Pastewka & Persson (Tribology Letters 52,
+223 (2013)) find that it reproduces neither contact area nor separation.
 """
 
 import numpy as np
@@ -14,22 +14,22 @@ EQUAL_WINDOWS = ("same X", "same κ")
 
 
 def lambda_constant(evidence, tolerance):
-    """λ at the upper end of region (b) over λ at the lower end."""
+    """Return λ at the upper end of region (b) over λ at the lower end."""
     return _cases(evidence, evidence.tables["mdr_summary"], "drift", 1.0, (1 / (1 + tolerance), 1 + tolerance))
 
 
 def exact_correspondence(evidence, tolerance):
-    """Error of ln(vt/h) with the best single λ at the upper end of region (b)."""
+    """Return the error of ln(vt/h) with the best single λ at the upper end of region (b)."""
     return _cases(evidence, evidence.tables["mdr_summary"], "error_trend", 0.0, (-tolerance, tolerance))
 
 
 def whole_curve(evidence, tolerance):
-    """The largest error of ln(vt/h) over the whole curve with the λ that is best in region (b)."""
+    """Return the largest error of ln(vt/h) over the whole curve, with the λ that is best in region (b)."""
     return _cases(evidence, evidence.tables["mdr_summary"], "error_whole", 0.0, (-tolerance, tolerance))
 
 
 def _cases(evidence, table, column, expected, allowed):
-    """Cases of a column of a table, one for each row, named by H and, if it has one, by its window."""
+    """Yield cases of a column of a table, one for each row, named by H and, if it has one, by its window."""
     for row in table.to_dict("records"):
         name = hurst_name(row["hurst"]) + (f", {row['window']}" if "window" in row else "")
         context = {"realizations": row["realizations"], "cases": len(table)}
@@ -37,25 +37,25 @@ def _cases(evidence, table, column, expected, allowed):
 
 
 def coincide_equal_windows(evidence, tolerance):
-    """β of lines minus β of discs, both fitted in the same range of X, and both in the same range of κ."""
+    """Return β of lines minus β of discs, both fitted in the same range of X, and both in the same range of κ."""
     table = evidence.tables["mdr_exponents"]
     return _cases(evidence, table[table["window"].isin(EQUAL_WINDOWS)], "difference", 0.0, (-tolerance, tolerance))
 
 
 def line_area(evidence, tolerance):
-    """Contact fraction of lines over that of discs."""
+    """Return the contact fraction of lines over the contact fraction of discs."""
     return _at_centres(evidence, "area_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
 
 def line_gap(evidence, tolerance):
-    """Mean gap of lines over that of discs."""
+    """Return the mean gap of lines over the mean gap of discs."""
     return _at_centres(evidence, "gap_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
 
 def single_surface(evidence, tolerance):
-    """Factor between κ of a disc and its line: one standard deviation of the logarithm of their ratio.
+    """Return the factor between κ of a disc and its line: one standard deviation of the logarithm of their ratio.
 
-    The interval is that of the standard deviation of a normal distribution, by the χ² distribution.
+    The interval follows from the χ² distribution of a standard deviation of normal samples.
     """
 
     def factor(row, column):
@@ -65,9 +65,10 @@ def single_surface(evidence, tolerance):
 
 
 def _at_centres(evidence, column, allowed, values=interval):
-    """Cases of the comparison surface by surface at the centre of region (b), with the extremes over the region.
+    """Yield cases of the comparison by surface at the centre of region (b), with the extremes over the region.
 
-    column : must be defined; values : function of a row of the comparison and the column, returns value and interval
+    column : column that must be defined; values : function of a row of the comparison and the column, returns value and
+        interval
     """
     table = evidence.tables["reduction"].dropna(subset=column)
     for hurst, window in evidence.regions.items():

@@ -1,4 +1,4 @@
-"""Criteria of claims on the methods: the factor Γ, the line of the MDR, and counts."""
+"""Judge claims on the methods: the factor Γ, the line of the MDR, and counts."""
 
 import numpy as np
 
@@ -6,22 +6,22 @@ from viscorough.surfaces import cut_disc
 from viscorough_study.fits.intervals import UNDEFINED, difference
 from viscorough_study.verdicts.evidence import exact, judged
 
-SMALL_ERROR = 0.01  # error of the velocity at which the steps of explicit integration are counted
-HUNDREDS = 100  # fewest contact problems that are "some hundreds"
+SMALL_ERROR = 0.01  # error of the velocity for the count of explicit steps
+HUNDREDS = 100  # smallest number of contact problems that is "some hundreds"
 EXPLICIT = "explicit, logarithmic steps"  # method of the table of methods that solves a contact problem in every step
 
 
 def gamma(evidence, tolerance):
-    """Depth of direct integrations in time over the elastic depth, against the factor of Eq. 8."""
+    """Compare the depth of direct integrations in time, over the elastic depth, with the factor of Eq. 8."""
     for name, rows in evidence.tables["direct"].groupby("case", sort=False):
         ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
         yield exact(name, ratio.median(), factor, (np.abs(ratio - factor) <= tolerance).all(), ratio)
 
 
 def line_spectrum(evidence, tolerance):
-    """λ at the largest Hurst exponent over λ at the smallest, with the smallest and the largest λ/π of all.
+    """Yield λ at the largest Hurst exponent over λ at the smallest, with the smallest and the largest λ/π of all.
 
-    Where λ varies with H by more than the tolerance, it is no constant, and so not π. The two λ are independent, so the
+    If λ varies with H by more than the tolerance, it is not constant, and so not π. The two λ are independent, so the
     half-widths of the intervals of their logarithms add in quadrature.
     """
     fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high", "realizations"]].dropna()
@@ -39,7 +39,7 @@ def line_spectrum(evidence, tolerance):
 
 
 def bodies_of_revolution(evidence, tolerance):
-    """Error of the reduction on the finest grid, with the smallest and largest error over all grids."""
+    """Yield the error of the reduction on the finest grid, with the smallest and largest error over all grids."""
     validation = evidence.tables["validation"]
     rows = validation[validation["case"].str.endswith("_reduction")]
     for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
@@ -49,7 +49,7 @@ def bodies_of_revolution(evidence, tolerance):
 
 
 def elements(evidence, tolerance):
-    """Number of elements of a disc as large as the paper's; least and largest: without and with those on the rim."""
+    """Yield the elements of a disc as large as the paper's; least and largest: without and with elements on the rim."""
     across, paper_count = (evidence.paper_value("boundary_elements", name) for name in ("elements_across", "elements"))
     count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
     x = np.arange(across) - (across - 1) / 2
@@ -59,11 +59,11 @@ def elements(evidence, tolerance):
 
 
 def contact_problems(evidence, tolerance):
-    """Number of contact problems in one indentation: of changes of the contact, and of steps to a given accuracy.
+    """Yield the contact problems of one indentation: changes of the contact, and steps to a given accuracy.
 
-    Every element that comes into contact is a change; the extremes are over the discs. The steps are the fewest of
-    explicit integration with an error of the velocity below `SMALL_ERROR`; the extremes are over the rough discs on
-    which it was reached, of any number of elements.
+    Every element that comes into contact is a change; the extremes are over the discs. The number of steps is the
+    smallest of explicit integration with an error of the velocity below `SMALL_ERROR`; the extremes are over all rough
+    discs that reach this error, of any number of elements.
     """
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
     methods = evidence.tables["methods"]
@@ -81,6 +81,6 @@ def contact_problems(evidence, tolerance):
 
 
 def _rough_discs(evidence):
-    """Rows of the table of methods on rough discs as large as the paper's."""
+    """Return rows of the table of methods on rough discs as large as the paper's."""
     methods, across = evidence.tables["methods"], evidence.paper_value("boundary_elements", "elements_across")
     return methods[methods["hurst"].notna() & (methods["elements"] == across)]

@@ -1,4 +1,4 @@
-"""Criteria of claims on the form of the curves: their collapse, and the regions (a), (b) and (c)."""
+"""Judge claims on the form of the curves: their collapse, and the regions (a), (b) and (c)."""
 
 from itertools import pairwise
 
@@ -11,18 +11,19 @@ from viscorough_study.fits.plateau import inner_slopes
 from viscorough_study.verdicts.evidence import exact, hurst_name, judged
 
 ROUNDING = 1e-9  # relative difference below which numbers of decades count as equal
-LEFT_REGION = 2.0  # ratio of κ to that of one element at which a curve leaves region (a)
+LEFT_REGION = 2.0  # a curve leaves region (a) when κ exceeds κ of one element by this factor
 SLOPE_OF_LINE = 0.05  # deviation of a slope from 1 that is invisible in Fig. 2
 POWER_LAWS_LOST_MAX = 0.05  # largest fraction of synthetic power laws that may fail the test
 ONE_ELEMENT = 1 + 1e-9  # largest contact count, interpolated logarithmically, that is a single element
 
 
 def collapse(evidence, tolerance):
-    """Scatter of ln(vt/h) between combinations, over that between Hurst exponents, at one X in all regions (b).
+    """Yield the scatter of ln(vt/h) between combinations over the scatter between Hurst exponents, at one X.
 
-    The scatter of combinations is the component of variance between them (`excess_variance`), without the sampling
-    scatter of their means, pooled over all Hurst exponents: the upper end of the interval from the nine combinations of
-    a single one would be twice that from the 36 of four.
+    This X lies in all regions (b). The scatter of combinations is the component of variance between them
+    (`excess_variance`), without the sampling scatter of their means. It is pooled over all Hurst exponents: the
+    interval from the nine combinations of a single exponent would have an upper end twice as large as the interval from
+    the 36 combinations of four.
     """
     windows = [window for window in evidence.regions.values() if window is not None]
     if len(windows) < 2 or len(windows) < len(evidence.regions):
@@ -39,10 +40,10 @@ def collapse(evidence, tolerance):
 
 
 def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
-    """Case of the standard deviation between the combinations of one Hurst exponent, over all Hurst exponents.
+    """Return the case of the standard deviation between combinations of one H, pooled over all H.
 
     sets : for every Hurst exponent the samples of its combinations, as in `excess_variance`; unit : of the result
-    Least and largest are those of single Hurst exponents, whose few combinations determine them poorly.
+    Least and largest belong to single Hurst exponents, whose few combinations determine them poorly.
     """
     *values, _ = np.sqrt(excess_variance(sets)) / unit
     single = [np.sqrt(excess_variance([groups])[0]) / unit for groups in sets]
@@ -52,15 +53,15 @@ def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
 
 
 def excess_variance(sets):
-    """Component of variance between groups, from a one-way analysis of variance with random effects.
+    """Return the component of variance between groups, by one-way analysis of variance with random effects.
 
-    sets : for each set of groups the samples of its groups, shape (realizations,), nan where undefined; variances are
+    sets : for each set of groups the samples of its groups, shape (realizations,), nan if undefined; variances are
         taken within sets, whose means may differ
 
-    With n realizations per group, MS_between/MS_within over 1 + n σ_b²/σ_w² has the F distribution, so that
-    σ_b² = (MS_between/MS_within/F_p − 1) σ_w²/n at its quantiles F_p, or 0 where that is negative. With MS_within for
-    σ_w² the interval is exact for the ratio of the two variances. Its upper end is never below that of groups with the
-    sampling scatter alone, MS_between = MS_within: means closer together than expected by chance are no evidence of a
+    With n realizations per group, MS_between/MS_within over 1 + n σ_b²/σ_w² has the F distribution, so σ_b² =
+    (MS_between/MS_within/F_p − 1) σ_w²/n at its quantiles F_p, or 0 if this is negative. With MS_within for σ_w² the
+    interval is exact for the ratio of the two variances. Its upper end is at least the upper end for groups with
+    sampling scatter only, MS_between = MS_within: means closer together than expected by chance are no evidence of a
     smaller component (power-constrained limit: Cowan, Cranmer, Gross & Vitells, arXiv:1105.3166).
     Returns the median, the two ends of the 95 % interval, and σ_w²/n, the sampling variance of the means of groups; nan
     for too few groups or realizations.
@@ -80,7 +81,7 @@ def excess_variance(sets):
 
 
 def first_region(evidence, tolerance):
-    """κ while one element is in contact, over π/(K₀₀ n)."""
+    """Yield κ while one element is in contact, over π/(K₀₀ n)."""
     for hurst, ensemble in evidence.pooled.items():
         alone = ensemble["contact_count"].values <= ONE_ELEMENT
         ratio = ensemble["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
@@ -89,7 +90,7 @@ def first_region(evidence, tolerance):
 
 
 def last_region(evidence, tolerance):
-    """Xh/(vt), which is κ, and the slope of ln(vt/h) over ln X, where curves end."""
+    """Yield Xh/(vt), which is κ, and the slope of ln(vt/h) over ln X, at the end of the curves."""
     paper_slope = evidence.paper_value("regions", "slope_last")
     for hurst, ensemble in evidence.whole.items():
         x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
@@ -104,13 +105,13 @@ def last_region(evidence, tolerance):
 
 
 def _mean_case(evidence, name, samples, expected, allowed, **counts):
-    """Case of the mean of a quantity over realizations; counts : number of cases."""
+    """Return the case of the mean of a quantity over realizations; counts : number of cases"""
     counts |= {"realizations": samples.size, "extremes": (samples.min(), samples.max())}
     return evidence.case(name, mean_with_interval(samples), expected, allowed, **counts)
 
 
 def power_law(evidence, tolerance):
-    """Half the spread of the local slope within region (b) (viscorough_study.fits.plateau)."""
+    """Yield half the spread of the local slope within region (b) (viscorough_study.fits.plateau)."""
     plateaus = evidence.tables["plateaus"].query("case_group == 'base'")
     for row in plateaus.to_dict("records"):
         context = {"realizations": row["realizations"], "cases": len(plateaus)}
@@ -120,7 +121,7 @@ def power_law(evidence, tolerance):
 
 
 def power_law_decades(evidence, tolerance):
-    """Decades over which the local slope is constant within the tolerance (viscorough_study.fits.plateau).
+    """Yield the decades with constant local slope, within the tolerance (viscorough_study.fits.plateau).
 
     Scatter shortens plateaus, so a curve fails only if power laws with the same scatter pass.
     """
@@ -134,9 +135,9 @@ def power_law_decades(evidence, tolerance):
 
 
 def power_law_control(evidence, tolerance):
-    """Half the spread of the local slope within region (b) of discs without long waves, which have no power law.
+    """Yield half the spread of the local slope in region (b) of discs without long waves, hence without a power law.
 
-    The claim is that the test of `power_law` tells them apart, hence that their spread is above its tolerance.
+    The claim is that the test of `power_law` rejects them, so their spread must be above its tolerance.
     """
     plateaus = evidence.tables["plateaus"].query("case_group != 'base'")
     if plateaus.empty:
@@ -148,9 +149,10 @@ def power_law_control(evidence, tolerance):
 
 
 def separation(evidence, tolerance):
-    """X at which curves leave region (a) for one Hurst exponent over that of the next larger one; above 1 if later.
+    """Yield the X at the end of region (a) for one Hurst exponent over the X for the next larger exponent.
 
-    Region (a) ends where the geometric mean of κ is `LEFT_REGION` times that of one element.
+    The ratio is above 1 if the larger exponent leaves first. Region (a) ends when the geometric mean of κ reaches
+    `LEFT_REGION` times κ of one element.
     """
     ends, level = {}, np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
     for i, (hurst, ensemble) in enumerate(evidence.pooled.items()):
@@ -159,7 +161,7 @@ def separation(evidence, tolerance):
         # Different seeds make the bootstrap samples of ensembles independent.
         means = resampled_means(stiffness, evidence.resamples, np.random.default_rng([evidence.seed, i]))
         log_x = np.log(ensemble["x"].values[: means.shape[1]])
-        # ln X of the ensemble, then of the samples; nan where the end is not reached.
+        # ln X of the ensemble, then of the samples; nan if the end is not reached.
         ends[hurst] = np.array([np.interp(level, mean, log_x, left=np.nan, right=np.nan) for mean in means])
     for lower, higher in pairwise(ends):
         ratios = np.exp(ends[lower] - ends[higher])
@@ -169,7 +171,7 @@ def separation(evidence, tolerance):
 
 
 def complete_contact(evidence, tolerance):
-    """Contact fraction at the X from which on the local slope is 1 within `SLOPE_OF_LINE`."""
+    """Yield the contact fraction at the X from which on the local slope is 1 within `SLOPE_OF_LINE`."""
     for hurst, ensemble in evidence.whole.items():
         defined = ensemble["fraction_defined"].values == 1
         log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
@@ -184,7 +186,7 @@ def complete_contact(evidence, tolerance):
 
 
 def complete_contact_end(evidence, tolerance):
-    """Contact fraction at the largest X at which all curves are defined."""
+    """Yield the contact fraction at the largest X that all curves reach."""
     for hurst, ensemble in evidence.whole.items():
         last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
         name = f"{hurst_name(hurst)}, at X = {ensemble['x'].values[last]:.3g}"
@@ -192,6 +194,6 @@ def complete_contact_end(evidence, tolerance):
 
 
 def _contact_case(evidence, name, ensemble, abscissa, tolerance):
-    """Case of the mean contact fraction, which should be 1, at an abscissa given by its index."""
+    """Return the case of the mean contact fraction, which should be 1, at an abscissa given by its index."""
     fractions = ensemble["contact_count"].values[:, abscissa] / ensemble["elements"].item()
     return _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=len(evidence.pooled))

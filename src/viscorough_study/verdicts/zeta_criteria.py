@@ -1,7 +1,7 @@
-"""Criteria of claims on the prefactor ζ: absolute, up to a factor common to all H, and comparison of laws.
+"""Judge claims on the prefactor ζ: absolute, up to a factor common to all H, and comparison of laws.
 
-They use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). Where an absolute claim fails in
-the conventions of the figures but holds in others that the paper leaves open, including those of the surfaces, the
+They use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). If an absolute claim fails in the
+conventions of the figures but holds in others that the paper leaves open, including conventions of the surfaces, the
 verdict names the conventions with the smallest deviation.
 """
 
@@ -11,44 +11,44 @@ from viscorough import reference
 from viscorough_study.fits.conventions import VALUES, in_reading
 from viscorough_study.fits.zeta_laws import difference, measure_value
 
-# By which one law fits better than another (fits.zeta_laws): the one of the criterion, and others.
+# Measures by which one law fits better than another (fits.zeta_laws): the measure of the criterion, and others.
 MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), ("zeta", "spread"))
 
 
 def zeta_elastic(evidence, tolerance):
-    """ζ against Eq. 4, which is a law of the elastic contact, without the factor."""
+    """Compare ζ with Eq. 4, a law of the elastic contact without the factor 1/Γ(2 − α)."""
     return _absolute(evidence, tolerance, reference.zeta_elastic, "without")
 
 
 def zeta_viscous(evidence, tolerance):
-    """ζ against Eq. 11, which the paper fitted with Eq. 9, which has the factor."""
+    """Compare ζ with Eq. 11, which the paper fitted with Eq. 9, a law with the factor 1/Γ(2 − α)."""
     return _absolute(evidence, tolerance, reference.zeta_viscous, "with")
 
 
 def _absolute(evidence, tolerance, law, gamma):
-    """Cases of ζ against a law, a function of H, one for each Hurst exponent."""
+    """Return cases of ζ against a law, a function of H, one for each Hurst exponent."""
     every = in_reading(evidence.every_fit("discs"), gamma).rename(columns={"case_group": "surfaces"})
     own, named = evidence.fits("discs", gamma=gamma), {"names": [*VALUES, "surfaces"], "relative": True}
     return evidence.cases_in_conventions(own, every, "zeta", law, tolerance, **named)
 
 
 def zeta_elastic_shape(evidence, tolerance):
-    """Spread between Hurst exponents of ζ over Eq. 4, without the factor 1/Γ(2 − α), up to a common factor."""
+    """Return the spread of ζ over Eq. 4 between Hurst exponents, without 1/Γ(2 − α), up to a common factor."""
     return _spreads(evidence, tolerance, "zeta", "Eq. 4, without Γ")
 
 
 def zeta_viscous_shape(evidence, tolerance):
-    """Spread between Hurst exponents of ζ over Eq. 11, with the factor 1/Γ(2 − α), up to a common factor."""
+    """Return the spread of ζ over Eq. 11 between Hurst exponents, with 1/Γ(2 − α), up to a common factor."""
     return _spreads(evidence, tolerance, "zeta", "Eq. 11, with Γ")
 
 
 def master_curve_shape(evidence, tolerance):
-    """Spread between Hurst exponents, at the same X, of vt/h over the right side of Eq. 12."""
+    """Return the spread between Hurst exponents, at the same X, of vt/h over the right side of Eq. 12."""
     return _spreads(evidence, tolerance, "curve", "Eq. 11, with Γ")
 
 
 def _spreads(evidence, tolerance, quantity, law):
-    """Cases of the spread, which is 0 where a law holds up to a factor: for all Hurst exponents and from 0.4 on."""
+    """Yield cases of the spread, which is 0 if a law holds up to a factor: for all H, and from H = 0.4 on."""
     table = evidence.tables["zeta_laws"]
     counts = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
     for hurst_min in table["hurst_min"].unique():
@@ -58,11 +58,11 @@ def _spreads(evidence, tolerance, quantity, law):
 
 
 def zeta_better(evidence, tolerance):
-    """Deviation from Eq. 4 less that from Eq. 11 of vt/h with the exponent H/(1 + H); positive if Eq. 11 is better.
+    """Yield the deviation of vt/h from Eq. 4 minus the deviation from Eq. 11; positive if Eq. 11 is better.
 
-    Both with the factor 1/Γ(2 − α), as in the paper, and each in its own reading, Eq. 4 without the factor. The paper
-    does not say by which measure the law fits better: the others are the spread of the curves over H, and deviation and
-    spread of the fitted ζ.
+    The exponent is H/(1 + H). Both laws are taken with the factor 1/Γ(2 − α), as in the paper, and each in its own
+    reading, that is, Eq. 4 without the factor. The paper does not say by which measure the law fits better: the others
+    are the spread of the curves over H, and deviation and spread of the fitted ζ.
     """
     table = evidence.tables["zeta_laws"]
     readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}

@@ -140,7 +140,7 @@ def answer_lines():
     total = sum(number for _, number in counted_verdicts(table))
     failing = "; ".join(findings(table, CLAIMS))
     number = ["one finding", "two findings", "three findings", "four findings"][len(findings(table, CLAIMS)) - 1]
-    scoreboard = f"Of {total} claims on physics: {counts}. What fails is {number}: {failing}."
+    scoreboard = f"Of {total} claims on physics: {counts}. The failures follow from {number}: {failing}."
     return paragraph(f"**{answer(table)}**") + "\n" + paragraph(scoreboard)
 
 
@@ -230,7 +230,7 @@ def time_sentence():
         f"**{weeks.capitalize()} in the paper, {default_minutes()} here**: from `git clone` to the page on a virtual "
     )
     text += (
-        f"machine ({machine}, {measured}), with as many discs as in the paper, and shorter lines. The packages take "
+        f"machine ({machine}, {measured}), with as many discs as the paper, and shorter lines. The packages take "
     )
     text += (
         f"{seconds['environment']:.0f} seconds of this, and the compiler {seconds['compilation']:.0f}, both only once."

@@ -282,7 +282,7 @@ QUOTED = {
         ),
         "it is {:.1f} to {:.1f} times that of Eq. 4 there, and {:.1f} to {:.1f} times": lambda: stiffness_over()[0.1],
         "then be {:.2f}, {:.2f}, {:.2f} and {:.2f} times Eq. 11": lambda: prefactors()["ratio_if_radius"],
-        "{:.2f} at *H* = 0.1. Why": lambda: 1 - base_fits()["beta"][0.1],
+        "{:.2f} at *H* = 0.1. The reason": lambda: 1 - base_fits()["beta"][0.1],
         "*H* = 0.9, 20), {:.0f}, {:.0f}, {:.0f} and {:.0f} % of": lambda: 100 * value("complete_contact_end"),
         "Up to {} times the bound": lambda: str(_RELAXED_BOUND),
     },

@@ -1,4 +1,4 @@
-"""How Sphinx builds the pages in this folder into build/docs (`make docs`); nothing is loaded from the network."""
+"""Configure how Sphinx builds the pages of this folder into build/docs (`make docs`), without network access."""
 
 import importlib
 import importlib.metadata
@@ -13,7 +13,7 @@ from docutils.utils.math import latex2mathml
 
 from viscorough.cli import cli
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))  # pages have the columns of their tables
+sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))  # pages contain the columns of their tables
 
 project = "viscorough"
 release = importlib.metadata.version("viscorough")
@@ -21,14 +21,14 @@ release = importlib.metadata.version("viscorough")
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
-nitpicky = True  # a reference that leads nowhere is a warning, and warnings are errors
+nitpicky = True  # a reference without a target is a warning, and warnings are errors
 nitpick_ignore_regex = [("py:class", "array|bool|float|int|str")]  # types of attributes, in words
 default_role = "code"  # `names` in docstrings
 html_math_renderer = "mathml"
 
 autodoc_default_options = {"members": True, "member-order": "bysource"}
 autodoc_preserve_defaults = True
-autodoc_typehints = "none"  # docstrings say more
+autodoc_typehints = "none"  # docstrings describe the types
 napoleon_google_docstring = False
 napoleon_use_param = False
 napoleon_use_rtype = False
@@ -38,25 +38,25 @@ html_title = f"viscorough {release}"
 html_copy_source = False
 html_show_sphinx = False
 
-# Texts beside the docs that pages here include: pages link to the files, so that they can also be read unbuilt.
+# Pages include texts from outside docs/. Links lead to these files, so they also work in the unbuilt pages.
 _PAGE_OF = {"../config/README.md": "settings.md", "../results/README.md": "output.md", "../README.md": "index.md"}
 
 
 # Columns of a block of code that the theme shows without scrolling.
 _CODE_WIDTH = 84
-# A symbol with an index, as κ_c or τ_i.
+# A symbol with an index, such as κ_c or τ_i.
 _WITH_INDEX = re.compile(r"(?<![\w.])([^\W\d_])_(\w)(?!\w)")
 
 
 def help_text(name):
-    """Text that `viscorough COMMAND --help` prints, in lines that fit into a block of code."""
+    """Return the text of `viscorough COMMAND --help`, in lines that fit into a block of code."""
     settings = cli.context_settings | {"terminal_width": _CODE_WIDTH}
     context = click.Context(cli.commands[name], info_name=f"viscorough {name}", **settings)
     return cli.commands[name].get_help(context)
 
 
 class CommandHelp(Directive):
-    """The text that `viscorough COMMAND --help` prints; the argument is the command."""
+    """Show the text of `viscorough COMMAND --help`; the argument is the command."""
 
     required_arguments = 1
 
@@ -66,7 +66,7 @@ class CommandHelp(Directive):
 
 
 class TableColumns(Directive):
-    """The columns of a table: meaning and unit, from `COLUMNS`, or from the second argument, of a module."""
+    """Show the columns of a table with meaning and unit, from `COLUMNS` of a module or from the second argument."""
 
     required_arguments, optional_arguments = 1, 1
 
@@ -92,7 +92,7 @@ def _link_to_pages(_app, _page, source):
 
 
 def _skip_tuple_fields(_app, _what, _name, member, _skip, _options):
-    """Fields of a NamedTuple are described in its docstring; by themselves they are aliases of numbers."""
+    """Leave out the fields of a NamedTuple, which Sphinx would show as aliases of numbers; its docstring has them."""
     return True if type(member).__name__ == "_tuplegetter" else None
 
 

@@ -1,6 +1,6 @@
 """Draw the rules of the workflow by stages, from Snakemake's own graph: python docs/draw_rules.py
 
-The picture is docs/rules.png. It holds the edges that it was drawn from, as text under `SOURCE`.
+The picture is docs/rules.png. It contains its edges as text under `SOURCE`.
 """
 
 import re
@@ -15,14 +15,14 @@ from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE, SOURCE = ROOT / "docs/rules.png", "Description"
-OF_ALL = ("tabulate_rule_costs",)  # needs nearly every rule
+OF_ALL = ("tabulate_rule_costs",)  # needs almost every rule
 # {stage: (names of its rules, or their beginnings; colour)} from left to right
 STAGES = {
     "surface generation": (("generate_", "prepare_"), "#cfe3f5"),
     "indentation": (("indent_", "reduce_"), "#c5e8d5"),
     "aggregation": (("aggregate_",), "#f9e2a8"),
-    "fits and measurements": ((), "#f6d3bd"),  # all others that need none of their kind
-    "comparisons and verdicts": ((), "#f6d3bd"),  # all others
+    "fits and measurements": ((), "#f6d3bd"),  # all other rules that depend on no rule of their stage
+    "comparisons and verdicts": ((), "#f6d3bd"),  # all other rules
     "figures": (("plot_",), "#e6d2ea"),
     "page and costs, of all": (("make_", *OF_ALL), "#e4e4e4"),
 }
@@ -30,7 +30,7 @@ FITS = list(STAGES).index("fits and measurements")
 
 
 def rule_graph():
-    """{(rule, rule that needs it)} of everything that `all` makes, with a measured surface."""
+    """Return {(rule, rule that needs it)} of everything that `all` makes, with a measured surface."""
     with tempfile.TemporaryDirectory() as folder:
         settings = Path(folder) / "measured.yaml"
         settings.write_text(yaml.safe_dump({"measured": [{"name": "scan", "files": [__file__]}]}))
@@ -42,7 +42,7 @@ def rule_graph():
 
 
 def columns(edges):
-    """{rule: position of its stage}."""
+    """Return {rule: position of its stage}."""
     column = {}
     for rule in sorted({name for edge in edges for name in edge}):
         named = [i for i, (beginnings, _) in enumerate(STAGES.values()) if rule.startswith(beginnings)]
@@ -52,7 +52,7 @@ def columns(edges):
 
 
 def without_implied(edges):
-    """The edges that do not follow from others, without those of rules that need nearly every rule."""
+    """Return the edges that do not follow from others, without edges of rules that need almost every rule."""
     edges = {(rule, then) for rule, then in edges if not then.startswith(OF_ALL)}
 
     def reached(rule):
@@ -63,9 +63,9 @@ def without_implied(edges):
 
 
 def draw(edges, path):
-    """A column for each stage, a box for each rule, and a line for each edge that others do not imply.
+    """Draw a column for each stage, a box for each rule, and a line for each edge that does not follow from others.
 
-    The rules of a column stand evenly spaced in the order of the rules that they need; those that need none, last.
+    The rules of a column are evenly spaced, in the order of the rules that they need; rules without needs are last.
     """
     shown, column, row = sorted(without_implied(edges)), columns(edges), {}
     bottom = max(map(list(column.values()).count, column.values()))

@@ -1,4 +1,4 @@
-"""Run Snakemake with one line of progress on the terminal; its output and that of its jobs goes to a file.
+"""Run Snakemake with one line of progress on the terminal; its output and its jobs' output go to a file.
 
 python workflow/run_with_progress.py -- snakemake --cores 2 -- all
 """
@@ -27,7 +27,7 @@ LOOK = {"bar_format": "{desc} |{bar}| {remaining} left", "smoothing": 0, "dynami
 
 
 class Progress:
-    """Progress of a run, from the lines that Snakemake prints, on standard error if that is a terminal.
+    """Show the progress of a run, from the lines that Snakemake prints, on standard error if it is a terminal.
 
     seconds : pandas.Series, share of the run time per job of every rule [s] in an earlier run, for the time left; other
         rules are assigned the mean
@@ -41,7 +41,7 @@ class Progress:
         if self.bar is None:
             if match := re.fullmatch(r"total +(\d+)", line):
                 self.done = f"0 of {match[1]}"
-                silent = True if sys.stderr is None else None  # None: unless it is a terminal
+                silent = True if sys.stderr is None else None  # None shows progress on terminals only
                 self.bar = tqdm(total=self.planned, file=sys.stderr, disable=silent, **LOOK)
             elif match := re.fullmatch(r"(\w+) +(\d+)", line):
                 self.planned += int(match[2]) * self._seconds_of(match[1])
@@ -106,7 +106,7 @@ def _show(text):
 
 
 def _errors(output):
-    """Error messages of a run: error and log of every failed job, otherwise the message of Snakemake."""
+    """Return error messages of a run: error and log of every failed job, otherwise the message of Snakemake."""
     text, everything = output.read_text(encoding="utf-8"), f"Full output: {output}"
     if logs := dict.fromkeys(re.findall(r"^ +log: (\S+) \(check log file", text, re.MULTILINE)):
         return [*(f"Error: {_error_in(Path(log))} (log: {log})" for log in logs), everything]
@@ -116,14 +116,14 @@ def _errors(output):
 
 
 def _error_in(log):
-    """The first error in the log of a job."""
+    """Return the first error in the log of a job."""
     text = log.read_text(encoding="utf-8", errors="replace") if log.is_file() else ""
     match = re.search(r"^\S+ \S+ ERROR (.*)$", text, re.MULTILINE)
     return match[1] if match else "a job was ended, or failed before it wrote its log"
 
 
 def summary(results=Path("results"), paper=Path("resources/paper")):
-    """Last lines of a run: number of claims by verdict, run time and the paper's, and the page to open."""
+    """Return the last lines of a run: number of claims by verdict, its time and the paper's, and the page to open."""
     claims = counted_verdicts(pd.read_csv(results / "tables/claims.csv"))
     with opened(results / "tables/claims.nc") as file:
         trial = "; trial scale, on which verdicts mean nothing" * int(file.getncattr("trial"))

@@ -20,7 +20,7 @@ def path_of(source):
     return Path(str(source.get_path_or_uri(secret_free=False)))
 
 
-# Of this file, not of a workflow that uses this one as a module.
+# The folder of this file; a workflow that uses it as a module is in another folder.
 WORKFLOW = path_of(workflow.current_basedir).parent
 PROJECT = WORKFLOW.parent
 
@@ -57,7 +57,7 @@ def use_packages_of_checkout():
         return
     if importlib.util.find_spec("viscorough_study") is None:  # an installed library comes without the study
         sys.path.insert(0, str(source))
-        # Of the jobs.
+        # Jobs find the packages by this variable.
         os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, [sys.path[0], os.environ.get("PYTHONPATH")])))
     for package in ("viscorough", "viscorough_study"):
         found = Path(importlib.util.find_spec(package).origin).parent
@@ -90,12 +90,12 @@ from viscorough_study.run.settings_files import read_settings_file
 from viscorough_study.run.source_digest import SourceDigests
 from viscorough_study.run.stale_locks import remove_stale_locks
 
-# One thread per job, for jobs run side by side. Numba only reads its own variable.
+# One thread per job, since jobs run side by side. Numba reads only its own variable.
 os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
 # By default, glibc returns the memory of a large array to the system when it is freed, and requests it again page by
-# page for the next one.
+# page for the next array.
 os.environ.update(MALLOC_MMAP_THRESHOLD_=str(2**25), MALLOC_TRIM_THRESHOLD_=str(10**9))
-os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # large pages where the system has them
+os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # large pages, if the system has them
 
 # Threads of a timed job, so that no other job runs with it: Snakemake reduces them to --cores. `workflow.cores` would
 # make --unlock, --summary, --rulegraph and --report fail without --cores.

@@ -1,4 +1,4 @@
-# Figures 1 to 4 of the paper, and what its conventions change. PNG for the report, PDF as vector graphics.
+# Figures 1 to 4 of the paper, and the effect of its conventions. PNG for the report, PDF as vector graphics.
 
 # {further argument of functions that draw: its value}
 FIGURE_PARAMS = {

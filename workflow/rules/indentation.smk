@@ -3,8 +3,8 @@
 
 rule indent_surfaces:
     input:
-        # Temporary files. A change of how they are made reruns this rule, although they are not there; as ancient ones
-        # that are there they would not, and Snakemake would end without an error and without what depends on them.
+        # These files are temporary and usually missing, but a change of their rule reruns this rule. Marked as ancient,
+        # existing files would not, and Snakemake would end without an error and without the dependent results.
         surfaces="results/surfaces/{kind}/{case}/{batch}.nc",
     output:
         curves="results/curves/{kind}/{case}/{batch}.nc",

@@ -1,6 +1,6 @@
 # Cost of the rules, which differs from run to run, as do all measured times.
 
-# The rules of the files included before this one, but for those that need scans.
+# The rules of the files included before this file, except for rules that need scans.
 NEED_SCANS = [rules.press_measured.rule, rules.evaluate_measured.rule, rules.plot_measured.rule]
 COUNTED = [member for member in own_rules() if MEASURED or member not in NEED_SCANS]
 

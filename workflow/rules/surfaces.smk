@@ -1,6 +1,6 @@
 # Surfaces that boundary elements indent: generated discs and prepared measured surfaces, in files of one form. They are
-# temporary (`--notemp` keeps them). Each batch has a file of its own, since Snakemake would make curves again that share
-# a file of surfaces with further ones. Lines are not stored: rules/indentation.smk.
+# temporary (`--notemp` keeps them). Each batch has a separate file: if batches shared a file, adding a batch would
+# make Snakemake compute the curves of all of them again. Lines are not stored: rules/indentation.smk.
 
 
 rule generate_discs:

@@ -8,7 +8,7 @@ TABLE_INPUTS = {
 SEED = {"seed": config["seed"]}
 BETA_HURST_MIN = paper("numbers")["agreement"]["beta_hurst_min"]["value"]
 CONTROLS = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
-# Settings of a measured surface that determine its contacts; the digest makes them new if the file changes.
+# Settings of a measured surface that determine its contacts; its digest changes with the file.
 PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces", "young_modulus", "poisson_ratio")
 # {rule: further arguments of its function}
 TABLE_PARAMS = {

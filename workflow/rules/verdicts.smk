@@ -17,7 +17,7 @@ rule check_validation:
         "../scripts/check_validation.py"
 
 
-# Tables by which the claims are judged.
+# Tables for judging the claims.
 EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "zeta_laws")
 EVIDENCE += ("methods", "sizes", "grid_dependence")
 

@@ -1,4 +1,4 @@
-"""All realizations of a pool of cases on common abscissae, in one dataset."""
+"""Put all realizations of a pool of cases on common abscissae, in one dataset."""
 
 from viscorough.io import netcdf
 from viscorough.io.datasets import write_dataset
@@ -11,7 +11,7 @@ def main(curves, pool, *, groups, conventions, ensemble):
     """Pool batches of loading curves.
 
     curves : files of the batches; groups : group of each batch
-    conventions : of the rms heights, side by side; ensemble : x_low, x_high and per_decade of the abscissae
+    conventions : conventions of the rms heights, side by side; ensemble : x_low, x_high and per_decade of the abscissae
     """
     x = abscissa(ensemble["x_low"], ensemble["x_high"], ensemble["per_decade"])
     batches = zip(groups, map(netcdf.read, curves), strict=True)

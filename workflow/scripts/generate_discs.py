@@ -1,4 +1,4 @@
-"""Self-affine discs of a batch, with their rms heights by every convention."""
+"""Generate the self-affine discs of a batch, with their rms heights by every convention."""
 
 from viscorough_study.ensembles.batches import Realization, without_numbers
 from viscorough_study.ensembles.discs import ensemble_disc
@@ -10,7 +10,7 @@ from viscorough_study.run.seeds import realization_seed
 def main(surfaces, *, ensembles, seed):
     """Generate the realizations of a batch; lengths in the unit of each surface.
 
-    ensembles : of `viscorough_study.run.cases.batch_ensembles`; surface : arguments of self_affine_disc
+    ensembles : from `viscorough_study.run.cases.batch_ensembles`; surface : arguments of self_affine_disc
     """
 
     def discs(name, spawn_key, surface, elements, numbers):

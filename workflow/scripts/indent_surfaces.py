@@ -1,4 +1,4 @@
-"""Loading curves of a batch of surfaces, generated or measured, by boundary elements."""
+"""Compute loading curves of a batch of surfaces, generated or measured, by boundary elements."""
 
 import logging
 import time

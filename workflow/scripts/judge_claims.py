@@ -1,4 +1,4 @@
-"""Verdicts on the paper's claims."""
+"""Judge the paper's claims."""
 
 from pathlib import Path
 

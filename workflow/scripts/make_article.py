@@ -1,4 +1,4 @@
-"""The article, results/article.pdf."""
+"""Make the article, results/article.pdf."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The page of the results, results/index.html."""
+"""Make the page of the results, results/index.html."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ def main(project, figures, page, *, alternative, **run):
 
     project : folder of the project, which has template, style, captions, published numbers and verdicts, and the
         picture of the rules
-    figures : paths, whose stems name them; alternative : {figure: text for those who cannot see it}
+    figures : paths, whose stems name them; alternative : {figure: text for readers who cannot see it}
     run : further arguments of `contents_of`
     """
     figures = {Path(path).stem: path for path in figures}

@@ -1,4 +1,4 @@
-"""A figure of workflow/results.yaml."""
+"""Draw a figure of workflow/results.yaml."""
 
 from pkgutil import resolve_name
 

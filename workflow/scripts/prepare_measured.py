@@ -1,4 +1,4 @@
-"""A measured surface, read, checked and prepared for indentation."""
+"""Read, check and prepare a measured surface for indentation."""
 
 import logging
 
@@ -11,7 +11,7 @@ from viscorough_study.run.job_log import run_job
 def main(heights, surfaces, *, name, group, **reading):
     """Prepare one scan.
 
-    heights : its file; name : of the scan; group : of scans; reading : spacing, unit, preparation
+    heights : its file; name : name of the scan; group : its group of scans; reading : spacing, unit, preparation
     """
     indenter = measured_indenter(heights, **reading)
     measured = lengths(indenter)

@@ -1,4 +1,4 @@
-"""Loading curves of a batch of self-affine lines by the method of dimensionality reduction; no line is stored."""
+"""Compute loading curves of a batch of self-affine lines by dimensionality reduction; no line is stored."""
 
 from viscorough.io import netcdf
 from viscorough.lines import SelfAffineLines
@@ -11,12 +11,12 @@ from viscorough_study.run.seeds import realization_seed
 def main(curves, *, ensembles, seed, until_x):
     """Generate and reduce the realizations of a batch up to X = F/(4GhL) = until_x; lengths are dimensionless.
 
-    ensembles : of `viscorough_study.run.cases.batch_ensembles`; surface : arguments of SelfAffineLines
+    ensembles : from `viscorough_study.run.cases.batch_ensembles`; surface : arguments of SelfAffineLines
     """
     members = []
     for ensemble in ensembles:
         surface = ensemble["surface"]
-        lines = SelfAffineLines(points=ensemble["points"], **surface)  # what all its realizations share
+        lines = SelfAffineLines(points=ensemble["points"], **surface)  # shared by all its realizations
         until_force = 4 * surface["rms"] * surface["length"] * until_x
         lengths = surface["length"], lines.spacing, {"line": surface["rms"]}  # every line has the nominal rms height
         for number in range(*ensemble["numbers"]):

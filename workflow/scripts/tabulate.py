@@ -1,4 +1,4 @@
-"""Tables of workflow/results.yaml."""
+"""Make tables of workflow/results.yaml."""
 
 from pkgutil import resolve_name
 
@@ -12,7 +12,7 @@ from viscorough_study.run.tables import read_table, recorded, write_table
 
 
 def read_input(path):
-    """The table of a CSV file, the dataset of a NetCDF file, or of a list of NetCDF files an iterator over Contents."""
+    """Return the table of a CSV file, the dataset of a NetCDF file, or an iterator over Contents of NetCDF files."""
     if not isinstance(path, str):
         return map(netcdf.read, path)
     return read_table(path) if path.endswith(".csv") else read_dataset(path)
@@ -21,7 +21,7 @@ def read_input(path):
 def main(files, csv, nc, *, functions, tables, arguments):
     """Make tables from files, {argument of the function: path, or paths}, and its further arguments.
 
-    functions : dotted names of the function that makes the tables ("tabulate"), and of the columns of each of them
+    functions : dotted names of the function that makes the tables ("tabulate"), and of the columns of each table
     tables : {table: its entry, with label, dimension, and whether it is timed, so that the machine is recorded}
     """
     inputs = {name: read_input(path) for name, path in files.items()}

@@ -1,4 +1,4 @@
-"""Table of the cost of the rules of the workflow."""
+"""Tabulate the cost of the rules of the workflow."""
 
 from datetime import date
 

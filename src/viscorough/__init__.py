@@ -1,6 +1,6 @@
 """Penetration of self-affine rough rigid indenters into a linearly viscous half-space.
 
-All that is public can be imported from here; exact solutions are in `viscorough.reference`. Each name is defined in the
+All public names can be imported from here; exact solutions are in `viscorough.reference`. Each name is defined in the
 module of its subject, which is imported when the name is first used.
 """
 
@@ -8,7 +8,7 @@ import re
 from importlib import import_module
 from pathlib import Path
 
-# The stub, which is there for tools that read types, tells the module of every public name.
+# The stub, which serves tools that read types, lists the module of every public name.
 _STUB = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
 _MODULE_OF = {name: module for module, name in re.findall(r"^from viscorough\.(\S+) import (\w+)", _STUB, re.MULTILINE)}
 __all__ = [*_MODULE_OF, "reference"]

@@ -1,4 +1,4 @@
-"""The command `viscorough`, also as `python -m viscorough`: what must be in place before anything else is imported."""
+"""Run the command `viscorough`, also as `python -m viscorough`, after the set-up that must precede all imports."""
 
 import signal
 

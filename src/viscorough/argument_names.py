@@ -1,7 +1,7 @@
 """Spell the names of arguments in messages: in Python as arguments, on the command line as options.
 
-A function of the library and a command read the same input, and their messages have one source. Each message names
-arguments by `argument`, which spells them as the caller gave them.
+A function of the library and a command can read the same input, and share their messages. Each message names arguments
+by `argument`, which spells them as the caller gave them.
 """
 
 import contextlib
@@ -13,7 +13,7 @@ _AS_OPTIONS = ContextVar("_AS_OPTIONS", default=False)
 
 @contextlib.contextmanager
 def spelled_as_options() -> Iterator[None]:
-    """Context in which messages name options of the command line."""
+    """Let messages name options of the command line within this context."""
     token = _AS_OPTIONS.set(True)
     try:
         yield
@@ -22,14 +22,14 @@ def spelled_as_options() -> Iterator[None]:
 
 
 def spelled(option: str, argument: str) -> str:
-    """Return the first text on the command line, and the second one in Python."""
+    """Return the first text on the command line, and the second text in Python."""
     return option if _AS_OPTIONS.get() else argument
 
 
 def argument(name: str, value: object = None, *, of: str = "") -> str:
     """Return an argument, and its value unless that is None, as the user gives it.
 
-    of : function that has the argument; only in Python, since the command line names its command anyway
+    of : function with this argument; only in Python, since the command line names its command anyway
 
     Examples
     --------

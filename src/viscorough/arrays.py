@@ -1,4 +1,4 @@
-"""Numbers and arrays that functions are given and objects keep, and samples over time.
+"""Check numbers and arrays in arguments, keep them in objects, and handle samples over time.
 
 Every public function takes plain numbers through `real_number`, `real_numbers` or `whole_number`, and numbers that may
 have a unit through viscorough.units, which converts them first. Arrays that an object keeps are copies that cannot be
@@ -25,7 +25,7 @@ _BEYOND = "a number beyond double precision; a number that double precision hold
 
 
 def read_only(values: Any) -> NDArray[Any]:
-    """The values as an array that cannot be changed: a copy, unless already immutable.
+    """Return the values as an array that cannot be changed: a copy, unless already immutable.
 
     Masked entries of numpy's masked arrays, also of a list of them, become nan.
     """
@@ -41,7 +41,7 @@ def read_only(values: Any) -> NDArray[Any]:
 
 
 def unit_attribute(value: Any) -> str:
-    """Unit of a quantity of pint or of a similar library, which has an attribute `units` or `unit`; "" for others."""
+    """Return the unit of a quantity of pint or of a similar library (attribute `units` or `unit`); "" for others."""
     if type(value) is np.ndarray and value.dtype.kind == "O":
         value = list(value.flat)
     if isinstance(value, list | tuple):
@@ -88,7 +88,8 @@ def real_numbers(name: str, values: Any) -> Array:
 
 
 def real_number(name: str, value: Any) -> float:
-    """Return the value as a finite float. Raises ValueError as `real_numbers`, and for several values, nan and inf."""
+    """Return the value as a finite float. Raises ValueError like `real_numbers`, and for several values, nan and
+    inf."""
     value = _float(name, value)
     if not math.isfinite(value):
         raise ValueError(f"{name}: {value}; a finite number is needed")
@@ -96,7 +97,7 @@ def real_number(name: str, value: Any) -> float:
 
 
 def _float(name: str, value: Any) -> float:
-    """The value as a float, which may be nan or infinite. Raises ValueError as `real_number`."""
+    """Return the value as a float, which may be nan or infinite. Raises ValueError like `real_number`."""
     if type(value) is float:
         return value
     array = real_numbers(name, value)
@@ -108,7 +109,7 @@ def _float(name: str, value: Any) -> float:
 def float_or_array(name: str, values: Any) -> Numbers:
     """Return real numbers for a formula: a float or an array; a Series of pandas or similar object stays what it is.
 
-    Raises ValueError as `real_numbers`.
+    Raises ValueError like `real_numbers`.
     """
     numbers = real_numbers(name, values)
     if not numbers.ndim:
@@ -118,7 +119,7 @@ def float_or_array(name: str, values: Any) -> Numbers:
 
 
 def whole_number(name: str, value: Any, at_least: int, at_most: float = 2**63 - 1) -> int:
-    """Return the value as an int. Raises ValueError, which starts with the name, unless it is one in this range."""
+    """Return the value as an int. Raises ValueError, which starts with the name, unless it is an int in this range."""
     if not is_whole(value) or value < at_least:
         raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {shown(value)}")
     if value > at_most:
@@ -127,7 +128,7 @@ def whole_number(name: str, value: Any, at_least: int, at_most: float = 2**63 - 
 
 
 def is_whole(value: Any) -> bool:
-    """Return True for whole numbers of any type; truth values and durations are none."""
+    """Return True for whole numbers of any type; truth values and durations are not numbers."""
     return isinstance(value, Integral) and not isinstance(value, _NO_NUMBERS)
 
 
@@ -140,7 +141,7 @@ def fraction(name: str, value: Any) -> float:
 
 
 def shown(value: Any) -> str:
-    """A value in a message: its repr on one line, at most 60 characters of it."""
+    """Return a value for a message: its repr on one line, at most 60 characters of it."""
     try:
         return " ".join(repr(value).split())[:60]
     except ValueError:  # Python writes no whole number of more than 4300 digits
@@ -148,7 +149,7 @@ def shown(value: Any) -> str:
 
 
 class ReadOnlyArrays:
-    """Base of frozen dataclasses: fields declared as arrays become read-only ones, and are compared as a whole.
+    """Base of frozen dataclasses: array fields become read-only and are compared as a whole.
 
     Fields declared as arrays, floats or ints take real numbers only (ValueError). Arrays stay read-only in copies and
     through pickling. If a class has a text (`__str__`), notebooks show this text instead of all numbers of the arrays.
@@ -159,10 +160,10 @@ class ReadOnlyArrays:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        # Else dataclasses compare tuples, of which arrays cannot be parts.
-        cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # a dataclass makes one of its own
+        # Otherwise dataclasses compare tuples, which cannot contain arrays.
+        cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # a dataclass would make its own
         if "__str__" in vars(cls) and "__repr__" not in vars(cls):
-            cls.__repr__ = cls.__str__  # type: ignore[method-assign]  # likewise
+            cls.__repr__ = cls.__str__  # type: ignore[method-assign]  # for the same reason
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -200,7 +201,7 @@ def _kept_numbers(name: str, values: Any) -> NDArray[Any]:
 
 
 def _truth_values(name: str, values: Any) -> Mask:
-    """The values as a read-only array of truth values."""
+    """Return the values as a read-only array of truth values."""
     array = read_only(values)
     if array.dtype != bool:
         raise ValueError(f"{name}: {array.dtype}; truth values are needed")
@@ -223,19 +224,19 @@ class ReadOnlyTuple(tuple[Any, ...]):
     def __eq__(self, other: object) -> bool:
         return type(other) is type(self) and all(map(_are_equal, self, cast(Any, other)))
 
-    def __ne__(self, other: object) -> bool:  # a tuple has its own
+    def __ne__(self, other: object) -> bool:  # otherwise a tuple's own
         return not self == other
 
 
 def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:
-    """The values as a row of floats. Raises ValueError, which starts with the name, unless they increase.
+    """Return the values as a row of floats. Raises ValueError, which starts with the name, unless they increase.
 
     steps : quantity that steps at a time given twice, for the message; None if no value may be given twice
     """
     values = real_numbers(name, values)
     if values.ndim == 1 and values.size and np.isfinite(values).all():
         rises = np.diff(values)
-        apart = rises if steps is None else rises[1:] + rises[:-1]  # from the one before, or the one before that
+        apart = rises if steps is None else rises[1:] + rises[:-1]  # rise from one of the two values before
         if (rises >= 0).all() and (apart > 0).all() and (values[0] > 0 or not above_zero):
             return values
     allowed = f"one row of finite numbers{' above 0' if above_zero else ''}, each larger than the one before"
@@ -243,7 +244,7 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
 
 
 def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "") -> Array:
-    """A load at the times, as floats. Raises ValueError unless there is a finite one from 0 on for each of them.
+    """Return a load at the times, as floats. Raises ValueError unless each time has a finite value of at least 0.
 
     reason : why it must be, for the message
     """
@@ -257,9 +258,9 @@ def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "")
 
 
 def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
-    """Jumps of a load just before its samples, before the first of which it is 0, and its slopes from each to the next.
+    """Return jumps of a load just before its samples, and its slopes from each sample to the next.
 
-    times, load : shape (samples,); a time given twice is a jump
+    times, load : shape (samples,); a repeated time is a jump; the load is 0 before the first sample
 
     Returns arrays of shapes (samples,) and (samples − 1,).
     """
@@ -269,9 +270,9 @@ def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
 
 
 def integral(times: Array, values: Array, until: Any) -> Array:
-    """Integrals, to times of any shape, of what is linear between samples and 0 before them, exactly.
+    """Integrate a function that is linear between samples and 0 before them, exactly, up to times of any shape.
 
-    times, values : of the samples, shape (samples,)
+    times, values : samples, shape (samples,)
     """
     at_samples = np.append(0.0, np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(times)))
     slopes = np.append(jumps_and_slopes(times, values)[1], 0.0)
@@ -281,7 +282,7 @@ def integral(times: Array, values: Array, until: Any) -> Array:
 
 
 def _holds_truth_value(values: Any) -> bool:
-    """Whether a truth value is in a list, or in an array of objects, which numpy would count as 0 or 1."""
+    """Return True if a truth value is in a list, or in an array of objects; numpy would count it as 0 or 1."""
     if type(values) is np.ndarray and values.dtype.kind == "O":
         values = list(values.flat)
     if isinstance(values, list | tuple):
@@ -290,7 +291,7 @@ def _holds_truth_value(values: Any) -> bool:
 
 
 def _are_equal(one: Any, other: Any) -> bool:
-    """Whether two values of a field are equal; nan equals nan."""
+    """Return True if two values of a field are equal; nan equals nan."""
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         return np.array_equal(one, other, equal_nan=one.dtype.kind == other.dtype.kind == "f")
     if isinstance(one, float) and isinstance(other, float):
@@ -307,7 +308,7 @@ _CONVERSIONS: dict[Any, Any] = {
 
 
 def _cannot_change(array: NDArray[Any] | None) -> bool:
-    """Whether an array and all arrays that it is a view of are read-only."""
+    """Return True if an array, and all arrays that it is a view of, are read-only."""
     while isinstance(array, np.ndarray):
         if array.flags.writeable:
             return False

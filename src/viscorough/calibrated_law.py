@@ -5,22 +5,22 @@ Ft/(4ηhL). The contribution of the interface is
 
     g = (g₁^(−3/2) + (cX)^(−3/2))^(−2/3),    g₁ = A X^b (1 + X/s)^(−m) (1 + (X/d)²)^(−4).
 
-At small X, g₁ is a power law with the exponent b; around X = 1 it has a broad maximum, where the stiffness of the
-interface is proportional to the force, as in elastic contacts whose force is exponential in the separation; beyond, it
-falls, and vanishes at complete contact, so that vt/h = X. c belongs to region (a): while a single element touches, g =
-cX, with a c that the number of elements across determines.
+At small X, g₁ is a power law with the exponent b. Around X = 1 it has a broad maximum: the stiffness of the interface
+is proportional to the force, like in elastic contacts with a force that is exponential in the separation. Beyond, it
+falls, and vanishes at complete contact, so vt/h = X. c belongs to region (a): while a single element touches, g = cX,
+with a c that the number of elements across determines.
 
-The constants A, b, s, m, d are those of data/law.csv, a copy of results/tables/law.csv from `make law`. With them the
-two integrals of g over ln X and over X are the means of the exact ones (sum_rules), and g is closest to the mean of
-curves to complete contact. The table also has the range in which g is within 5 % of the mean over other discs. The
+The constants A, b, s, m, d are in data/law.csv, a copy of results/tables/law.csv from `make law`. With them the two
+integrals of g over ln X and over X equal the means of the exact integrals (sum_rules), and g is closest to the mean of
+curves to complete contact. The table also has the range of X with g within 5 % of the mean over other discs. The
 interval of single surfaces, data/law_scatter.csv, is a copy of results/tables/law_scatter.csv from `make law-errors`. β
-and ζ of the paper's power law in region (b) are those of data/calibration.csv, a copy of results/tables/calibration.csv
-from `make paper`.
+and ζ of the paper's power law in region (b) are in data/calibration.csv, a copy of results/tables/calibration.csv from
+`make paper`.
 
-Conventions: h the rms height of the disc, L its diameter, no factor Γ. The law is that of arithmetic means at fixed X,
-since springs add; the power law is fitted to geometric means, as in the figures, over the whole region (b). Grids: 257
-elements across; at small X the law contains their finest waves, and b is the exponent of these curves, not of an
-infinitely fine grid.
+Conventions: h the rms height of the disc, L its diameter, no factor Γ. The law describes arithmetic means at fixed X,
+since compliances in series add; the power law is fitted to geometric means, as in the figures, over the whole region
+(b). Grids: 257 elements across; at small X the law contains their finest waves, and b is the exponent of these curves,
+not of an infinitely fine grid.
 """
 
 import csv
@@ -39,10 +39,10 @@ from viscorough.reference import one_element_stiffness
 from viscorough.types import Array, Numbers
 
 ACROSS = 257  # elements across the discs of the calibration
-LARGEST_DEVIATION = 0.05  # of g from its mean over discs that were not used for the calibration, in the law's range
+LARGEST_DEVIATION = 0.05  # largest deviation of g from its mean over discs outside the calibration, in the law's range
 # Exponents of the law that are common to all H: of the transition from region (a), and of the last factor of g₁.
 _ONSET, _LAST = 1.5, 4.0
-# Steps in ln X, and their number, in which g is integrated: from e^-40 of the X wanted on, far into region (a).
+# Steps in ln X, and their number, for the integral of g: from e^-40 of the requested X on, far into region (a).
 _STEP, _STEPS = 0.05, 800
 CONSTANTS = {
     "amplitude": "A of the law of g",
@@ -78,7 +78,7 @@ SCATTER_COLUMNS = {
 def interface_velocity(
     x: Numbers, amplitude: float, exponent: float, bend: float, fall: float, cutoff: float, *, across: int = ACROSS
 ) -> Array:
-    """g(X), the interface's part of vt/h, X > 0 of any shape; see the module for the formula and its constants.
+    """Return g(X), the interface's part of vt/h, X > 0 of any shape; the module has the formula and its constants.
 
     across : elements across the disc, which determine region (a)
     """
@@ -89,8 +89,8 @@ def interface_velocity(
 
 
 def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Array:
-    """∫₀^X g dX/X, the interface's part of u/h, by Simpson's rule; constants : as of `interface_velocity`."""
-    from scipy.integrate import simpson  # takes long to import
+    """Return ∫₀^X g dX/X, the interface's part of u/h, by Simpson's rule; constants : see `interface_velocity`"""
+    from scipy.integrate import simpson  # this import takes long
 
     logarithm = _STEP * np.arange(-_STEPS, 1)
     x = np.multiply.outer(np.asarray(x, dtype=float), np.exp(logarithm))
@@ -101,9 +101,9 @@ def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Arra
 class PenetrationLaw:
     """vt/h = X + g(X) for x_low <= X <= x_high, X = Ft/(4ηhL), and X^beta/zeta in region (b) (paper, Eqs. 1 to 3, 10).
 
-    All quantities are dimensionless. Means are arithmetic ones over surfaces, at fixed X. The range was chosen so that
-    g is within 5 % of its mean over discs that were not used for the calibration; see `penetration_law` for its error
-    on further discs.
+    All quantities are dimensionless. Means over surfaces are arithmetic, at fixed X. The range was chosen so that g is
+    within 5 % of its mean over discs that were not used for the calibration; see `penetration_law` for its error on
+    further discs.
 
     hurst : Hurst exponent H
     beta, zeta : exponent β and prefactor ζ of the power law in region (b), independent of all other attributes
@@ -133,7 +133,7 @@ class PenetrationLaw:
     x_high: float
 
     def __repr__(self) -> str:
-        """H, range and power law, instead of all constants."""
+        """Show H, range and power law instead of all constants."""
         (low, high), (least, most), (begin, end) = self.beta_interval, self.zeta_interval, self.region
         return (
             f"Penetration law vt/h = X + g(X) for H = {self.hurst:g}, X from {self.x_low:.3g} to {self.x_high:.3g}\n"
@@ -142,38 +142,38 @@ class PenetrationLaw:
         )
 
     def velocity(self, x: "ArrayLike") -> Array:
-        """vt/h at X, any shape. Raises ValueError outside the range of X in which the law was calibrated."""
+        """Return vt/h at X, any shape. Raises ValueError outside the calibrated range of X."""
         x = self._inside(x)
         return x + interface_velocity(x, *self.constants)
 
     def depth(self, x: "ArrayLike") -> Array:
-        """u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError as `velocity`."""
+        """Return u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError like `velocity`."""
         x = self._inside(x)
         return x + interface_depth(x, *self.constants)
 
     def velocity_interval(self, x: "ArrayLike") -> Array:
-        """Return (lower, upper) vt/h at X between which 95 % of single surfaces lie, shape (2, shape of X).
+        """Return (lower, upper) ends of vt/h at X for 95 % of single surfaces, shape (2, shape of X).
 
-        Raises ValueError as `velocity`.
+        Raises ValueError like `velocity`.
         """
         x = self._inside(x)
         return self.velocity(x) * relative_interval(scatter_calibration(), "velocity", self.hurst, x)
 
     def depth_interval(self, x: "ArrayLike") -> Array:
-        """Return (lower, upper) u/h at X between which 95 % of single surfaces lie, shape (2, shape of X).
+        """Return (lower, upper) ends of u/h at X for 95 % of single surfaces, shape (2, shape of X).
 
-        Raises ValueError as `velocity`.
+        Raises ValueError like `velocity`.
         """
         x = self._inside(x)
         return self.depth(x) * relative_interval(scatter_calibration(), "depth", self.hurst, x)
 
     @property
     def constants(self) -> tuple[float, ...]:
-        """A, b, s, m and d of g, in the order of `CONSTANTS`."""
+        """Return A, b, s, m and d of g, in the order of `CONSTANTS`."""
         return self.amplitude, self.exponent, self.bend, self.fall, self.cutoff
 
     def _inside(self, x: "ArrayLike") -> Array:
-        """X as an array. Raises ValueError outside the range of the law."""
+        """Return X as an array. Raises ValueError outside the range of the law."""
         x = real_numbers("X of the law", x)
         if not np.all((x >= self.x_low) & (x <= self.x_high)):
             raise ValueError(
@@ -184,7 +184,7 @@ class PenetrationLaw:
 
 
 def _read(name: str, chosen: Callable[[dict[str, str]], bool], numbers: Sequence[str]) -> dict[str, Array]:
-    """Columns of a table in data/, {name: array over ascending H}, of the rows that are chosen."""
+    """Return columns of a table in data/, {name: array over ascending H}, of the chosen rows."""
     with resources.files("viscorough").joinpath(f"data/{name}").open(encoding="utf-8") as file:
         rows = sorted(filter(chosen, csv.DictReader(file)), key=lambda row: float(row["hurst"]))
     return {name: np.array([float(row[name] or "nan") for row in rows]) for name in numbers}
@@ -192,14 +192,14 @@ def _read(name: str, chosen: Callable[[dict[str, str]], bool], numbers: Sequence
 
 @cache
 def calibration() -> dict[str, Array]:
-    """The power law of discs in region (b), {column of COLUMNS but the source: array over ascending H}."""
+    """Return the power law of discs in region (b), {column of COLUMNS except the source: array over ascending H}."""
     names = [name for name in COLUMNS if name != "source"]
     return _read("calibration.csv", lambda row: row["source"] == "discs", names)
 
 
 @cache
 def interface_calibration() -> dict[str, Array]:
-    """The law beyond region (b), {column of data/law.csv: array over the H of `calibration`}."""
+    """Return the law beyond region (b), {column of data/law.csv: array over the H of `calibration`}."""
     names = ("hurst", *CONSTANTS, "velocity_error", "depth_error", "x_low", "x_high")
     return _read("law.csv", lambda row: int(row["across"]) == ACROSS, names)
 
@@ -227,10 +227,10 @@ def relative_interval(table: Mapping[str, Any], quantity: str, hurst: float, x: 
 
 
 def penetration_law(hurst: float) -> PenetrationLaw:
-    """PenetrationLaw of a self-affine surface with Hurst exponent H.
+    """Return the PenetrationLaw of a self-affine surface with Hurst exponent H.
 
-    Between the calibrated exponents all constants and intervals are interpolated linearly in H, of places in X their
-    logarithms.
+    Between the calibrated exponents all constants and intervals are interpolated linearly in H; for positions in X the
+    logarithms are interpolated.
 
     A further sample of discs of 257 elements across, also at exponents in between, had means of vt/h within 12 % of
     the law, of g within 16 % and of u/h within 7 %, with standard errors of 5 % at small X. The depth depends on the
@@ -272,7 +272,7 @@ def penetration_law(hurst: float) -> PenetrationLaw:
         place = np.interp(hurst, columns["hurst"], np.arange(len(columns["hurst"])))
         first = min(int(place), len(columns["hurst"]) - 2)
         below, above = columns[name][first : first + 2]
-        return float(below * (above / below) ** (place - first))  # exactly the same value where both ends have it
+        return float(below * (above / below) ** (place - first))  # exactly the same value if both ends have it
 
     return PenetrationLaw(
         hurst=hurst,

@@ -1,8 +1,8 @@
-"""Compiled functions cached on disk: incomplete cache files are no error, and an interrupt waits for the compiler.
+"""Cache compiled functions on disk; incomplete cache files are no error, and interrupts wait for the compiler.
 
-numba caches compiled code beside the modules (or in NUMBA_CACHE_DIR). Where a file of functions that are compiled here
-cannot be loaded, the function is compiled again. Where nothing can be kept on disk, functions are compiled in every
-process, and one line says so. Only these functions are affected, not numba itself or functions of other packages.
+numba caches compiled code next to the modules (or in NUMBA_CACHE_DIR). If a file of functions compiled here cannot be
+loaded, the function is compiled again. If the cache cannot be written, functions are compiled in every process, and one
+line says so. Only these functions are affected, not numba itself or functions of other packages.
 """
 
 import contextlib
@@ -22,7 +22,7 @@ from viscorough.interrupts import uninterrupted
 
 @functools.cache  # once per process
 def _announce_compilation() -> None:
-    """Tell those who wait at a terminal or a notebook why the first computation takes longer."""
+    """Announce on a terminal or in a notebook why the first computation takes longer."""
     if "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty()):
         print("viscorough: compiling once, which takes about 10 s", file=sys.stderr, flush=True)
 
@@ -34,7 +34,7 @@ class _Cache(caching.FunctionCache):
                 if (loaded := super().load_overload(sig, target_context)) is None:
                     _announce_compilation()
                 return loaded
-        except Exception as error:  # reading a file that a power failure cut off can fail in any way
+        except Exception as error:  # reading a truncated file can fail in any way
             text = "compiled code of %s in %s is damaged (%s): it is compiled again"
             logging.warning(text, self._py_func.__name__, self.cache_path, error)
             with contextlib.suppress(OSError):

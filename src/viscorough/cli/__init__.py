@@ -1,10 +1,10 @@
 """The command line: the command `viscorough`, with a module for each of its subcommands.
 
-A user's mistake is answered with one line on stderr, "viscorough COMMAND: what, where, what is allowed", exit code 2
-and no output file. Exit code 1 means that a solver did not converge, 3 that a table of several files is complete but
-some of them failed, and 0 that the output file is complete, also if the closing line could not be written to stdout.
-Where warnings are errors (PYTHONWARNINGS=error), a warning is answered like a mistake. Modules that take long to import
-are imported where a command needs them, so that help and messages come quickly.
+For a user's mistake the command line writes one line on stderr, "viscorough COMMAND: the error, its place, the allowed
+values", returns exit code 2, and leaves no output file. Exit code 1 means that a solver did not converge, 3 that a
+table of several files is complete but some of them failed, and 0 that the output file is complete, also if the closing
+line could not be written to stdout. If warnings are errors (PYTHONWARNINGS=error), a warning is treated like a mistake.
+Modules that take long to import are imported only by the commands that need them, so help and messages come quickly.
 """
 
 import os
@@ -21,7 +21,7 @@ from viscorough.cli import messages
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
 
-# Variable of the environment by which the shell asks for completions, as click names it.
+# Environment variable, named by click, with which the shell asks for completions.
 _COMPLETE = "_VISCOROUGH_COMPLETE"
 
 

@@ -1,4 +1,4 @@
-"""`viscorough contact`: maps of heights to fields of contact, or to a table, at given forces or depths."""
+"""`viscorough contact`: compute fields or tables of contacts of maps of heights, at given forces or depths."""
 
 import functools
 from collections.abc import Sequence
@@ -33,25 +33,25 @@ def contact(
     progress: bool | None,
     **constants: Any,
 ) -> None:
-    """Pressure, gap and contact of indenters pressed into an elastic half-space, at given forces or depths.
+    """Compute pressure, gap and contact of indenters in an elastic half-space, at given forces or depths.
 
     HEIGHTS, spacing and units are as for viscorough indent; no loading curve is computed. Without a modulus,
-    forces are F/G, in the unit of length squared. With --shear-modulus, or --young and --poisson, forces are in N
-    and moduli in Pa if the unit of length is known, else all are in consistent units of your choice; a number may then
-    have a unit, as "5 mN".
+    forces are F/G, in the unit of length squared. With --shear-modulus, or --young and --poisson, forces are in N and
+    moduli in Pa if the unit of length is known, otherwise all are in consistent units of your choice. A number may then
+    have a unit, for example "5 mN".
 
     If FILE ends in .nc, it holds the fields of one file of heights. It has the dimensions y and x, and level if
     several forces or depths are given; the maps pressure = p/G (nan outside the indenter), gap, contact (0 or 1) and
     heights; and the numbers depth, force = F/G, stiffness = k/G, contact_fraction, contact_area,
-    corrected_contact_area (less what whole elements at its edge add), mean_pressure, largest_pressure, residual and
-    patches, the number of patches of contact, whose areas are in patch_area; with a modulus also normal_force F,
+    corrected_contact_area (without the excess of whole elements at its edge), mean_pressure, largest_pressure, residual
+    and patches (the number of contact patches), with their areas in patch_area; with a modulus also normal_force F,
     normal_stiffness k, normal_pressure p, mean_normal_pressure and largest_normal_pressure. G is the shear modulus of
     the incompressible half-space with the same E/(1 - nu^2) = 4 G.
 
     If FILE ends in .csv, it is a table of one or more files of heights, with these numbers in one row for each file and
     load: lengths in um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. A file
-    that cannot be evaluated has a row with the reason in the column error; the others go on, and the exit code is 3.
-    The same command again skips files that are unchanged, also after an interrupt.
+    that cannot be evaluated has a row with the reason in the column error; the other files are evaluated, and the exit
+    code is 3. The same command again skips files that are unchanged, also after an interrupt.
 
     \b
     Example, a map in micrometres under F/G of 2 and of 3 um2, and a folder of scans:

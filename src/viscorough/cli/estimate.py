@@ -1,4 +1,4 @@
-"""`viscorough estimate`: depth and velocity from the calibrated law alone."""
+"""`viscorough estimate`: estimate depth and velocity from the calibrated law."""
 
 from pathlib import Path
 
@@ -29,21 +29,21 @@ def estimate(
     times: list[float],
     output: Path | None,
 ) -> None:
-    """Depth and velocity of a self-affine indenter without a simulation, from the calibrated penetration law.
+    """Estimate depth and velocity of a self-affine indenter without a simulation, from the calibrated law.
 
     The law, vt/h = X + g(X) with X = Ft/(4 viscosity h L), was calibrated with boundary elements on discs of 257
-    elements across; where few spots touch, it is close to a power law, X^beta/zeta. In a medium with the creep
+    elements across; while few spots touch, it is close to a power law, X^beta/zeta. In a medium with the creep
     compliance J(t), X is F J(t)/(4 h L). Depth and velocity are arithmetic means of many surfaces. Between the columns
     "from" and "to" lie 95 % of single surfaces; the last line states the interval of the mean.
 
     The range of X was chosen so that g is within 5 % of the mean over discs not used for the calibration: from the
-    first few contact spots until the whole disc sinks nearly like a flat punch. Outside this range no number is given,
-    and the last column says on which side the time is. Within it, further discs of 257 elements across had means of
-    vt/h within 12 % of the law, and of g within 16 %, with standard errors of 5 % where few spots touch.
+    first few contact spots until the whole disc sinks almost like a flat punch. Outside this range no number is given,
+    and the last column states the side. Within it, further discs of 257 elements across had means of vt/h within 12 %
+    of the law, and of g within 16 %, with standard errors of 5 % while few spots touch.
 
     Plain numbers are in consistent units: m, N and Pa s, for example. Depth is then in the unit of --rms, velocity in
-    that unit per unit of --times. If the lengths have units, as in --rms "2 um", force and viscosity may have, too;
-    then results are in m and s, and plain numbers are in N, Pa s and s.
+    that unit per unit of --times. If the lengths have units, for example --rms "2 um", force and viscosity may have
+    units, too. Then results are in m and s, and plain numbers are in N, Pa s and s.
 
     \b
     Example:

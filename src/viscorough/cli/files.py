@@ -1,4 +1,4 @@
-"""Files that the commands of the command line read and write."""
+"""Read and write the files of the commands of the command line."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 
 def check_output(output: Path, **inputs: Path | None) -> None:
-    """Raise ValueError unless the output can be written and would replace no file that is read.
+    """Raise ValueError unless the output can be written and would replace no input file.
 
-    inputs : files that are read, or None, by what they hold
+    inputs : {content in words: input file, or None}
     """
     from viscorough.io import atomic
 
@@ -38,7 +38,7 @@ def check_output(output: Path, **inputs: Path | None) -> None:
 
 
 def printable_name(file: Path) -> str:
-    """Name of a file, for an attribute: bytes that are not letters appear with backslashes."""
+    """Return the name of a file for an attribute: bytes that are not letters appear with backslashes."""
     return printable_path(Path(file.name))
 
 
@@ -47,14 +47,14 @@ def printable_path(file: Path) -> str:
     return str(file).encode(errors="backslashreplace").decode()
 
 
-LONGEST = 60  # seconds that opening a file may take
+LONGEST = 60  # longest time to open a file in seconds
 
 
 def check_opens(path: Path) -> None:
     """Raise a one-line ValueError unless the NetCDF file can be opened.
 
-    Damage can make the HDF5 library run without end, where Python cannot interrupt it. If opening, which takes
-    milliseconds, takes too long, the process ends with one line and exit code 2.
+    Damage can make the HDF5 library run without end, and Python cannot interrupt it. Opening normally takes
+    milliseconds; if it takes too long, the process ends with one line and exit code 2.
     """
     from viscorough.io import netcdf
 
@@ -63,7 +63,7 @@ def check_opens(path: Path) -> None:
         messages.complain(command, text)
         os._exit(2)
 
-    context = click.get_current_context(silent=True)  # none in the processes of a table
+    context = click.get_current_context(silent=True)  # processes of a table have none
     command = context.command_path if context else "viscorough"
     timer = threading.Timer(LONGEST, end)
     timer.daemon = True
@@ -76,7 +76,7 @@ def check_opens(path: Path) -> None:
 
 
 def read_content(path: Path) -> Content:
-    """The io.netcdf.Content of a NetCDF file."""
+    """Return the io.netcdf.Content of a NetCDF file."""
     from viscorough.io import netcdf
 
     check_opens(path)
@@ -84,9 +84,9 @@ def read_content(path: Path) -> Content:
 
 
 def read_curve(path: Path) -> viscorough.LoadingCurve:
-    """The loading curve in a file; raises ValueError for that of a compressible half-space, and for what is none.
+    """Return the loading curve in a file. Raises ValueError for a compressible half-space, and for other contents.
 
-    The kinetics of a viscous half-space follow from the elastic curve of an incompressible one only.
+    The kinetics of a viscous half-space follow only from the elastic curve of an incompressible half-space.
     """
     from viscorough.io.curves import curve_from_content
 
@@ -100,7 +100,7 @@ def read_curve(path: Path) -> viscorough.LoadingCurve:
 def read_load(
     force: Quantity | None, force_history: Path | None, length_unit: str, depth_history: Path | None = None
 ) -> tuple[Any, dict[str, Any]]:
-    """(force or Load, what an output says about it) of --force and the two histories, one of which is given."""
+    """Return (force or Load, text for the output) of --force and the two histories, one of which is given."""
     for kind, history in (("force", force_history), ("depth", depth_history)):
         if history is not None:
             load = viscorough.Load.read(history, kind, length_unit=length_unit)
@@ -110,7 +110,7 @@ def read_load(
 
 
 def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
-    """(viscosity or medium, what an output says about it) of --viscosity and --medium, one of which is given."""
+    """Return (viscosity or medium, text for the output) of --viscosity and --medium, one of which is given."""
     if medium is not None:
         return viscorough.read_medium(medium, length_unit), {"medium": printable_name(medium)}
     number = units.number(viscosity, "Pa s", length_unit, "--viscosity")
@@ -126,5 +126,5 @@ def write_output(content: Content, output: Path, **attributes: Any) -> None:
 
     if texts := messages.warning_texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
-    with on_interrupt(default_int_handler):  # raises KeyboardInterrupt, so that no temporary file is left
+    with on_interrupt(default_int_handler):  # raise KeyboardInterrupt, so that no temporary file is left
         write_content(content.with_attributes(**attributes), output)

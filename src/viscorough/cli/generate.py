@@ -1,4 +1,4 @@
-"""`viscorough generate`: a random self-affine surface."""
+"""`viscorough generate`: make a random self-affine surface."""
 
 from pathlib import Path
 from typing import Any
@@ -38,9 +38,9 @@ def generate(
 ) -> None:
     """Make a random self-affine disc, an indenter, or a line for viscorough reduce.
 
-    Its power spectral density falls as q^(-2(H+1)), that of a line as q^(-(2H+1)), down to waves of two spacings.
-    SURFACE.nc has the variable heights, nan outside the disc, with coordinates and units, so that the other commands
-    need nothing else to be said.
+    The power spectral density of a disc falls as q^(-2(H+1)), of a line as q^(-(2H+1)), down to waves of two spacings.
+    SURFACE.nc has the variable heights, nan outside the disc, with coordinates and units, so other commands need no
+    options for them.
 
     \b
     Example:

@@ -1,4 +1,4 @@
-"""`viscorough indent`: maps of heights to loading curves."""
+"""`viscorough indent`: compute loading curves of maps of heights."""
 
 from __future__ import annotations
 
@@ -55,40 +55,40 @@ def indent(
     progress: bool | None,
     **constants: Any,
 ) -> None:
-    """Loading curves of indenters pressed into an elastic half-space.
+    """Compute loading curves of indenters pressed into an elastic half-space.
 
     HEIGHTS is a map of heights: .npy, NetCDF, text (a matrix, an ESRI grid, columns x, y, z), TIFF, or a format of an
-    instrument, for which pip install "viscorough[formats]" is needed. Rows are along y, columns along x. Spacing and
-    unit are those that the file states; where it states no unit, heights, spacing and depths are in one unit of length
-    of your choice.
+    instrument, which needs pip install "viscorough[formats]". Rows are along y, columns along x. Spacing and unit are
+    read from the file if it states them. Without a unit, heights, spacing and depths are in one unit of length of your
+    choice.
 
     Larger is higher: the highest point touches first. Points that are nan lie outside the indenter.
 
     CURVE.nc has the dimension "level" and the variables depth, force = F/G and stiffness = k/G (F the force,
     k its derivative with respect to depth, G the shear modulus of the incompressible half-space),
-    contact_count, contact_fraction and residual. Their units are powers of the unit of the heights; if that is not
-    stated, units are 1, which stands for the unit you chose.
+    contact_count, contact_fraction and residual. Their units are powers of the unit of the heights; without a stated
+    unit they are 1, which means the unit you chose.
 
     Without a modulus, forces are F/G, in the unit of length squared. With --shear-modulus, or --young and --poisson,
-    forces are in N and moduli in Pa if the unit of length is known, else all are in consistent units of your choice; a
-    number may then have a unit, as "5 mN". Results are F/G and k/G in any case, G being the shear modulus of the
-    incompressible half-space with the same E/(1 - nu^2) = 4 G. The curve ends at the contact fraction or at the
-    force, whichever comes first, or where all elements are in contact.
+    forces are in N and moduli in Pa if the unit of length is known, otherwise all are in consistent units of your
+    choice. A number may then have a unit, for example "5 mN". Results are F/G and k/G in any case, G being the shear
+    modulus of the incompressible half-space with the same E/(1 - nu^2) = 4 G. The curve ends at the contact fraction or
+    at the force, whichever comes first, or when all elements are in contact.
 
     With --audit the curve is followed to complete contact, and two integrals of it are compared with exact values from
-    linear problems, in which no contact is solved. Contacts are solved to a hundredth of the tolerance, and levels are
+    linear problems, without a contact problem. Contacts are solved to a hundredth of the tolerance, and levels are
     added until the estimated errors of the integrals are within the tolerance. If the integrals do not agree, a warning
     says so.
 
-    With --grid-error a second curve is computed on every second point of the map. Its difference from the first one
-    estimates the error that is due to the spacing of the map: grid_error of the velocity at the force of each level,
-    force_grid_error of the force at its depth, and area_change, by which the contact area changes when the spacing is
-    halved.
+    With --grid-error a second curve is computed on every second point of the map. Its difference from the first curve
+    estimates the error due to the spacing of the map: grid_error of the velocity at the force of each level,
+    force_grid_error of the force at its depth, and area_change, the relative change of the contact area if the spacing
+    is halved.
 
-    With --error 5% the curve is computed on every n-th point of the map, with as large an n and as loose a tolerance as
-    leave the estimated error of the velocity within 5 % of the curve of all points, root mean square over the forces
-    F/G from h L/25 on (h the rms height, L the diameter of a disc of the same area). The closing line says what was
-    chosen.
+    With --error 5% the curve is computed on every n-th point of the map. The largest n and the loosest tolerance are
+    chosen that keep the estimated error of the velocity within 5 % of the curve of all points, as root mean square over
+    the forces F/G from h L/25 on (h the rms height, L the diameter of a disc of the same area). The closing line states
+    the choice.
 
     Several files of HEIGHTS need a table, -o TABLE.csv. It has one row for each file and level, with lengths in um,
     areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or --forces
@@ -174,7 +174,7 @@ def _rows(
 ) -> Rows:
     """Return a row of a table for each level, and {column: unit}.
 
-    given : keyword arguments of viscorough.indent; constants : of options.elasticity
+    given : keyword arguments of viscorough.indent; constants : arguments of options.elasticity
     """
     how: dict[str, Any] = {"threads": threads, "progress": progress}
     if given["depths"] is not None or given["forces"] is not None:

@@ -1,4 +1,4 @@
-"""`viscorough kinetics`: a loading curve to penetration over time."""
+"""`viscorough kinetics`: compute penetration over time from a loading curve."""
 
 from pathlib import Path
 
@@ -41,16 +41,16 @@ def kinetics(
     times: list[float] | None,
     output: Path,
 ) -> None:
-    """Penetration over time of the indenter whose loading curve is in CURVE.nc.
+    """Compute penetration over time of the indenter with the loading curve in CURVE.nc.
 
     A history may load, hold, unload and reload; with --depth-history the depth is given, and the force follows.
     KIN.nc holds time, depth, velocity, force and contact fraction. Without --times these are the times of the history,
-    so that a ramp and a hold of few rows need --times for a curve;
-    or under a constant force a hundred at equal ratios between those at which the first and last levels of the curve
-    are reached, or until creep has nearly ended; after time 0 if the medium responds elastically at t = 0. While the
-    contact grows the depth is that of the curve at F/G = the creep response, the integral of J(t - s) dF(s) with the
-    creep compliance J; on a linearly viscous half-space it is the impulse over the viscosity. Where the contact
-    recedes, the curve is read as a row of springs, which is exact as well. Under no force the indenter rests on the
+    so a ramp and a hold of few rows need --times for a curve. Under a constant force they are a hundred times at equal
+    ratios, from the first to the last level of the curve, or until creep has almost ended; they start after time 0 if
+    the medium responds elastically at t = 0. While the contact grows, the depth is read from the curve at F/G equal to
+    the creep response, the integral of J(t - s) dF(s) with the creep compliance J. On a linearly viscous half-space
+    this is the impulse over the viscosity. When the contact recedes, the curve is used as a row of springs, which is
+    exact as well. Under no force the indenter rests on the
     recovering surface. If the curve states a grid error, KIN.nc and the closing line state it as well; it holds for the
     velocity under a given force.
 
@@ -84,7 +84,7 @@ def kinetics(
     files.check_output(output, curve=curve, force_history=force_history, depth_history=depth_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
-    grid_error = loading.grid_error_text if depth_history is None else ""  # it is that of the velocity at a given force
+    grid_error = loading.grid_error_text if depth_history is None else ""  # it applies to the velocity at a given force
     if grid_error:
         about |= {"mean_grid_error": loading.mean_grid_error}
     load, of_load = files.read_load(force, force_history, loading.length_unit, depth_history)

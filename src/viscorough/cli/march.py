@@ -1,4 +1,4 @@
-"""`viscorough march`: direct integration of the viscous or viscoelastic problem in time."""
+"""`viscorough march`: integrate the viscous or viscoelastic problem directly in time."""
 
 from pathlib import Path
 from typing import Any

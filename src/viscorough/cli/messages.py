@@ -1,4 +1,4 @@
-"""Messages and progress of the command line; standard output and error may be closed, full, or limited in encoding."""
+"""Write messages and progress of the command line; streams may be closed, full, or limited in encoding."""
 
 import contextlib
 import io
@@ -12,8 +12,8 @@ import click
 
 from viscorough.errors import AccuracyWarning, ConvergenceError
 
-_DELAY = 1.0  # seconds: what is done sooner shows no progress
-# Errors that are answered with one line; any other one is a fault of viscorough.
+_DELAY = 1.0  # seconds; shorter work shows no progress
+# Errors that are reported in one line; any other error is a fault of viscorough.
 ERRORS = (click.ClickException, ValueError, OSError, MemoryError, Warning, ConvergenceError)
 
 
@@ -24,12 +24,12 @@ def announce(output: Path, text: str) -> None:
 
 
 def warn(text: str) -> None:
-    """Give an AccuracyWarning, which `main` writes after the closing line and the output file has as an attribute."""
+    """Give an AccuracyWarning, which `main` writes after the closing line and the output file keeps."""
     warnings.warn(text, AccuracyWarning, stacklevel=3)
 
 
 def warning_texts(caught: Sequence[warnings.WarningMessage]) -> list[str]:
-    """The texts of the different warnings, each on one line."""
+    """Return the texts of the different warnings, each on one line."""
     return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))
 
 
@@ -45,7 +45,7 @@ def report(command: str, error: BaseException) -> None:
     if isinstance(error, click.UsageError):
         command = error.ctx.command_path if error.ctx else command
         hint = f"; see {command} --help"
-    if isinstance(error, OSError) and error.errno and error.filename is None:  # those of files are named
+    if isinstance(error, OSError) and error.errno and error.filename is None:  # errors of files name them
         error = OSError(f"standard output cannot be written ({error.strerror})")
     complain(command, f"{error_text(error)}{hint}")
 
@@ -59,7 +59,7 @@ def error_text(error: BaseException) -> str:
 
 
 def escape_unencodable_characters() -> None:
-    """Write characters that the encoding of standard output lacks, as in names of files, with backslashes."""
+    """Write characters outside the encoding of standard output, for example in names of files, with backslashes."""
     if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")
 
@@ -76,10 +76,10 @@ def discard_what_cannot_be_written() -> None:
 
 @contextlib.contextmanager
 def progress_bar(label: str, wanted: bool | None) -> Iterator[Callable[[float], object]]:
-    """Context that yields a function of the share that is done, 0 to 1; from the first second on it is shown.
+    """Yield a function that shows the finished share, 0 to 1, from the first second on.
 
-    wanted : True or False; None: only if standard error is a terminal. The bar is erased at the end, so that standard
-        error holds nothing else than warnings and messages
+    wanted : True or False; None: only if standard error is a terminal. The bar is erased at the end, so standard error
+        contains only warnings and messages
     """
     from tqdm import tqdm
 
@@ -87,7 +87,7 @@ def progress_bar(label: str, wanted: bool | None) -> Iterator[Callable[[float], 
         total=1.0,
         desc=label,
         delay=_DELAY,
-        disable=sys.stderr is None or (None if wanted is None else not wanted),  # None where it was closed
+        disable=sys.stderr is None or (None if wanted is None else not wanted),  # None if it was closed
         leave=False,
         bar_format="{desc}: {percentage:3.0f} % |{bar:30}| {elapsed} elapsed, about {remaining} left",
     ) as bar:

@@ -1,4 +1,4 @@
-"""Types of options, and options, that the commands of the command line share."""
+"""Define the options, and types of options, that the commands share."""
 
 import contextlib
 import itertools
@@ -24,7 +24,7 @@ def require(condition: bool, text: str) -> None:
 
 
 class PositiveNumber(click.FloatRange):
-    """A number above a lower limit, and not above an upper one if there is one; finite in any case."""
+    """A finite number above a lower limit, and not above an upper limit if there is one."""
 
     def __init__(self, maximum: float | None = None, above: float = 0) -> None:
         super().__init__(above, maximum, min_open=True)
@@ -37,7 +37,7 @@ class PositiveNumber(click.FloatRange):
 
 
 class QuantityOption(click.ParamType):
-    """A finite number above 0, plain or with a unit that measures the same as one of `units`, such as "5 mN" for "N".
+    """A finite number above 0, plain or with a unit of the same dimension as one of `units`, as "5 mN" for "N".
 
     Converted to a viscorough.units.Quantity; units.number gives the number that the solvers need.
     """
@@ -78,8 +78,8 @@ class Share(click.ParamType):
 class Increasing(click.ParamType):
     """Numbers above 0 separated by commas, each larger than the one before.
 
-    unit : unit that all of them, or none, may have; they are then converted to viscorough.units.Quantity. None for
-        plain numbers, which are converted to floats
+    unit : unit of quantities, which are converted to viscorough.units.Quantity; None for plain numbers, which are
+        converted to floats
     """
 
     name = "a,b,c"
@@ -99,7 +99,7 @@ class Increasing(click.ParamType):
 
 
 class Times(Increasing):
-    """Increasing numbers above 0 separated by commas, or FIRST:LAST:COUNT, so many equally spaced ones from 0 on."""
+    """Increasing numbers above 0 separated by commas, or FIRST:LAST:COUNT: COUNT equally spaced numbers, 0 allowed."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
         if ":" not in value:
@@ -121,7 +121,7 @@ FILE = click.Path(path_type=Path)
 def output(
     metavar: str, *, allowed: dict[str, str] = suffixes.RESULTS, required: bool = True
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Decorator that adds -o/--output to a command. Other suffixes than those allowed raise BadParameter."""
+    """Add -o/--output to a command. Suffixes that are not allowed raise BadParameter."""
     kinds = ", ".join(f"{suffix} ({kind})" for suffix, kind in allowed.items())
     text = f"File to write or replace: {kinds}{'' if required else '  [default: none]'}"
 
@@ -173,7 +173,7 @@ progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS
 
 
 def until(default: float) -> Callable[..., Any]:
-    """Decorator that adds --until-fraction to a command, which uses the default where it is None."""
+    """Add --until-fraction to a command, which uses its default for None."""
     text = f"Contact fraction at which to stop  [default: {default:g}]"
     return click.option("--until-fraction", type=PositiveNumber(1), help=text)
 
@@ -190,11 +190,11 @@ def elastic_constants(command: Callable[..., Any]) -> Callable[..., Any]:
 def elasticity(
     shear_modulus: Quantity | None, young: Quantity | None, poisson: float | None, length_unit: str
 ) -> tuple[float | None, dict[str, float]]:
-    """(G, what was stated, for files) of the options; G is None if no modulus was stated.
+    """Return (G, stated values, for files) of the options; G is None without a modulus.
 
-    G is that of the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units].
+    G belongs to the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units].
 
-    Raises ValueError if the options contradict each other, and as units.number.
+    Raises ValueError if the options contradict each other, and like units.number.
     """
     modulus = shear_modulus_of(length_unit, shear_modulus, young, poisson)
     if young is not None:

@@ -1,4 +1,4 @@
-"""`viscorough plot`: a figure of a surface, or of what another command wrote."""
+"""`viscorough plot`: draw a surface, or the output of another command."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from viscorough.io import suffixes
 @surface_options.heights_input("file")
 @options.output("FIGURE", allowed=suffixes.FIGURES)
 def plot(surface: surface_options.Surface, output: Path) -> None:
-    """Draw what is in FILE: what another command wrote (.nc), or a map of heights, read as by viscorough indent.
+    """Draw FILE: the output of another command (.nc), or a map of heights, read as by viscorough indent.
 
     A surface is a map of heights; fields of a contact are maps of pressure, gap and contact; a loading curve is force
     over depth, stiffness and contact fraction over force; a motion is depth and velocity over time. Maps have the first
@@ -40,7 +40,7 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
             plotting.kind_of(content)
         except ValueError as error:
             content, fault = None, error if str(file) in str(error) else ValueError(f"{file}: {error}")
-    if content is None:  # no other command wrote it: a map of heights
+    if content is None:  # not the output of another command: a map of heights
         try:
             content = surface_to_content(surface_options.read_indenter(surface, output))
         except ValueError as error:

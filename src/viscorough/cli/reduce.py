@@ -1,4 +1,4 @@
-"""`viscorough reduce`: the loading curve of a line of independent springs."""
+"""`viscorough reduce`: compute the loading curve of a line of independent springs."""
 
 from pathlib import Path
 
@@ -28,16 +28,16 @@ def reduce(
     output: Path,
     progress: bool,
 ) -> None:
-    """Loading curve of a line by the method of dimensionality reduction (MDR), in a fraction of a second.
+    """Compute the loading curve of a line by the method of dimensionality reduction (MDR).
 
     LINE_OR_MAP is a file with the heights of a line: .npy or NetCDF, as viscorough generate --points makes it, or a
-    measured profile, a text with a column of heights, or with columns x and z. Independent springs stand in for the
-    half-space. Or it is a map, as for viscorough indent: then lines are made with
-    its radially averaged power spectrum, random phases, and the rms height of the map.
+    measured profile, a text with a column of heights, or with columns x and z. Independent springs replace the
+    half-space. LINE_OR_MAP can also be a map, as for viscorough indent. Then lines are made with its radially averaged
+    power spectrum, random phases, and the rms height of the map.
 
     Limits: a line made from a map represents random surfaces with its spectrum, not the map itself. The mean stiffness
-    of many surfaces is right to about 20 %; that of a single surface is wrong by a factor of 1.2 to 2, and contact
-    area and contact positions have no meaning.
+    of many surfaces is right to about 20 %. The stiffness of a single surface is wrong by a factor of 1.2 to 2, and
+    contact area and contact positions have no meaning.
 
     CURVE.nc is as for viscorough indent; with several --realizations its dimensions are realization and level.
 
@@ -54,7 +54,7 @@ def reduce(
 
     line_or_map = surface.path
     files.check_output(output, heights=line_or_map)
-    states_map = "," in surface.options.get("spacing", "")  # by distances in both directions
+    states_map = "," in surface.options.get("spacing", "")  # by spacings in both directions
     if not states_map and dimensions_of_heights(line_or_map) == 1:
         of_maps = "--realizations and --seed are for maps, of which lines are made; this is a line"
         options.require(not realizations and seed is None, of_maps)

@@ -4,9 +4,9 @@
 2. Evaluate the other files in separate processes. After each file, write an unfinished table, TABLE.csv.unfinished.
 3. Write the table and remove the unfinished one.
 
-A file that cannot be evaluated becomes a row with the reason; the others go on. A run that is interrupted or killed
-leaves the unfinished table, and does not change the table of an earlier run. Rows depend neither on the order of the
-files nor on the number of processes.
+A file that cannot be evaluated becomes a row with the reason; the other files are evaluated. A run that is interrupted
+or killed leaves the unfinished table, and does not change the table of an earlier run. Rows depend neither on the order
+of the files nor on the number of processes.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 # Exit code if the table is complete, but some of several files have an error instead of numbers.
 SOME_FAILED = 3
-# Libraries of linear algebra compute with one thread in each process: more would compete for the cores, and the
+# Libraries of linear algebra compute with one thread in each process. More threads would compete for the cores, and the
 # rounding of results would depend on their number.
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _DIED = "its process ended without a result, as happens if there is not enough memory; --jobs 1 needs less"
@@ -46,9 +46,9 @@ _DIED = "its process ended without a result, as happens if there is not enough m
 class Scan(NamedTuple):
     """A file of heights to evaluate; can be sent to another process.
 
-    name : of the file in the table
-    surface : the file, and how it is read and prepared
-    digest : of the file and the settings; "" if the file cannot be read
+    name : name of the file in the table
+    surface : the file, with its options for reading and preparation
+    digest : digest of the file and the settings; "" if the file cannot be read
     evaluate : function of the indenter and of `progress` that returns rows of the table and {column: unit}
     """
 
@@ -88,7 +88,7 @@ def tabulate(
     for surface in surfaces:
         files.check_output(output, heights=surface.path)
     files.check_output(unfinished)
-    surfaces[0].parsed()  # a mistake in an option is no error of a file
+    surfaces[0].parsed()  # a wrong option is not an error of the file
     spelled = _spelled(surfaces[0].options | settings)
     scans = []
     for name, surface in sorted({files.printable_path(surface.path): surface for surface in surfaces}.items()):
@@ -118,7 +118,7 @@ def tabulate(
 
 
 def _write(results: dict[str, LoadRows], path: Path, options: str) -> list[LoadRows]:
-    """Write the rows of files as a table, and return them as they are in it."""
+    """Write the rows of files as a table, and return them as the table holds them."""
     from viscorough.io import load_tables, tables
 
     listed = load_tables.with_one_unit(results.values())
@@ -143,9 +143,9 @@ def rows_at_loads(
     threads: int,
     progress: Progress | None = None,
 ) -> Rows:
-    """Return a row of a table for each depth or force, and {column: unit}. Errors as viscorough.contact_at.
+    """Return a row of a table for each depth or force, and {column: unit}. Raises errors like viscorough.contact_at.
 
-    constants : of options.elasticity
+    constants : arguments of options.elasticity
     """
     from viscorough.io.load_tables import rows_of_contacts
 
@@ -209,7 +209,7 @@ def _in_a_process(scan: Scan) -> LoadRows:
             result = result._replace(rows=rows, units=units)
         except messages.ERRORS as error:
             result = result._replace(error=_without_path(error, scan.surface.path))
-        except Exception as error:  # a fault of viscorough; the other files may not have it
+        except Exception as error:  # a fault of viscorough, which other files may not have
             text = f"{type(error).__name__}: {_without_path(error, scan.surface.path)}"
             result = result._replace(error=text)
     texts = [_without_path(text, scan.surface.path) for text in messages.warning_texts(caught)]
@@ -230,7 +230,7 @@ def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
     waiting = {scan.name: scan for scan in scans}
     try:
         with _processes(min(jobs, len(scans) or 1)) as submit:
-            # One file at a time until the inner loops are compiled: processes that all compile them can crash.
+            # Evaluate one file at a time until the inner loops are compiled: processes that all compile them can crash.
             for scan in scans:
                 result = submit(scan).result()
                 del waiting[result.file]
@@ -259,17 +259,17 @@ def _alone(scan: Scan) -> LoadRows:
 
 @contextlib.contextmanager
 def _processes(count: int) -> Iterator[Callable[[Scan], Future[LoadRows]]]:
-    """Context that yields a function that has a file evaluated by one of so many processes.
+    """Yield a function that evaluates a file in one of so many processes.
 
-    They start anew (spawn), since a copy of this process could hold locks of its threads. They ignore Ctrl-C, and end
-    if the context is left early or this process dies.
+    The processes start anew (spawn), since a copy of this process could hold locks of its threads. They ignore Ctrl-C,
+    and end if the context is left early or this process dies.
     """
     others, environment = set(multiprocessing.active_children()), {name: os.environ.get(name) for name in _ONE_THREAD}
     os.environ.update(_ONE_THREAD)
     pool = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
 
     def submit(scan: Scan) -> Future[LoadRows]:
-        with on_interrupt(signal.SIG_IGN):  # processes that are started here inherit it
+        with on_interrupt(signal.SIG_IGN):  # processes started here inherit it
             return pool.submit(_in_a_process, scan)
 
     try:

@@ -1,4 +1,4 @@
-"""The options of all commands that read a map of heights: spacing, unit, channel and preparation."""
+"""Define the options of all commands that read a map of heights: spacing, unit, channel and preparation."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _OF_PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
 
 @dataclass(frozen=True)
 class Surface:
-    """A file of heights, and the options that were given to read and prepare it, by name: texts, and True for flags."""
+    """A file of heights and the options given to read and prepare it, {name: text, or True for flags}."""
 
     path: Path
     options: dict[str, Any]
@@ -44,7 +44,7 @@ class Surface:
         return viscorough.read_heights(self.path, **self.parsed())
 
     def attributes(self, indenter: viscorough.Indenter) -> dict[str, object]:
-        """What an output file says about the surface and how it was read and prepared."""
+        """Return what an output file states about the surface, its reading and its preparation."""
         attributes = {"heights": files.printable_name(self.path), "spacing": indenter.spacing}
         attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
         if "channel" in self.options:
@@ -55,7 +55,7 @@ class Surface:
 
 
 def _spacing(text: str) -> Quantity | tuple[Quantity, ...]:
-    """One distance, or those between columns and between rows, plain or with a unit."""
+    """Return one spacing, or the spacings between columns and between rows, plain or with a unit."""
     distances = tuple(units.quantity(entry.strip()) for entry in text.split(","))
     if len(distances) > 2:
         raise ValueError("is not DX or DX,DY")
@@ -63,7 +63,7 @@ def _spacing(text: str) -> Quantity | tuple[Quantity, ...]:
 
 
 def _crop(text: str) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Columns and rows to keep, FIRST:END each."""
+    """Return columns and rows to keep, FIRST:END each."""
     match = re.fullmatch(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})", text, re.ASCII)
     if match is None:
         raise ValueError("is not X0:X1,Y0:Y1, numbers of points from 0")
@@ -80,9 +80,9 @@ _VALUES: dict[str, Callable[[str], Any]] = {
 
 
 def heights_input(argument: str = "heights", *, several: bool = False) -> Callable[..., Any]:
-    """Decorator that adds the argument HEIGHTS and the options to read it, which reach the command as `surface`.
+    """Add the argument HEIGHTS and the options to read it, which reach the command as `surface`.
 
-    several : whether one or more files are allowed, which reach the command as `surfaces`
+    several : True if several files are allowed, which reach the command as `surfaces`
     """
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -126,9 +126,9 @@ def heights_input(argument: str = "heights", *, several: bool = False) -> Callab
 
 
 def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> viscorough.Indenter:
-    """The indenter that a Surface describes, read after a check that the output can be written.
+    """Read the indenter of a Surface, after a check that the output can be written.
 
-    inputs : further files that are read, as of files.check_output
+    inputs : further input files, as in files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights.
     """
     files.check_output(output, heights=surface.path, **inputs)

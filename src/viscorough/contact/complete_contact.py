@@ -1,4 +1,4 @@
-"""Find the depth of complete contact, where all elements touch, from two linear problems.
+"""Find the depth of complete contact, when all elements touch, from two linear problems.
 
 Let all elements be joined to the surface, under tension as well. With the symbols of contact.state, their pressures are
 
@@ -21,12 +21,12 @@ from viscorough.types import Array
 
 # Smallest residual of the linear problems: its norm over the norm of the right-hand side.
 EXACT = 1e-12
-# Iterations after which ConvergenceError is raised.
+# Largest number of iterations; beyond it ConvergenceError is raised.
 _MAX_ITERATIONS = 500
 
 
 class JoinedSurface(NamedTuple):
-    """The solution for an indenter whose elements are all joined to the surface; reduced.
+    """Solution with all elements of an indenter joined to the surface; reduced.
 
     tangent, load : q and s, by rank, shape (elements,)
     initial_gap : g, by rank, shape (elements,)
@@ -76,9 +76,9 @@ def joined_surface(
     padding : see SolverOptions
     threads : number of threads
 
-    Raises ConvergenceError if the residuals do not fall so far.
+    Raises ConvergenceError if the residuals do not fall below it.
     """
-    from scipy.sparse.linalg import LinearOperator, cg  # takes long to import
+    from scipy.sparse.linalg import LinearOperator, cg  # this import takes long
 
     rows, columns = elements.shape
     height, width = rows + 2 * REACH, columns + 2 * REACH

@@ -1,7 +1,7 @@
 """Dense contact solutions for few elements in contact: exact to rounding, and cheaper than any grid.
 
-Elements are identified by their rank in the order of increasing initial gap, so that those which can be in contact at a
-given depth are the first ones.
+Elements are identified by their rank in the order of increasing initial gap. The elements that can be in contact at a
+given depth are therefore the first ones.
 """
 
 from typing import NamedTuple
@@ -16,10 +16,11 @@ from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 from viscorough.types import Array, Integers
 
-# Rounding error allowed for in a gap over the depth, in a pressure over the largest one, and in the depth of an event.
+# Allowed rounding errors: of a gap over the depth, of a pressure over the largest pressure, and of the depth of an
+# event.
 ROUNDING = 1e-12
 _MAX_ITERATIONS = 100
-# Depth of an event that never happens; finite, because compiled loops may assume that numbers are.
+# Depth of an event that never happens; finite, because compiled loops may assume that numbers are finite.
 _NEVER = 1e300
 
 
@@ -35,12 +36,12 @@ class ContactEvents(NamedTuple):
     depth: np.ndarray
     pressure_sum: np.ndarray
     tangent_sum: np.ndarray
-    count: np.ndarray  # type: ignore[assignment]  # in place of the method of a tuple
+    count: np.ndarray  # type: ignore[assignment]  # replaces the method of a tuple
 
 
 @njit
 def _influence_matrix(influence, row, column, members):
-    """Lower triangle of the influence matrix K of the members, shape (count, count)."""
+    """Return the lower triangle of the influence matrix K of the members, shape (count, count)."""
     n = members.size
     matrix = np.empty((n, n))
     for a in range(n):
@@ -52,7 +53,7 @@ def _influence_matrix(influence, row, column, members):
 
 @njit(fastmath=True)
 def _deflections(influence, row, column, members, pressure, tangent, targets):
-    """Σ_j K_ij P_j and Σ_j K_ij q_j of the members' loads at the elements i of `targets`."""
+    """Return Σ_j K_ij P_j and Σ_j K_ij q_j of the members' loads at the elements i of `targets`."""
     of_pressure, of_tangent = np.empty(targets.size), np.empty(targets.size)
     member_row, member_column = row[members], column[members]
     for i in range(targets.size):
@@ -67,7 +68,7 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
 
 
 def of_highest_element(elements: Elements, units: Units, depth: float) -> ContactState:
-    """The contact of the highest element alone, as long as no other one touches."""
+    """Return the contact of the highest element alone, as long as no other element touches."""
     factor = 1 / np.sqrt(elements.influence[0, 0])
     pressure, tangent = (right * factor * factor for right in (np.array([depth]), np.ones(1)))  # as by Cholesky factors
     return _exact_contact(units, depth, np.zeros(1, int), pressure, tangent)
@@ -76,11 +77,11 @@ def of_highest_element(elements: Elements, units: Units, depth: float) -> Contac
 def solve(
     elements: Elements, contact: ContactState, depth: float, candidates: int, max_count: int
 ) -> ContactState | None:
-    """The contact at a larger reduced depth by the primal-dual active set method; None beyond `max_count` members.
+    """Solve the contact at a larger reduced depth by the primal-dual active set method; None above `max_count` members.
 
-    Only the `candidates` elements of lowest rank have an initial gap below the depth. As gaps are convex functions of
-    the depth, only those of them can join the contact that overlap the surface after the step P + Δu q. The first set
-    consists of the last one and of those that do not touch late in the step (LATE).
+    Only the `candidates` elements of lowest rank have an initial gap below the depth. Gaps are convex functions of the
+    depth, so an element can join the contact only if it overlaps the surface after the step P + Δu q. The first set
+    consists of the last set and of these elements, except elements that touch late in the step (LATE).
     Raises ConvergenceError if the set still changes after the largest number of iterations.
     """
     if candidates > max_count and not 0 < contact.count < max_count:
@@ -114,16 +115,16 @@ def solve(
 def follow_events(
     elements: Elements, contact: ContactState, most: int, pressure_sum: float
 ) -> tuple[ContactEvents, ContactState, bool]:
-    """The contact events after a contact: the depths at which the next elements touch, computed one after the other.
+    """Follow contact events after a contact: the depths at which the next elements touch, one after the other.
 
-    Until the next element touches, pressures grow at the constant tangent q, so that depths are exact. Every element
-    that touches adds a row to the Cholesky factor of the influence matrix, so that hundreds of events cost as much as a
-    few dense solutions. The same recursion in time integrates the viscous problem (viscous.integration.events).
+    Until the next element touches, pressures grow at the constant tangent q, so depths are exact. Every element that
+    touches adds a row to the Cholesky factor of the influence matrix, so hundreds of events cost as much as a few dense
+    solutions. The same recursion in time integrates the viscous problem (viscous.integration.events).
 
     most : number of elements in contact at which to stop
     pressure_sum : reduced ΣP at which to stop
 
-    Returns ContactEvents after the given contact, the ContactState at the last event, and whether ΣP exceeds its limit
+    Returns ContactEvents after the given contact, the ContactState at the last event, and True if ΣP reaches its limit
     before another element touches. Elements that touch at the same depth, to rounding, are one event.
     """
     loads = contact.member_loads()
@@ -149,19 +150,19 @@ def follow_events(
 
 
 def _without(elements: Integers, members: Integers) -> Integers:
-    """Those of the elements that are not among the members."""
+    """Return the elements that are not among the members."""
     stays = np.ones(max(elements.max(initial=-1), members.max(initial=-1)) + 1, bool)
     stays[members] = False
     return elements[stays[elements]]
 
 
 def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -> tuple[Array, Array]:
-    """P and q of a contact set at a depth, each of shape (count,)."""
-    from scipy.linalg.lapack import dposv  # takes long to import
+    """Return P and q of a contact set at a depth, each of shape (count,)."""
+    from scipy.linalg.lapack import dposv  # this import takes long
 
     matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
     right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
-    # LAPACK stores matrices by columns, so that the lower triangle is the upper one there.
+    # LAPACK stores matrices by columns, so our lower triangle is its upper triangle.
     _, solution, failed = dposv(matrix.T, right.T, lower=False, overwrite_a=True, overwrite_b=True)
     if failed:
         raise ConvergenceError(f"contact of {members.size} elements: their influence matrix is not positive definite")
@@ -169,24 +170,24 @@ def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -
 
 
 def _exact_contact(units: Units, depth: float, members: Integers, pressure: Array, tangent: Array) -> ContactState:
-    """The ContactState of a dense solution."""
-    pressure = np.maximum(pressure, 0.0)  # of elements that just touch, rounding can make it negative
+    """Return the ContactState of a dense solution."""
+    pressure = np.maximum(pressure, 0.0)  # rounding can make pressures of elements that just touch negative
     loads = MemberLoads(members, pressure, tangent)
     return ContactState(units, depth, members.size, pressure.sum(), tangent.sum(), loads=loads)
 
 
 @njit(fastmath=True)
 def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
-    """The events after a contact of the elements `start` with these pressures; plain arrays, since it is compiled.
+    """Follow events after a contact of the elements `start` with these pressures; compiled, hence plain arrays.
 
-    Returns the depth, ΣP and Σq of every event, the first of which is the given contact, all elements in contact, and
+    Returns the depth, ΣP and Σq of every event (the first is the given contact), all elements in contact, and
     the Cholesky factor of their influence matrix.
     """
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
-    # Depth before which an element does not touch, _NEVER in contact. A gap is a convex function of the depth: it
-    # closes ever more slowly, and never faster than the depth grows.
+    # Depth below which an element cannot touch, _NEVER in contact. A gap is a convex function of the depth: its closing
+    # slows down, and is never faster than the growth of the depth.
     earliest = initial_gap.copy()
     count, total, following = 0, 0.0, 0
     for t in range(start.size - 1):
@@ -221,16 +222,16 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
 
 @njit(inner=True, fastmath=True)
 def _next_touch(influence, row, column, initial_gap, depth, members, load, tangent, earliest, guess):
-    """Depth from here to the next touch, the element that touches, and the one that may touch first after it.
+    """Return the depth to the next touch, the element that touches, and the element that may touch first after it.
 
-    earliest : depth before which an element does not touch, _NEVER in contact; changed in place where it is evaluated
-    guess : element to evaluate first; the nearer its touch, the fewer others have to be evaluated
+    earliest : depth below which an element cannot touch, _NEVER in contact; changed in place when evaluated
+    guess : element to evaluate first; if it touches soon, few others have to be evaluated
     """
     depth_step, element, following, first_later = _NEVER, -1, 0, _NEVER
     member_row, member_column = row[members], column[members]
     for position in range(-1, initial_gap.size):
         i = guess if position < 0 else position
-        # By rank: an element touches no earlier than at a depth of its initial gap.
+        # By rank: an element touches no earlier than at a depth equal to its initial gap.
         if position >= 0 and initial_gap[i] - depth >= depth_step:
             break
         if earliest[i] - depth < depth_step:

@@ -1,16 +1,16 @@
 """Estimate the error of the grid: compare the loading curve of a map with the curve on every second point of it.
 
-A map holds no roughness between its points. The change of a curve when the spacing doubles estimates its change when
+A map contains no roughness between its points. The change of a curve when the spacing doubles estimates its change when
 the spacing is halved, and the sum of all further changes. At equal forces F the velocities v = F/(η k/G) of both curves
-have the ratio of the stiffnesses, and with ⟨·⟩ the mean over half a decade of force to either side, uniform in ln F,
+have the ratio of the stiffnesses. With ⟨·⟩ the mean over half a decade of force to either side, uniform in ln F,
 
     velocity:  s √⟨ln²(v/v₂)⟩          v₂ on every second point, s a safety factor
     force:     r √⟨(1 − F₂/F)²⟩        F₂ at the depth of F, counted from the highest point of the full map; r a factor
     area:      exp⟨ln(A/A₂)⟩ − 1       the change of the contact area when the spacing is halved; not an error
 
-The raw contact area of a self-affine surface decreases with the spacing without a limit, so that it has no error. If
-the depth on every second point were counted from their own highest point, the error of the force would be four times as
-large, since a coarse map misses the highest point.
+The raw contact area of a self-affine surface decreases with the spacing without a limit, so it has no error. A coarse
+map misses the highest point: if its depth were counted from its own highest point, the error of the force would be four
+times as large.
 """
 
 from dataclasses import replace
@@ -22,18 +22,18 @@ from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array
 
-# The difference from the curve on every second point exceeds the true error of most surfaces. With this factor it does
-# for nine of ten (benchmarks/grid_errors.py).
+# The difference from the curve on every second point exceeds the true error of most surfaces. With this factor it
+# exceeds the error of nine surfaces of ten (benchmarks/grid_errors.py).
 SAFETY_FACTOR = 1.3
-# The same for the force at a given depth. It changes in one direction from spacing to spacing, above all on surfaces of
-# small Hurst exponent, so that the changes add up to more than the change of the velocity does.
+# The same factor for the force at a given depth. The force changes in one direction from spacing to spacing, above all
+# on surfaces of small Hurst exponent, so its changes add up to more than the changes of the velocity.
 FORCE_SAFETY_FACTOR = 3.0
 # Points per decade of force in comparisons of two curves, whose stiffnesses jump at contact events.
 _POINTS_PER_DECADE = 50
-# Half the width of the range of forces over which differences are averaged, in ln F: half a decade.
+# Half the width, in ln F, of the range of forces for averages of differences: half a decade.
 _HALF_WINDOW = 0.5 * np.log(10)
-# Least normalised force X = F/(4GhL) of means over a curve: a smaller force is carried by a few summits, and coarse
-# grids cannot represent these.
+# Smallest normalised force X = F/(4GhL) for means over a curve: a few summits carry a smaller force, and coarse grids
+# cannot represent them.
 _LEAST_X = 0.01
 # A curve that ends at a small force is judged by this part of it.
 _LEAST_RANGE = 0.1
@@ -66,10 +66,10 @@ def highest_missed(indenter: Indenter, coarse: Indenter) -> float:
 
 
 def lowest_force(indenter: Indenter, last_force: float) -> float:
-    """Return the least F/G of means over a curve [length²].
+    """Return the smallest F/G of means over a curve [length²].
 
     It is X = F/(4GhL) = 0.01, with the rms height h of the map and the diameter L of a disc of its area, or a tenth of
-    the last force if this is less.
+    the last force if this is smaller.
     """
     area = indenter.elements * indenter.spacing * indenter.row_spacing
     diameter = 2 * np.sqrt(area / np.pi)
@@ -79,8 +79,8 @@ def lowest_force(indenter: Indenter, last_force: float) -> float:
 def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indenter, missed: float) -> LoadingCurve:
     """Return a curve with the estimated errors of its grid.
 
-    curve, coarse : on a map, and on every second point of it; the coarse curve is straight beyond its last level
-    indenter : map that `lowest_force` refers to
+    curve, coarse : curve on a map, and on every second point of it; the coarse curve is straight beyond its last level
+    indenter : map for `lowest_force`
     missed : `highest_missed` of the two maps
     """
     levels = np.log(curve.force)
@@ -90,7 +90,7 @@ def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indent
     coarse_stiffness = coarse.at_force(np.minimum(force, coarse.force[-1]))[1]
     velocity = np.log(coarse_stiffness / stiffness) ** 2
     lost = (1 - _force_at_depth(coarse, depth - missed) / force) ** 2
-    area = np.log(_contact_count(curve, force) / (4 * _contact_count(coarse, force)))  # of elements four times as large
+    area = np.log(_contact_count(curve, force) / (4 * _contact_count(coarse, force)))  # larger elements
     window = np.maximum(levels - _HALF_WINDOW, levels[0]), np.minimum(levels + _HALF_WINDOW, levels[-1])
     whole = np.log(max(lowest_force(indenter, curve.force[-1]), curve.force[0])), levels[-1]
     return replace(
@@ -114,9 +114,9 @@ def _forces(points: Array, curve: LoadingCurve) -> Array:
 
 
 def _means(points: Array, values: Array, low: Any, high: Any) -> Any:
-    """Return means from `low` to `high` of values that are linear between the points; for low = high the value there.
+    """Return means from `low` to `high` of values that are linear between the points; the value itself if low = high.
 
-    low, high : within the points, numbers or arrays of equal shape
+    low, high : ends within the points, numbers or arrays of equal shape
     """
     integrals = np.append(0.0, np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(points)))
     width = high - low

@@ -15,7 +15,7 @@ from viscorough.contact.preconditioner.multilevel import Preconditioner
 from viscorough.contact.state import ContactSet
 from viscorough.types import Array, Integers
 
-# Largest share of the last change of pressure in the next direction: a safeguard where many elements left the set.
+# Largest share of the last change of pressure in the next direction: a safeguard if many elements left the set.
 _LARGEST_SHARE = 1.0
 
 
@@ -25,7 +25,7 @@ class ConjugateGradients:
     halfspace : Halfspace; preconditioner : Preconditioner; contact_set : ContactSet; loops : GridLoops
 
     The search direction d is the load array of the half-space operator itself: applying the operator gives K d without
-    a copy. Only one search can therefore be under way on a half-space.
+    a copy. Therefore only one search at a time can use a half-space.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class ConjugateGradients:
         self.change_set(contact_set)
 
     def change_set(self, contact_set: ContactSet) -> None:
-        """Go on with another contact set, where the direction is zero on elements that have joined or left."""
+        """Continue with another contact set; the direction is zero on elements that have joined or left."""
         self._direction[self._released] = 0
         self._set, self._released = contact_set, self._released[:0]
         self._preconditioner.prepare(contact_set.inside, contact_set.places.size)
@@ -53,33 +53,34 @@ class ConjugateGradients:
         self._preconditioned, self._gap = self._preconditioner.apply(gap), gap
 
     def uniform_response(self, ones: Array) -> Array:
-        """M 1 on the set, in the order of its places: about the tangent. To be called before `precondition`.
+        """Return M 1 on the set, in the order of its places; it approximates the tangent. Call it before
+        `precondition`.
 
         ones : flat field
         """
         return self._preconditioner.apply(ones)[self._set.places]
 
     def total_preconditioned(self) -> float:
-        """Σz over the set."""
+        """Return Σz over the set."""
         return self._loops.total(self._preconditioned, self._set.places)
 
     def shift(self, depth_step: float, response: Array) -> None:
-        """Change e and z = M e on the set, in place, as a step of the depth does.
+        """Change e and z = M e on the set, in place, for a step of the depth.
 
-        response : M 1, as of `uniform_response`
+        response : M 1, from `uniform_response`
         """
         fixed = np.float32(depth_step), self._gap, self._preconditioned
         self._loops.each(kernels.shift_on_set, fixed, self._set.places, response)
 
     def norm(self) -> float:
-        """zᵀe, the square of the norm of the residual."""
+        """Return zᵀe, the square of the norm of the residual."""
         return self._loops.inner_product(self._preconditioned, self._gap, self._set.places)
 
     def update_direction(self) -> None:
-        """Update the search direction: conjugate to the last one, from the preconditioned residual.
+        """Update the search direction from the preconditioned residual, conjugate to the last direction.
 
-        If the last step had not the length that minimises the energy along it, because elements left the set, what is
-        missing is added; the coming step is taken to have a length of one.
+        A release step does not minimise the energy along its direction, so its conjugacy factor is corrected. The
+        coming step is assumed to have length 1.
         """
         factor = 0.0
         if self._deflection is not None:
@@ -93,28 +94,28 @@ class ConjugateGradients:
 
         gap : e − g, or e_q, flat field
 
-        Returns whether any pressure is negative.
+        Returns True if any pressure is negative.
         """
         deflection = self._deflect()
         _, of_gap, of_direction = self._sums()
-        # In the precision of the fields, which the loops then keep to; there is no direction where the guess was exact.
+        # Fields must keep their precision in the loops. If the guess was exact, there is no direction.
         length = gap.dtype.type(-of_gap / of_direction if of_direction > 0 else 0.0)
         self._loops.update_gap(length, deflection, gap)
         self._limit = np.inf
         return any(self._over_set(kernels.update_pressure, length, self._direction, pressure))
 
     def unloaded_under_tension(self, pressure: Array) -> Integers:
-        """Places of elements without pressure that a step along the direction would put under tension."""
+        """Return places of elements without pressure that a step along the direction would put under tension."""
         return joined(self._over_set(kernels.unloaded_under_tension, self._direction, pressure))
 
     def step_causes_tension(self, length: float, pressure: Array) -> bool:
-        """Whether a step of that length along the direction puts any element under tension."""
+        """Return True if a step of that length along the direction puts any element under tension."""
         return any(self._over_set(kernels.step_causes_tension, length, self._direction, pressure))
 
     def step_and_release(self, length: float, pressure: Array, width: int) -> None:
-        """Take a step of given length, after which elements under tension leave the set; changes both in place.
+        """Take a step of given length, then remove elements under tension from the set; changes both in place.
 
-        width : of a row of flat fields
+        width : length of a row of flat fields
 
         The direction becomes the change of pressure; the gap is changed by `update_gap`, or computed from the pressure.
         """
@@ -125,8 +126,8 @@ class ConjugateGradients:
             return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
 
         released = joined(self._loops.over(places, step))
-        # Elements of a band of rows leave one after the other, since neighbours share the load of both. Bands have at
-        # least two rows, so that every other one can be processed at the same time.
+        # Elements of a band of rows leave one after the other, since neighbours share their loads. Bands have at least
+        # two rows, so every other band can be processed at the same time.
         band = max(BLOCK // width, 2) * width
         bands = np.split(released, np.searchsorted(places[released], np.arange(band, pressure.size, band)))
 
@@ -144,16 +145,16 @@ class ConjugateGradients:
         self._loops.update_gap(gap.dtype.type(1), self._deflect(), gap)
 
     def _deflect(self) -> Array:
-        """K d in rows and columns; kept until the next call."""
+        """Return K d in rows and columns; valid until the next call."""
         deflection = self._halfspace.apply()
         self._deflection = deflection.ravel()
         return deflection[:, : self._halfspace.shape[1]]
 
     def _sums(self) -> Array:
-        """z·Kd, d·e and d·Kd over the set."""
+        """Return z·Kd, d·e and d·Kd over the set."""
         fields = self._direction, self._deflection, self._preconditioned, self._gap
         return sum(self._over_set(kernels.direction_sums, *fields))
 
     def _over_set(self, kernel: Callable[..., Any], *fixed: Any) -> Any:
-        """Results of kernel(*fixed, places, slots) for the blocks of the set."""
+        """Return results of kernel(*fixed, places, slots) for the blocks of the set."""
         return self._loops.each(kernel, fixed, self._set.places, self._set.slots)

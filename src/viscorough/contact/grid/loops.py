@@ -1,4 +1,4 @@
-"""The kernels over large arrays, block by block on several threads."""
+"""Run the kernels over large arrays, block by block on several threads."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -14,7 +14,7 @@ from viscorough.types import Array, Integers, Mask
 
 
 def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:
-    """A flat field that a loop fills, on its threads, but for the rows of its border, which are zero.
+    """Return a flat field for a loop to fill on its threads, except for the rows of its border, which are zero.
 
     inner : slice of the field without these rows
     """
@@ -24,7 +24,7 @@ def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:
 
 
 def joined(parts: Sequence[Integers]) -> Integers:
-    """Arrays of all blocks one after the other."""
+    """Join arrays of all blocks, one after the other."""
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
@@ -35,29 +35,29 @@ class GridLoops:
         self.threads = threads
 
     def each(self, kernel: Callable[..., Any], fixed: Sequence[Any], *arrays: Any) -> list[Any]:
-        """Results of kernel(*fixed, *blocks) for the blocks of arrays of one length, in order."""
+        """Return results of kernel(*fixed, *blocks) for the blocks of arrays of one length, in order."""
         return self.over(arrays[0], lambda i, j: kernel(*fixed, *(array[i:j] for array in arrays)))
 
     # Over the places of a set.
 
     def inner_product(self, left: Array, right: Array, slots: Integers) -> float:
-        """Σ left·right over the set."""
+        """Return Σ left·right over the set."""
         return sum(self.each(kernels.inner_product, (left, right), slots))
 
     def total(self, field: Array, places: Integers) -> float:
-        """Sum of a field over the set."""
+        """Return the sum of a field over the set."""
         return sum(self.each(kernels.total, (field,), places))
 
     def largest_gap(self, gap_change: Array, initial_gap: Array, gap: Array, places: Integers) -> float:
-        """Largest |e| on the set, where e is stored in the flat field `gap`."""
+        """Return the largest |e| on the set, and store e in the flat field `gap`."""
         return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
 
-    # Over the elements, by rank, or where their places are the same over flat fields.
+    # Over the elements by rank, or over flat fields if these have the same places.
 
     def new_places(self, after: GridFields, before: GridFields) -> tuple[Integers, Integers]:
-        """Places of the elements in contact in GridFields, but not in other ones, on the grids of both.
+        """Return places of elements in contact in one GridFields but not in another, on the grids of both.
 
-        Elements that have no place on the grid before have the place 0 there, which is outside the grid.
+        Elements without a place on the earlier grid have the place 0 there, which is outside the grid.
         """
         if after.initial_gap is before.initial_gap:
             places = self.difference(after.inside, before.inside)
@@ -65,7 +65,7 @@ class GridLoops:
 
         def new(i: int, j: int) -> Integers:
             is_new = after.inside[after.place[i:j]]
-            place = before.place[i:j]  # shorter where fewer elements were ranked
+            place = before.place[i:j]  # shorter if fewer elements were ranked
             is_new[: place.size] &= ~before.inside[place]
             return i + np.flatnonzero(is_new)
 
@@ -75,9 +75,9 @@ class GridLoops:
     # Over flat fields.
 
     def contact_places(self, inside: Mask, width: int, stride: int) -> tuple[Integers, Integers]:
-        """Places in contact, and their indices in the load array, as uint32, or int64 where these are too large.
+        """Return places in contact, and their indices in the load array, as uint32, or int64 for large arrays.
 
-        Loops take less time where an index cannot be negative, which would count from the end of an array.
+        Loops are faster with unsigned indices: a negative index would count from the end of an array.
         """
         whole_number = np.uint32 if inside.size // width * max(width, stride) < 2**32 else np.int64
 
@@ -91,7 +91,7 @@ class GridLoops:
         return joined(places), joined(slots)
 
     def difference(self, inside: Mask, other: Mask) -> Integers:
-        """Places of a set that are not in another one."""
+        """Return places of a set that are not in another set."""
         return joined(self.over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
 
     def largest_overlap(self, gap_change: Array, initial_gap: Array) -> float:
@@ -99,7 +99,7 @@ class GridLoops:
         return -min(0.0, *self.over(gap_change, lambda i, j: float(np.add(gap_change[i:j], initial_gap[i:j]).min())))
 
     def lowest(self, field: Array) -> float:
-        """Lowest value of a field."""
+        """Return the lowest value of a field."""
         return min(self.over(field, lambda i, j: field[i:j].min()))
 
     def fill(self, field: Array, value: float) -> None:
@@ -107,7 +107,7 @@ class GridLoops:
         self.over(field, lambda i, j: field[i:j].fill(value))
 
     def shifted(self, field: Array, shift: float, out: Array) -> None:
-        """Store a field minus a number; both fields in rows and columns."""
+        """Store a field minus a number; both fields are in rows and columns."""
         rows, columns = field.shape
         number = out.dtype.type(shift)
         run_blocks(lambda i, j: np.subtract(field[i:j], number, out=out[i:j]), rows, self.threads, -(-BLOCK // columns))
@@ -123,5 +123,5 @@ class GridLoops:
         run_blocks(update, rows, self.threads, -(-BLOCK // columns))
 
     def over(self, array: NDArray[Any], function: Callable[[int, int], Any]) -> list[Any]:
-        """Results of function(start, stop) for the blocks of an array, in order."""
+        """Return results of function(start, stop) for the blocks of an array, in order."""
         return run_blocks(function, array.size, self.threads)

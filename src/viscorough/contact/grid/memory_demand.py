@@ -1,4 +1,4 @@
-"""Memory that the contact of an indenter takes, before any of it is allocated."""
+"""Estimate the memory for the contact of an indenter, before any of it is allocated."""
 
 import numpy as np
 
@@ -9,21 +9,21 @@ from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import Elements
 from viscorough.types import Array
 
-# Bytes of the rank, place, gap and temporary arrays of an element; of a map's entry, while its elements are found.
+# Bytes of the rank, place, gap and temporary arrays of an element, and of a map's entry while its elements are found.
 _PER_ELEMENT, _PER_HEIGHT = 60, 10
-# Flat fields: those of the contacts that a loading path holds (four each; at small tolerances, of more contacts, which
-# are solved ahead), and others, of the grid solver and temporary ones.
+# Numbers of flat fields: of contacts that a loading path holds (four fields each; at small tolerances of more contacts,
+# which are solved ahead), and of the grid solver and temporary arrays.
 _FIELDS_OF_CONTACTS, _FIELDS_OF_CONTACTS_IF_EXACT, _OTHER_FIELDS = 16, 24, 4
-# Bytes of other arrays of a place of the grid: contact sets, and the preconditioner with its fourteen entries.
+# Bytes of other arrays per place of the grid: contact sets, and the preconditioner with its fourteen entries.
 _PER_PLACE = 12 + 25
-# Bytes of the linear problems of complete contact: vectors of the iteration, and two indices, of an element; contact
-# set, residual and preconditioner of a place of the grid.
+# Bytes of the linear problems of complete contact. Per element: vectors of the iteration, and two indices. Per place of
+# the grid: contact set, residual and preconditioner.
 _PER_JOINED_ELEMENT, _PER_JOINED_PLACE = 104, 50
-# Arrays in double precision of the size of the spectrum of the half-space: kept, and while the operator is prepared.
+# Double-precision arrays of the size of the spectrum of the half-space: kept, and during the set-up of the operator.
 _SPECTRA = 2
 # Numbers in a row of the two blocks of columns that each thread convolves, and columns of a block.
 _BLOCK_OF_COLUMNS, _COLUMNS_OF_BLOCK = 2 * 152, 64
-# Whatever the size: tables, and dense solutions of hundreds of elements.
+# For any size: tables, and dense solutions of hundreds of elements.
 _CONSTANT = 6e6
 
 
@@ -31,8 +31,8 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
     """Raise MemoryError, which names the bytes needed and available, unless the contact of a map fits into memory.
 
     heights : a map, nan outside the indenter
-    exact : whether gaps are also computed in double precision
-    threads : on which the contact is computed; each has its own buffers
+    exact : True if gaps are also computed in double precision
+    threads : number of threads; each has its own buffers
 
     The estimate follows the allocation: it is proportional to the number of points of the padded grid around all
     elements, including its border, which for narrow strips are several times as many as the elements. It exceeds the
@@ -46,7 +46,7 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
 
 
 def require_for_box(heights: Array, box: tuple[int, ...], *, exact: bool, threads: int = 1) -> None:
-    """The same for the contact in a box: (first row, first column, rows, columns); the elements exist already."""
+    """Check the same for the contact in a box (first row, first column, rows, columns); the elements exist already."""
     memory.require(_of_grid(*box[2:], exact=exact, threads=threads), f"contact of a map of {heights.shape} heights")
 
 
@@ -60,7 +60,7 @@ def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
 
 
 def _of_grid(rows: int, columns: int, *, exact: bool, threads: int) -> float:
-    """Bytes of a grid solver, its operators, and the contacts on its grid."""
+    """Return bytes of a grid solver, its operators, and the contacts on its grid."""
     flat = (int(rows) + 2 * REACH) * (int(columns) + 2 * REACH)
     fields = 8 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS)
     operators = _of_operators(rows, columns, (4, 8) if exact else (4,), threads)
@@ -68,17 +68,17 @@ def _of_grid(rows: int, columns: int, *, exact: bool, threads: int) -> float:
 
 
 def _of_operators(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], threads: int) -> float:
-    """Bytes of half-space operators on a grid, one for each precision, and of their spectrum in double precision."""
+    """Return bytes of half-space operators on a grid, one for each precision, and of their common spectrum."""
     rows, columns = sorted((int(rows), int(columns)))
     along_columns, along_rows = convolution_lengths(rows, columns)
     spectrum = (along_columns // 2 + 1) * (along_rows // 2 + 1)
     operators = 8 * _SPECTRA * spectrum
     buffers = min(threads, -(-along_rows // (2 * _COLUMNS_OF_BLOCK))) * _BLOCK_OF_COLUMNS * along_columns
     if rows * columns > BLOCK:
-        # Two blocks of rows, which have a multiple of 16 of them.
+        # Two blocks of rows; their number of rows is a multiple of 16.
         buffers += min(threads, -(-rows // 16)) * 2 * along_rows * (BLOCK // columns + 16)
     for bytes_of_number in bytes_of_numbers:
-        # Load and deflection, padded on small grids only, and transformed rows; the spectrum by blocks of columns.
+        # Load and deflection (padded on small grids only) and transformed rows; the spectrum by blocks of columns.
         width = along_rows if rows * columns <= BLOCK else columns
         operators += bytes_of_number * (rows * (2 * width + along_rows) + 1.2 * spectrum + buffers)
     return operators

@@ -1,20 +1,20 @@
-"""Iterations for the contact on a grid: preconditioned conjugate gradients, on a contact set that shrinks.
+"""Iterate for the contact on a grid by preconditioned conjugate gradients on a shrinking contact set.
 
-Elements under tension leave the set, and elements that overlap the surface join it. The operator gives the deflection
-K d of a search direction d on the whole grid, and thus the gap everywhere at no further cost.
+Elements under tension leave the set, and elements that overlap the surface join it. The operator gives the deflection K
+d of a search direction d on the whole grid, and so the gap everywhere at no further cost.
 
-While elements leave, the length of a step is fixed in units of the preconditioned residual, so that one application of
-the operator serves both the step and the removal of these elements; afterwards steps are those of conjugate gradients.
-Directions are conjugate to the last change of pressure throughout.
+While elements leave, the length of a step is fixed in units of the preconditioned residual. So one application of the
+operator serves both the step and the removal of these elements. Afterwards steps follow the method of conjugate
+gradients. Directions are conjugate to the last change of pressure throughout.
 
-Symbols and reduced units are those of contact.state. Fields are flat arrays with a border as wide as the preconditioner
-reaches, so that elements at the edge need no special treatment.
+Symbols and reduced units are defined in contact.state. Fields are flat arrays with a border as wide as the
+preconditioner reaches, so elements at the edge need no special treatment.
 
-The iterations run in single precision by default, and fields are kept in it unless the tolerance is so small that the
-gap must be known in double precision. The iterations compute corrections that become ever smaller, so that the rounding
-error is small; a bound on it is tracked with every field, and the gap is recomputed from the pressure, in double
-precision where the tolerance needs it, when the bound nears the tolerance: if possible in a step of fixed length, for
-which the operator is applied anyway.
+The iterations run in single precision by default. Fields are in single precision, too, unless the tolerance is so small
+that the gap must be known in double precision. The iterations compute ever smaller corrections, so the rounding error
+is small, and a bound on it is tracked with every field. When the bound nears the tolerance, the gap is recomputed from
+the pressure, in double precision if the tolerance needs it. If possible this happens in a step of fixed length, which
+applies the operator anyway.
 """
 
 from collections.abc import Callable
@@ -37,43 +37,43 @@ from viscorough.contact.state import BoundedField, ContactSet
 from viscorough.errors import ConvergenceError
 from viscorough.types import Array, Mask
 
-# Elements without pressure that the first step would put under tension leave the first set before it if they are more
-# than this share of it: the preconditioned residual of a set far too large is of little use.
+# If the first step would put unloaded elements under tension, and these are more than this share of the set, they leave
+# the set before the step: the preconditioned residual of a far too large set is of little use.
 _EXCLUDED = 0.05
-# The gap is recomputed in a step, whose length is then fixed, if the bound on its rounding error exceeds this share of
-# the limit and what the coming steps add stays below it: this saves the application of the operator for the step.
+# Recompute the gap in a step of fixed length if the bound on its rounding error exceeds this share of the limit, and a
+# further step adds less than this share. This saves the operator application of the step.
 _INEXACT = 0.25
-# Release steps after the first one of a level are longer by this factor, about the inverse of the mean eigenvalue of
-# M K. In the first one the set is too large, so that the residual overestimates the change.
+# Release steps after the first step of a level are longer by this factor, about the inverse of the mean eigenvalue of M
+# K. In the first step the set is too large, so the residual overestimates the change.
 _LATER_STEPS = 1.1
-# The release step is halved after every so many of them, and each of them begins a new search: a safeguard against
-# cycles where the preconditioner is poor.
+# Halve the length of release steps after every so many of them. From the first halving on, each release step begins a
+# new search: a safeguard against cycles if the preconditioner is poor.
 _HALVE_STEP_EVERY = 20
 # Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
 _TANGENT_TOLERANCE = 1e-2
-# Rounding error of e_q = K q − 1 that is accepted, over the tolerance. The stiffness depends on its mean over the set,
-# not on its largest value, and therefore stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
+# Accepted rounding error of e_q = K q − 1, over the tolerance. The stiffness depends on its mean over the set, not on
+# its largest value, and therefore stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
 _TANGENT_ROUNDING = 5.0
-# Share of the tolerance that the search may use, so that residual and rounding together are within the tolerance.
+# Share of the tolerance for the search, so that residual and rounding together stay within the tolerance.
 _SEARCH_SHARE = 0.999
-# The residual of a contact of fewer elements than the first number is smaller in proportion to their number: an element
-# that overlaps within the tolerance and does not join would carry a large part of the force. Single precision allows no
-# residual below the second number, over the depth.
+# For contacts of fewer elements than the first number, the residual is smaller in proportion to their number: an
+# element that overlaps within the tolerance and does not join would carry a large part of the force. In single
+# precision the residual over the depth cannot be below the second number.
 _FEW, _LEAST_RESIDUAL = 100, 1e-5
-# Initial gap where there is no element, far beyond the largest depth.
+# Initial gap of places without an element, far beyond the largest depth.
 _OUTSIDE = 1e30
 
 
 class ContactSearch:
-    """The iterations for P and q on a grid of so many rows and columns, and the operator that they apply.
+    """The iterations for P and q on a grid, and the operator that they apply.
 
     tolerance : largest |e| in contact or overlap outside it, over the depth
     options : SolverOptions
     aspect : dy/dx of the elements
-    threads : on which it computes
-    tiles : halfspace.tiles with elements that can touch, on which the operator is then restricted
+    threads : number of threads
+    tiles : halfspace.tiles with elements that can touch; the operator is restricted to them
 
-    initial_gap : flat field, to be set where there are elements
+    initial_gap : flat field, to be set at the elements
     residual : e or e_q on the set, as last computed, flat field
     precision : floating-point type of the other fields
     field_rounding : rounding error of a step in the fields, over the depth
@@ -107,8 +107,8 @@ class ContactSearch:
             for halfspace in (self._halfspace, self._exact)
         )
         self.precision = self._exact.load.dtype.type
-        # A step rounds e − g, which does not exceed the depth, and the pressure, whose deflection does not either.
-        # Where rounding is to be ignored, this is ignored, too.
+        # A step rounds e − g, which is at most the depth, and the pressure, whose deflection is at most the depth, too.
+        # If rounding is to be ignored, this is ignored, too.
         self.field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self.precision).eps
         self._width = columns + 2 * REACH
         self.inner = slice(REACH * self._width, -REACH * self._width)
@@ -119,7 +119,7 @@ class ContactSearch:
 
     @property
     def operator_applications(self) -> int:
-        """Applications of the half-space operator so far."""
+        """Return the number of applications of the half-space operator so far."""
         return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
 
     def solve_pressure(
@@ -130,10 +130,10 @@ class ContactSearch:
         depth: float,
         force: PrescribedForce | None = None,
     ) -> tuple[ContactSet, float]:
-        """Pressure P ≥ 0 with |e| on the set below the limit and no overlap beyond it elsewhere.
+        """Solve for P ≥ 0 with |e| on the set below the limit and no overlap beyond it elsewhere.
 
         change : BoundedField of e − g
-        force : PrescribedForce, to which the depth is brought while it is iterated; None: the depth is kept
+        force : PrescribedForce that the depth is adjusted to during the iteration; None keeps the depth
 
         Changes pressure, e − g and set in place. Returns the contact set and the depth.
         """
@@ -144,8 +144,8 @@ class ContactSearch:
                 contact_set = self.contact_set(inside)
             limit = self._largest_residual(contact_set, depth)
             largest = self._loops.largest_gap(change.values, self.initial_gap, self.residual, contact_set.places)
-            # Residual and rounding error together must not exceed the limit. Where the rounding error is most of it,
-            # the gap is recomputed as soon as the residual is no larger than the rounding error.
+            # Residual and rounding error together must not exceed the limit. If the rounding error is most of it, the
+            # gap is recomputed as soon as the residual is no larger than the rounding error.
             close_enough = max(limit - change.rounding, change.rounding)
             is_close = largest <= close_enough and not tension
             if is_close and (not force or force.is_met(pressure, contact_set.places, depth, limit)):
@@ -155,7 +155,7 @@ class ContactSearch:
                         return contact_set, depth
                     self._deflect(pressure, depth, change)
                     self.add_penetrating_elements(change, inside, limit)
-                    changed, search = True, None  # the load array holds another load now
+                    changed, search = True, None  # the load array now contains another load
                 continue
             if changed or search is None:
                 search = self._search(contact_set, search if 0 < releases < _HALVE_STEP_EVERY else None)
@@ -173,7 +173,7 @@ class ContactSearch:
                     continue
             release_step = (_LATER_STEPS if releases else 1.0) * 0.5 ** (releases // _HALVE_STEP_EVERY)
             changed = search.step_causes_tension(release_step, pressure)
-            # If the rounding error is too large, and recomputing the gap reduces it for the rest of this level.
+            # The rounding error is too large, and recomputing the gap reduces it for the rest of this level.
             too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self.field_rounding) * depth)
             recomputes = change.rounding > too_large and self._rounding * largest < _INEXACT * limit
             change.rounding += self._rounding * largest + self.field_rounding * depth
@@ -190,7 +190,7 @@ class ContactSearch:
         raise self._not_converged(contact_set, largest, limit)
 
     def _largest_residual(self, contact_set: ContactSet, depth: float) -> float:
-        """Return the largest |e| on a set, and overlap outside it, that the search leaves."""
+        """Return the largest |e| on a set, and the largest overlap outside it, at the end of the search."""
         share = min(contact_set.places.size / _FEW, 1.0)
         return _SEARCH_SHARE * max(share * self._tolerance, min(self._tolerance, _LEAST_RESIDUAL)) * depth
 
@@ -218,11 +218,11 @@ class ContactSearch:
         raise self._not_converged(contact_set, error, tolerance)
 
     def contact_set(self, inside: Mask) -> ContactSet:
-        """The ContactSet of a flat field that says whether an element is in it."""
+        """Return the ContactSet of a flat field of flags."""
         return ContactSet(inside, *self._loops.contact_places(inside, self._width, self._halfspace.load.shape[1]))
 
     def gap_change(self, pressure: Array, depth: float) -> BoundedField:
-        """e − g = K P − u of a pressure as a BoundedField; e_q = K q − 1 of a tangent with a depth of 1."""
+        """Return e − g = K P − u of a pressure as a BoundedField; e_q = K q − 1 of a tangent with a depth of 1."""
         change = BoundedField(self.zeros(), self.field_rounding * depth)
         if pressure.any():
             self._deflect(pressure, depth, change)
@@ -231,11 +231,11 @@ class ContactSearch:
         return change
 
     def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
-        """A flat field of zeros; its memory is allocated by the loop that fills it, on the threads of that loop."""
+        """Return a flat field of zeros; the loop that fills it allocates its memory on its threads."""
         return np.zeros(self.initial_gap.size, dtype or self.precision)
 
     def _search(self, contact_set: ContactSet, last: ConjugateGradients | None = None) -> ConjugateGradients:
-        """Conjugate gradients on a set: the last search continued, or a new one."""
+        """Return conjugate gradients on a set: the last search continued, or a new search."""
         if last is None:
             return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         last.change_set(contact_set)
@@ -248,7 +248,7 @@ class ContactSearch:
         )
 
     def _deflect(self, pressure: Array, depth: float, change: BoundedField) -> None:
-        """Compute e − g = K P − u from a pressure, in double precision where the tolerance needs it; in place.
+        """Compute e − g = K P − u from a pressure, in double precision if the tolerance needs it; in place.
 
         change : BoundedField of e − g, whose border is kept
         """
@@ -259,10 +259,10 @@ class ContactSearch:
         change.rounding = (self._exact_rounding + self.field_rounding) * depth
 
     def add_penetrating_elements(self, change: BoundedField, inside: Mask, limit: float) -> int:
-        """Add the elements that overlap the surface by more than the limit to a set; returns their number."""
+        """Add the elements that overlap the surface by more than the limit to a set; return their number."""
         fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))
         return sum(self._loops.each(kernels.add_penetrating_elements, (limit,), *fields))
 
     def interior(self, field: Array) -> Array:
-        """View of a flat field without its border, in rows and columns."""
+        """Return a view of a flat field without its border, in rows and columns."""
         return field.reshape(-1, self._width)[REACH:-REACH, REACH:-REACH]

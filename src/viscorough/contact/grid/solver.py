@@ -1,11 +1,12 @@
-"""Contact on the grid: a contact from one at a smaller depth.
+"""Solve a contact on the grid, starting from a contact at a smaller depth.
 
-The pressure starts from the predictor P + Δu q, and the contact set from the last one and the elements that overlap the
-surface after it, except those that would touch late in the step. With these it would contain the set of the solution:
-between the two depths the contact grows, so that the surface outside it deflects further than predicted. From there
-contact.grid.search iterates for the pressure, and for the tangent from the start of contact.grid.tangent_start.
+The pressure starts from the predictor P + Δu q. The contact set starts from the last set and the elements that overlap
+the surface after the prediction, except for elements that would touch late in the step. With the late elements it would
+contain the set of the solution: between the two depths the contact grows, so the surface outside it deflects further
+than predicted. Then contact.grid.search iterates for the pressure, and for the tangent from the start of
+contact.grid.tangent_start.
 
-Symbols and reduced units are those of contact.state.
+Symbols and reduced units are defined in contact.state.
 """
 
 from dataclasses import replace
@@ -23,23 +24,23 @@ from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import BoundedField, ContactSet, ContactState, Elements, GridFields, Units
 from viscorough.types import Array, Integers, Mask
 
-# A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
-# which few columns do not fill.
+# A box with more than this ratio of rows to columns is transposed: the operator works on blocks of columns, which few
+# columns do not fill.
 _TALL = 4
 
 
 class GridSolver:
-    """Solves the contact of the elements in a box of the grid, starting from a contact at a smaller depth.
+    """Solver for the contact of elements in a box of the grid, starting from a contact at a smaller depth.
 
     box : (first row, first column, rows, columns)
     elements : state.Elements, in any order; the rank of an element is its position in their arrays
     tolerance : largest |e| in contact or overlap outside it, over the depth
     options : SolverOptions
-    threads : on which it computes
+    threads : number of threads
     reach : number of elements, by rank, that can touch; all in the box by default
 
     box : as it was given
-    is_restricted : whether the operator is restricted to tiles with elements, since these are a small part of the box
+    is_restricted : True if the operator is restricted to tiles with elements, because these are a small part of the box
     place : index of every element in flat fields, by rank (0: not in the box)
     initial_gap : flat field
     """
@@ -63,13 +64,14 @@ class GridSolver:
         used = tiles if self.is_restricted else None
         self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads, tiles=used)
         self.initial_gap = self._search.initial_gap
-        # Others have no deflection in a restricted operator.
+        # Places without elements have no deflection in a restricted operator.
         self.place_elements(elements, reach if self.is_restricted else None)
 
     def place_elements(self, elements: Elements, reach: int | None = None) -> None:
-        """Place elements, which begin with those placed before, up to the rank `reach`, and store their initial gaps.
+        """Place elements up to the rank `reach`, and store their initial gaps.
 
-        Elements that are not in the box have the place 0, the entry of which is kept.
+        The elements begin with the elements placed before. An element outside the box has the place 0, whose entry is
+        kept.
         """
         (top, left, rows, columns), row, column = self._oriented(elements, reach)
         field, width = self.initial_gap, columns + 2 * REACH
@@ -87,22 +89,22 @@ class GridSolver:
         self.place = place
 
     def _oriented(self, elements: Elements, reach: int | None) -> tuple[tuple[int, ...], Integers, Integers]:
-        """Box, and rows and columns of the elements up to a rank, exchanged in a transposed grid."""
+        """Return the box, and rows and columns of the elements up to a rank, exchanged in a transposed grid."""
         box, row, column = self.box, elements.row[:reach], elements.column[:reach]
         return ((*box[1::-1], *box[:1:-1]), column, row) if self._is_transposed else (box, row, column)
 
     def in_box(self, field: Array) -> Array:
-        """View of a flat field in the rows and columns of the box."""
+        """Return a view of a flat field in the rows and columns of the box."""
         interior = self._search.interior(field)
         return interior.T if self._is_transposed else interior
 
     @property
     def operator_applications(self) -> int:
-        """Applications of the half-space operator so far."""
+        """Return the number of applications of the half-space operator so far."""
         return self._search.operator_applications
 
     def fields(self, contact: ContactState) -> GridFields:
-        """GridFields of a contact from elsewhere on this grid; costs two applications of the operator."""
+        """Make GridFields on this grid for a contact from another solver; costs two applications of the operator."""
         search, loads = self._search, contact.member_loads()
         inside, pressure, tangent = search.zeros(bool), search.zeros(), search.zeros()
         place = self.place[loads.members]
@@ -111,10 +113,10 @@ class GridSolver:
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
     def solve(self, contact: ContactState, depth: float, force: tuple[float, float] | None = None) -> ContactState:
-        """The ContactState at a reduced depth, from a contact at a smaller one with GridFields on this grid.
+        """Solve the ContactState at a reduced depth, from a contact with GridFields at a smaller depth.
 
-        contact : without GridFields its loads are a first guess of those at the new depth
-        force : (ΣP, largest depth) where the depth is only a first guess of the one with this ΣP
+        contact : contact at the smaller depth; without GridFields its loads are a first guess for the new depth
+        force : (ΣP, largest depth) if the depth is only a first guess for this ΣP
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
@@ -131,7 +133,7 @@ class GridSolver:
         return self._state(contact.units, depth, fields, contact_set)
 
     def _predicted(self, contact: ContactState, depth: float) -> tuple[Array, BoundedField, Mask]:
-        """Pressure, e − g and contact set at a depth as predicted from the GridFields of a contact."""
+        """Predict pressure, e − g and contact set at a depth from the GridFields of a contact."""
         before, depth_step = contact.grid_fields, depth - contact.reduced_depth
         inner, precision = self._search.inner, self._search.precision
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
@@ -143,7 +145,7 @@ class GridSolver:
         return pressure, BoundedField(change, rounding + self._search.field_rounding * depth), inside
 
     def _guessed(self, contact: ContactState, depth: float) -> tuple[Array, BoundedField, Mask]:
-        """The same from the loads of a contact alone, without fields of its own, which are most of the memory."""
+        """Build an initial guess from the loads of a contact only; no further fields are stored, to save memory."""
         search, loads = self._search, contact.member_loads()
         pressure, inside, place = search.zeros(), search.zeros(bool), self.place[loads.members]
         pressure[place] = loads.pressure
@@ -153,10 +155,10 @@ class GridSolver:
         return pressure, change, inside
 
     def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
-        """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.
+        """Extrapolate the contact along its tangent to a nearby depth, and rescale its pressures to the given sum.
 
-        Changing the pressures by a multiple of q shifts the gap in contact by that multiple: the residual grows by no
-        more than the mean gap left in contact, weighted with q, and the distance of the depths. The gap is recomputed.
+        Changing the pressures by a multiple of q shifts the gap in contact by the same multiple. So the residual grows
+        by at most the q-weighted mean gap left in contact plus the distance of the depths. The gap is recomputed.
         """
         fields, search, precision = contact.grid_fields, self._search, self._search.precision
         places = np.flatnonzero(fields.inside)
@@ -173,20 +175,20 @@ class GridSolver:
     def solve_flat_punch(self, inside: Mask, tangent: Array, tangent_gap: Array) -> float:
         """Solve K q = 1 on a set by iteration from the given q, which must be zero outside the set; changes q in place.
 
-        inside : whether an element is in the set, flat field
+        inside : True for elements in the set, flat field
         tangent, tangent_gap : q and e_q = K q − 1, flat fields
 
-        Returns Σq, whose relative error is the square of that of q in the energy norm.
+        Returns Σq; its relative error is the square of the error of q in the energy norm.
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
         contact_set = self._search.contact_set(inside)
-        # The caller passes the tangent gap on from set to set, so that no bound on its rounding error is known.
+        # The caller reuses the tangent gap from set to set, so no bound on its rounding error is known.
         self._search.solve_tangent(contact_set, tangent, BoundedField(tangent_gap, np.inf))
         places = contact_set.places
         return self._loops.total(tangent, places) - self._loops.inner_product(tangent, tangent_gap, places)
 
     def _state(self, units: Units, depth: float, fields: GridFields, contact_set: ContactSet) -> ContactState:
-        """The ContactState of GridFields at a reduced depth."""
+        """Return the ContactState of GridFields at a reduced depth."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
         inner, residual = self._search.inner, self._search.residual
         largest = self._loops.largest_gap(change.values, self.initial_gap, residual, places)

@@ -1,7 +1,7 @@
-"""The tangent of a new contact before its iteration: the combination of known fields that is closest to it in energy.
+"""Start the tangent of a new contact from the combination of known fields that is closest to it in energy.
 
-Both pressures of a step and the last tangent are fields whose deflection is known, and the new tangent q is nearly a
-combination of them.
+The deflections of both pressures of a step and of the last tangent are known, and the new tangent q is almost a
+combination of these fields.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ _DEPENDENT = 1e-10
 def initial_tangent(
     now: tuple[Array, BoundedField, float], last: ContactState, contact_set: ContactSet, inner: slice, loops: GridLoops
 ) -> tuple[Array, BoundedField]:
-    """The combination as initial q, and e_q = K q − 1 everywhere as a BoundedField.
+    """Return the combination as initial q, and e_q = K q − 1 everywhere as a BoundedField.
 
     now : P, flat field, e − g = w − u, a BoundedField, and the reduced depth u after the step
     last : the ContactState before the step; without GridFields if there was no contact

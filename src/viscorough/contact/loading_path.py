@@ -1,11 +1,10 @@
-"""The elastic loading path of a rigid indenter by boundary elements, from level to level of increasing depth.
+"""Follow the elastic loading path of a rigid indenter by boundary elements, from level to level.
 
 One path determines the solution of the viscous problem for every force history (viscorough.viscous.kinetics).
 While few elements are in contact, every contact event (the next element touches) is a level: between events the curve
-is straight, so that interpolation is exact. Later, levels are placed where interpolation between them needs them
-(step_control). A curve that reaches complete contact ends there, at a depth that two linear problems give
-(complete_contact): elements whose overlap stays within the tolerance need not join the contact, so that a search for
-the last ones could run on without end.
+is straight, so interpolation is exact. Later, levels are placed as interpolation requires (step_control). A curve that
+reaches complete contact ends at this depth, which two linear problems give (complete_contact): elements whose overlap
+stays within the tolerance need not join the contact, so a search for the last elements could continue without end.
 """
 
 from __future__ import annotations
@@ -34,14 +33,14 @@ from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Progress, Scalar
 
-# The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
-# until their ratio is the last number.
+# The approach to the start fraction takes steps of this ratio of depths up to this share of the fraction. Then steps
+# become shorter until their ratio is the last number.
 _APPROACH_DEPTH_RATIO, _APPROACH_SHARE, _APPROACH_MIN_RATIO = 4.0, 0.7, 1.02
-# A curve that ends at a contact fraction up to this one does not need the depth of complete contact for its end.
+# A curve up to this contact fraction does not need the depth of complete contact for its end.
 _FAR_FROM_COMPLETE = 0.95
-# Tolerance unless another one or an error is requested; errors of the velocity that can be requested.
+# Default tolerance; errors of the velocity that can be requested.
 _DEFAULT_TOLERANCE, _ERRORS = 1e-3, (1e-3, 0.5)
-# Share of the computation of a curve and the estimate of its grid error that the curve itself takes.
+# Share of a curve in the computation of a curve and its estimated grid error.
 _SHARE_OF_CURVE = 0.75
 # Exponent of the share of the contact, or of the force, in the estimated share of the computation.
 _PROGRESS_EXPONENT = 0.5
@@ -65,7 +64,7 @@ def indent(
     threads: int = 1,
     options: SolverOptions = DEFAULT,
 ) -> LoadingCurve:
-    """Loading curve of a rigid indenter pressed without friction into an incompressible elastic half-space.
+    """Compute the loading curve of a rigid indenter in an incompressible elastic half-space, without friction.
 
     Solves w = (1/4πG) ∫ p/r dA with p ≥ 0, w ≥ u − g and p (w − u + g) = 0 for the initial gaps g of the indenter's
     elements (uniform pressure on square elements; Love 1929), at increasing depths u.
@@ -80,25 +79,24 @@ def indent(
         Levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires.
     start_fraction : float, optional
         Contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it has only a
-        few levels, and interpolation between these is not held to the tolerance; ignored where depths or forces are
-        given.
+        few levels, and interpolation between these may exceed the tolerance; ignored if depths or forces are given.
     until_fraction : float, optional
-        Contact fraction at which to stop, in (0, 1]; ignored where depths or forces are given.
+        Contact fraction at which to stop, in (0, 1]; ignored if depths or forces are given.
     until_force : float or str, optional
-        F/G at which to stop [length²]; ignored where depths or forces are given.
+        F/G at which to stop [length²]; ignored if depths or forces are given.
     shear_modulus : float or str, optional
-        G of an incompressible half-space [Pa], or a text as "2 MPa"; forces are then F [N], or texts as "5 mN". Depths
-        may be texts, too.
+        G of an incompressible half-space [Pa], or a text like "2 MPa"; forces are then F [N], or texts like "5 mN".
+        Depths may be texts, too.
     young_modulus : float or str, optional
         Young's modulus E instead of G: G = E/(1 − ν²)/4.
     poisson : float, optional
         Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
     tolerance : float, optional
         Largest gap in contact, or overlap outside it, over the depth, at every level, rounding included. The relative
-        error of the force there is far below it; the stiffness is less accurate (docs/solver.md). Also the largest
-        relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5, where
-        neither depths nor forces are given. Between 1e-12 and 0.1; by default 1e-3. It does not include the error of
-        the grid, which is often larger (`estimate_grid_error`).
+        error of the force is far below it; the stiffness is less accurate (docs/solver.md). Also the largest relative
+        error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5, if neither depths nor
+        forces are given. Between 1e-12 and 0.1; by default 1e-3. It does not include the error of the grid, which is
+        often larger (`estimate_grid_error`).
     error : float, optional
         Relative error of the velocity that is allowed, from 1e-3 to 0.5, instead of a tolerance. The curve is computed
         on as few points of the map, and to as loose a tolerance, as the estimated error allows: on every n-th point in
@@ -106,20 +104,19 @@ def indent(
         hL/25 on, with the rms height h and the diameter L of a disc of the same area, and is relative to the curve
         of all points. The result states `sampling` and the reason for it, `choice`.
     estimate_grid_error : bool, optional
-        Whether to estimate the error that is due to the spacing of the map, `grid_error` of the result, from a second
-        curve on every second point. This takes 0.2 to 0.6 times as long as the curve. With `error` it is always
-        estimated.
+        Estimate the error due to the spacing of the map, `grid_error` of the result, from a second curve on every
+        second point. This takes 0.2 to 0.6 times as long as the curve. With `error` it is always estimated.
     progress : Progress, optional
-        Function that is called after a level with the estimated share of the computation that is done, up to 1.
+        Function called after a level with the estimated finished share of the computation, up to 1.
     threads : int, optional
-        Of the processor on which a curve is computed; the result does not depend on them. Worth it for large maps.
+        Number of threads; the result does not depend on it. Use several for large maps.
     options : SolverOptions, optional
-        SolverOptions.
+        Details of the iterations, such as their precision; change them only to measure their effect.
 
     Returns
     -------
     LoadingCurve
-        The last level is the first one at or beyond `until_fraction` or `until_force`, or the depth from which all
+        Its last level is the first level at or beyond `until_fraction` or `until_force`, or the depth from which all
         elements touch, as in `complete_contact`: beyond it the curve is straight. An indenter of one height has a
         single level, at a depth of one spacing (√(dx dy) for two): its curve is the straight line from the origin
         through it.
@@ -128,7 +125,7 @@ def indent(
     ------
     ValueError
         For arguments out of range, for an error together with a tolerance, depths or forces, and for maps of fewer than
-        3 x 3 points where the error of the grid is needed.
+        3 x 3 points if the error of the grid is needed.
     ConvergenceError
         If a level cannot be solved to the tolerance.
 
@@ -145,7 +142,7 @@ def indent(
     >>> curve.depth.tolist(), bool(curve.force[0] < curve.force[1])
     ([0.005, 0.01], True)
 
-    Ask for the velocity within 20 %, and see how many points this takes:
+    Request the velocity within 20 %, which takes every second point:
 
     >>> disc = viscorough.self_affine_disc(0.8, 129, rms=0.01, seed=1)
     >>> viscorough.indent(disc, error=0.2).sampling
@@ -224,7 +221,7 @@ def _curve(
     threads: int,
     options: SolverOptions,
 ) -> LoadingCurve:
-    """The LoadingCurve of a map; arguments are those of `indent`, as numbers that were checked."""
+    """Compute the LoadingCurve of a map; arguments as in `indent`, as checked numbers."""
     if depths is not None:
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1], whole=False)
         contacts = accumulate(depths, solver.advance, initial=solver.unloaded_state())
@@ -257,7 +254,7 @@ def _curve(
 
 
 def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str) -> None:
-    """Raise ValueError if given depths or forces are so close that what was found at them does not increase."""
+    """Raise ValueError if given depths or forces are so close that the results at them do not increase."""
     if given is not None and (closer := np.diff(found) <= 0).any():
         level, values = int(np.argmax(closer)), np.asarray(given)
         pair = f"{values[level]:.17g} and {values[level + 1]:.17g} are closer than the accuracy"
@@ -266,7 +263,7 @@ def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str
 
 
 def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:
-    """The levels of so many contacts, which are solved one after the other."""
+    """Return the levels of so many contacts, which are solved one after the other."""
     levels = []
     for contact in contacts:
         levels.append(Level.of(contact))
@@ -282,14 +279,14 @@ class _LoadingPath:
         self._control = StepControl(solver.tolerance, solver.threads)
         self._until_count = until_fraction * solver.elements.count
         self._complete: ContactState | None = None  # computed when the path may have reached it
-        # A little more, so that rounding does not leave the last level below the force.
+        # Slightly more, so that rounding does not leave the last level below the force.
         self._until_pressure_sum = (1 + ROUNDING / 2) * until_force / solver.units.force
         self._contact = solver.first_contact()
         self._levels = [Level.of(self._contact)]
         self._ahead = ContactsAhead()
 
     def levels_from(self, start_fraction: float) -> list[Level]:
-        """All levels; only a few of them below the start fraction."""
+        """Return all levels; there are only a few below the start fraction."""
         self._approach(start_fraction * self._solver.elements.count)
         self._follow_events()
         self._step_to_the_end()
@@ -334,7 +331,7 @@ class _LoadingPath:
         ratio, most = _APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
         while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
             contact = self._advance_to(self._contact.reduced_depth * ratio)
-            # A contact beyond the start is kept for later: the interval that contains the start must be a short one.
+            # Contacts beyond the start are kept for later: the interval that contains the start must be short.
             if contact.count >= start_count or contact.pressure_sum > self._until_pressure_sum:
                 self._ahead.keep(contact)
             else:
@@ -350,7 +347,7 @@ class _LoadingPath:
         most = min(self._control.events, int(np.ceil(self._until_count)))
         events, self._contact, _ = self._solver.follow_events(contact, most, self._until_pressure_sum)
         if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
-            self._levels.pop()  # more elements touch at exactly that depth
+            self._levels.pop()  # more elements touch at exactly this depth
         self._levels += [Level(*event) for event in zip(*events, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
         self._ahead = ContactsAhead(contact for contact in self._ahead if contact.reduced_depth > nearest)
@@ -370,10 +367,10 @@ class _LoadingPath:
             ratio = self._control.next_ratio(step, excess)
 
     def _advance(self, ratio: float) -> ContactState:
-        """The contact at a depth larger by a ratio, or by less where the force at which to stop is reached before."""
+        """Return the contact at a depth larger by a ratio, or at the force at which to stop if that comes first."""
         contact, last_depth = self._contact, self._contact.reduced_depth
-        # The curve lies above its tangent: at this depth the force at which to stop is reached, or exceeded at least by
-        # the rounding error of the contact.
+        # The curve lies above its tangent. So at this depth the force reaches the force at which to stop, or exceeds it
+        # by at least the rounding error of the contact.
         sufficient = (1 + ROUNDING) * self._until_pressure_sum
         sufficient_depth = last_depth + (sufficient - contact.pressure_sum) / contact.tangent_sum
         depth = max(min(last_depth * ratio, sufficient_depth), last_depth * self._control.min_ratio)

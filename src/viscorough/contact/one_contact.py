@@ -1,4 +1,4 @@
-"""The contact at a given depth or force, with its maps, without a loading curve."""
+"""Solve the contact at a given depth or force, with its maps, without a loading curve."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from viscorough.indenter import Indenter
 from viscorough.summaries import with_unit
 from viscorough.types import Progress, Scalar, Several
 
-_SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
+_SHARE_OF_APPROACH = 0.6  # of the time for a force, taken by the contacts up to it
 
 
 @overload
@@ -117,7 +117,7 @@ def contact_at(
     threads: int = 1,
     options: SolverOptions = DEFAULT,
 ) -> Contact | list[Contact]:
-    """Contact of a rigid indenter with an incompressible elastic half-space at a given depth or force.
+    """Solve the contact of a rigid indenter with an incompressible elastic half-space at a given depth or force.
 
     Solves the same problem as `indent`, at this depth only, or at the few depths that lead to the force.
 
@@ -126,12 +126,12 @@ def contact_at(
     indenter : Indenter
         Indenter with two-dimensional heights.
     force : array_like, optional
-        F/G, G the shear modulus [length²]; with a modulus F [N], or a text with a unit as "5 mN"; or several ones,
-        increasing. Either depth or force must be given.
+        F/G, G the shear modulus [length²]; with a modulus F [N], or a text with a unit like "5 mN"; or several
+        forces, increasing. Either depth or force must be given.
     depth : array_like, optional
-        u, from first contact [length], or a text with a unit as "20 nm"; or several ones, increasing.
+        u, from first contact [length], or a text with a unit like "20 nm"; or several depths, increasing.
     shear_modulus : float or str, optional
-        G of an incompressible half-space [Pa], or a text as "2 MPa". If the unit of length is not known, it is in
+        G of an incompressible half-space [Pa], or a text like "2 MPa". If the unit of length is unknown, it is in
         consistent units.
     young_modulus : float or str, optional
         Young's modulus E instead of G, in the same units: G = E/(1 − ν²)/4.
@@ -141,18 +141,17 @@ def contact_at(
         Largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of force
         at a given depth, and of depth at a given force, are far below it. Between 1e-12 and 0.1.
     progress : Progress, optional
-        Function that is called after a contact is solved with the estimated share of the computation that is done, up
-        to 1.
+        Function called after each contact with the estimated finished share of the computation, up to 1.
     threads : int, optional
-        Of the processor on which it is computed; the result does not depend on them. Worth it for large maps.
+        Number of threads; the result does not depend on it. Use several for large maps.
     options : SolverOptions, optional
-        SolverOptions.
+        Details of the iterations, such as their precision; change them only to measure their effect.
 
     Returns
     -------
     Contact or list[Contact]
-        Contact; for several depths or forces a list of them, which are solved along one path. The pressures add up to
-        `force` to rounding.
+        One Contact; for several depths or forces a list of contacts, which are solved along one path. The pressures add
+        up to `force` to rounding.
 
     Raises
     ------
@@ -210,13 +209,13 @@ def contact_at(
         pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
         contact = pressure > 0
         for array in (pressure, gap, contact):
-            array.flags.writeable = False  # so that they need not be copied
+            array.flags.writeable = False  # then they need not be copied
         contacts.append(
             Contact(
                 pressure=pressure,
                 gap=gap,
                 contact=contact,
-                # What was given instead of its rounded value.
+                # Keep the given value instead of its rounded value.
                 depth=float(value) if by_depth else state.depth,
                 force=state.force if by_depth else float(value),
                 stiffness=state.stiffness,

@@ -1,23 +1,24 @@
-"""Options of the contact solver: how a contact is computed, as opposed to which contact and how accurately."""
+"""Options of the contact solver: how a contact is computed."""
 
 from dataclasses import dataclass, fields
 
 from viscorough.arrays import real_number, shown, whole_number
 
-# The first set is without elements that touch in this last part of a step from the unloaded state, and less of smaller
-# steps: the load of those that touch before bends the surface away from them.
+# The first set leaves out elements that touch in this last part of a step from the unloaded state (in a smaller part of
+# smaller steps): the load of elements that touch before bends the surface away from them.
 LATE = 0.5
 
 
 @dataclass(frozen=True)
 class SolverOptions:
-    """Options of the contact solver. The defaults suit every indenter; other values serve to measure what a part gains.
+    """Options of the contact solver. The defaults suit every indenter; other values serve to measure the effect of a
+    part.
 
     Parameters
     ----------
     precision : str
         "single" or "double": floating-point type of the iterations on the grid. They compute corrections to the
-        predicted contact, so that rounding to single precision stays far below the tolerance.
+        predicted contact, so rounding to single precision stays far below the tolerance.
     exact_gap_below : float
         Tolerance below which the gap is recomputed in double precision when the bound on its rounding error nears the
         tolerance; 0: the gap is never recomputed.
@@ -25,14 +26,14 @@ class SolverOptions:
         Bound on the rounding error of one application of the half-space operator, over the largest deflection and the
         machine precision; 0: rounding is ignored.
     max_iterations : int
-        Iterations of one level after which ConvergenceError is raised.
+        Largest number of iterations of one level; beyond it ConvergenceError is raised.
     dense_contacts : int
-        Elements in contact up to which a level is solved densely.
+        Largest number of elements in contact for a dense solution of a level.
     dense_interactions : int
-        Number of elements that can be in contact, times the number of those in contact at the level before, up to which
-        a level is solved densely.
+        Largest product, for a dense solution of a level, of the number of elements that can be in contact and the
+        number of elements in contact at the level before.
     padding : bool
-        Whether the grid is padded against periodic images; without it the indenter has images at its own distance.
+        Pad the grid against periodic images; without padding the indenter repeats at its own period.
 
     Raises
     ------
@@ -57,7 +58,7 @@ class SolverOptions:
     padding: bool = True
 
     def __repr__(self) -> str:
-        """Call that makes these options, without those that have their default."""
+        """Show the call that makes these options, without default values."""
         given = {field.name: getattr(self, field.name) for field in fields(self)}
         changed = [f"{name}={given[name]!r}" for name in given if given[name] != getattr(SolverOptions, name)]
         return f"SolverOptions({', '.join(changed)})"

@@ -1,8 +1,8 @@
-"""Loops over large arrays on several threads of the process.
+"""Run loops over large arrays on several threads of the process.
 
-Compiled loops and Fourier transforms release the interpreter's lock, so that blocks of an array are processed at the
-same time. How an array is divided does not depend on the number of threads, and results of blocks are combined in their
-order: computed numbers are the same to the last bit, however many threads there are.
+Compiled loops and Fourier transforms release the interpreter's lock, so blocks of an array are processed at the same
+time. The division of an array does not depend on the number of threads, and results of blocks are combined in their
+order. So computed numbers are the same to the last bit for any number of threads.
 """
 
 import os
@@ -17,7 +17,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from viscorough.arrays import is_whole, shown
 
-# Entries of a block: those of a map of 257 x 257 elements are one block, so that such maps take no more time.
+# Entries of a block: a map of 257 x 257 elements is one block, so such maps take no more time.
 BLOCK = 1 << 17
 MOST_THREADS = 1024
 # Bytes that the processor reads and writes at a time.
@@ -33,15 +33,15 @@ def require_threads(name: str, threads: Any) -> None:
 def run_blocks(
     function: Callable[[int, int], Any], size: int, threads: int, block: int = BLOCK, multiple: int = 1
 ) -> list[Any]:
-    """Call function(start, stop) for every block of range(size), on so many threads; returns its results in order.
+    """Call function(start, stop) for every block of range(size), on so many threads; return its results in order.
 
     function : releases the interpreter's lock while it computes, and writes to no entry that another block reads
     block : largest number of entries of a block, itself a multiple of `multiple`
-    multiple : of which the numbers of entries of all blocks but the last one are multiples
+    multiple : all blocks except the last have a multiple of this number of entries
     """
     if size <= block:
         return [function(0, size)]
-    # An even number of blocks of equal size: two threads take the same time even where there are few.
+    # An even number of blocks of equal size: two threads then take the same time even for few blocks.
     count = -(-size // (2 * block)) * 2
     block = -(-size // (count * multiple)) * multiple
     starts = range(0, size, block)
@@ -63,7 +63,7 @@ def run_blocks(
 
 
 def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
-    """Zeros of which the first one starts a line of the cache, where loops read and write them faster."""
+    """Return an array of zeros whose first entry starts a line of the cache; loops then access it faster."""
     size = int(np.prod(shape)) * np.dtype(dtype).itemsize
     memory = np.zeros(size + _CACHE_LINE, np.uint8)
     start = -memory.ctypes.data % _CACHE_LINE
@@ -79,5 +79,5 @@ class Buffer(threading.local):
 
 @lru_cache(maxsize=1)
 def _helpers(_process: int, threads: int) -> ThreadPoolExecutor:
-    """Threads besides the calling one; a forked process needs its own."""
+    """Return threads in addition to the calling thread; a forked process needs its own."""
     return ThreadPoolExecutor(threads, thread_name_prefix="viscorough")

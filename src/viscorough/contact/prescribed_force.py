@@ -1,12 +1,12 @@
-"""Contacts at prescribed forces, found by solving as few depths as possible.
+"""Find contacts at prescribed forces with as few solved depths as possible.
 
 The force is a convex function F(u) of the depth, and the contact solver gives F and its exact tangent k at any depth.
 The depth for a large map is first estimated from a map of the highest points of its blocks, solved in the same way.
-Where this does not help, contact events are followed: while few elements touch, they end at the force; else they give
+If this does not help, contact events are followed: while few elements touch, they end at the force; otherwise they give
 the exponent of a power law for a first guess. On a grid the depth is then adjusted while the contact is solved
-(grid.depth_adjustment). Where that is not accurate enough, the next depth lies between a contact below and one above:
-that of the interpolant of a loading curve, in the triangle of chord and tangents, or where the tangents put it. The
-last, small correction follows the tangent.
+(grid.depth_adjustment). If this is not accurate enough, the next depth lies between a contact below and a contact
+above: on the interpolant of a loading curve, in the triangle of chord and tangents, or at the intersection with the
+tangents. The last, small correction follows the tangent.
 """
 
 from dataclasses import replace
@@ -28,31 +28,32 @@ _MAX_DEPTH_RATIO = 4.0
 _MAX_ATTEMPTS = 100
 # The depth guessed may be too small by the ratio to the last depth to this power; boxes of grids allow for no more.
 _UNCERTAINTY = 0.2
-# Elements in contact up to which events are followed, and from which on the power law is trusted over larger ratios.
+# Largest number of elements in contact for contact events; from this number on the power law is trusted over larger
+# ratios.
 _EVENTS, _REPRESENTATIVE = 200, 100
 _TINY = 1e-300
-# Elements above which the depth is estimated on a map of blocks, their sides in elements, the tolerance there, and the
-# ratio of forces from the last contact from which on it is.
+# Estimate the depth on a map of blocks above this number of elements. Further numbers: side of a block in elements,
+# tolerance on the map of blocks, and smallest ratio of forces from the last contact.
 _LARGE, _SIDE, _COARSE_TOLERANCE, _FAR = 1 << 15, 4, 1e-2, 4.0
-# Least number of blocks in contact for an estimate.
+# Smallest number of blocks in contact for an estimate.
 _FEWEST_BLOCKS = 20
-# The depth of the map exceeds that of the blocks by a share of c over the square root of the number of blocks in
-# contact: a small, likely and large c (self-affine maps had 0.6 to 3). Where blocks of the blocks tell the c of the
-# blocks, or at least the last number, these are multiples of it (the c of the map was 0.9 to 1.6 times as large).
+# The depth of the map exceeds the depth of the blocks by a share of c over the square root of the number of blocks in
+# contact: a small, likely and large c (self-affine maps had 0.6 to 3). If the excess c was measured on the next coarser
+# map, the bounds are these multiples of it (at least the last number; the c of the map was 0.9 to 1.6 times as large).
 _EXCESS, _GROWTH_OF_EXCESS, _LEAST_EXCESS = (0.6, 1.2, 2.5), (0.8, 1.1, 1.6), 0.3
 # Deflection of the centre of a square under a uniform pressure, over P.
 _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 
 
 def _highest_of_blocks(indenter: Indenter) -> Indenter:
-    """The indenter of the highest points of blocks of elements, which is nowhere lower."""
+    """Return the indenter of the highest points of blocks of elements, which is nowhere lower."""
     heights = _largest_in_blocks(np.ascontiguousarray(indenter.heights))
     return Indenter(heights, _SIDE * indenter.spacing, _SIDE * indenter.row_spacing)
 
 
 @njit
 def _largest_in_blocks(heights):
-    """The largest height in each block of _SIDE x _SIDE elements, nan where there is none."""
+    """Return the largest height in each block of _SIDE x _SIDE elements, nan for a block without elements."""
     rows, columns = heights.shape
     largest = np.empty((-(-rows // _SIDE), -(-columns // _SIDE)), heights.dtype)
     in_columns = np.empty(_SIDE * largest.shape[1], heights.dtype)
@@ -70,12 +71,12 @@ def _largest_in_blocks(heights):
 
 
 def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
-    """The loads of blocks divided among their elements.
+    """Divide the loads of blocks among their elements.
 
     pressure : P of blocks, in reduced units of the elements, shape of the map of blocks
 
-    Those elements are loaded that lie no deeper below the highest one of their block than it deflects itself, as if
-    with the ellipse of pressures of a Hertzian contact.
+    An element is loaded if its distance below the highest element of its block is at most the block's own deflection.
+    The loads follow the ellipse of pressures of a Hertzian contact.
     """
     row, column = elements.places_on_map()
     block = row // _SIDE * pressure.shape[1] + column // _SIDE
@@ -96,22 +97,22 @@ class ForceSearch:
     def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
         self._below, self._above = solver.unloaded_state(), ContactsAhead()
-        # Up to how many elements in contact events are followed; the event of the last one may lie beyond the force.
+        # Follow contact events up to this number of elements; the event of the last element may lie beyond the force.
         dense = solver.options.dense_contacts, solver.options.dense_interactions
         self._events = int(min(_EVENTS, *dense, solver.elements.count - 1))
         self._of_blocks: tuple[float, float] | None = None
 
     @cached_property
     def _first(self) -> ContactState:
-        """The first contact, for which dense solutions tabulate influence coefficients for the whole map."""
+        """Return the first contact, for which dense solutions tabulate influence coefficients for the whole map."""
         return self._solver.first_contact()
 
     def contact_at(self, force: float, progress: Progress = lambda share: None) -> ContactState:
-        """The ContactState at F/G [length²], a larger one than at the last call.
+        """Solve the ContactState at F/G [length²], a larger force than at the last call.
 
-        ΣP is that of the force, and the pressures sum to it. The depth is the one at which the tangent from the nearest
-        contact that was solved reaches the force; over this distance the stiffness changes by less than the tolerance.
-        progress : function that is called after each contact with the share of the force that was reached, up to 1
+        ΣP belongs to the force, and the pressures sum to it. At the depth, the tangent from the nearest solved contact
+        reaches the force; over this distance the stiffness changes by less than the tolerance.
+        progress : function called after each contact with the reached share of the force, up to 1
         Raises ConvergenceError if a contact cannot be solved to the tolerance, ValueError for a force too large
         to represent.
         """
@@ -150,9 +151,10 @@ class ForceSearch:
         )
 
     def _estimate(self, target: float) -> tuple[ContactState | None, tuple[float, float] | None]:
-        """A guess of the contact at a force, and (force, depth it hardly exceeds), from a map of blocks, if that helps.
+        """Guess the contact at a force, and return (force, likely largest depth), from a map of blocks, if that helps.
 
-        An indenter that is nowhere lower carries a force at a smaller depth, so that this is estimated from below.
+        An indenter that is nowhere lower carries the same force at a smaller depth. The map of blocks therefore
+        estimates the depth from below.
         """
         solver, below, nothing = self._solver, self._below, (None, None)
         is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
@@ -163,13 +165,13 @@ class ForceSearch:
         try:
             search = ForceSearch(coarse)
             contact = search.contact_at(target * solver.units.force)
-        except (ConvergenceError, ValueError):  # the highest points may be of one height to rounding
+        except (ConvergenceError, ValueError):  # the highest points may have one height to rounding
             return nothing
         unit = coarse.units.length / solver.units.length
         depth, share = unit * contact.reduced_depth, contact.count**-0.5
         least, likely, largest = (depth * (1 + c * share) for c in search.excess(contact))
         if contact.count < _FEWEST_BLOCKS or least <= below.reduced_depth:
-            solver.candidates(largest, largest)  # so that the first contact does not rank more
+            solver.candidates(largest, largest)  # the first contact then ranks no further elements
             return nothing
         of_blocks, pressure = contact.member_loads(), np.zeros(blocks.heights.shape)
         pressure[coarse.elements.places_on_map(of_blocks.members)] = unit * of_blocks.pressure
@@ -180,7 +182,7 @@ class ForceSearch:
         return ContactState(solver.units, likely, loads.members.size, target, 0.0, loads=loads), (target, largest)
 
     def excess(self, contact: ContactState) -> tuple[float, ...]:
-        """A small, likely and large c for the indenter whose blocks this one has; contact : the one found last."""
+        """Return a small, likely and large c for the indenter of these blocks; contact : the contact found last"""
         if self._of_blocks is None:
             return _EXCESS
         depth, share = self._of_blocks
@@ -205,7 +207,7 @@ class ForceSearch:
         return replace(below, reduced_depth=depth, pressure_sum=target, loads=loads._replace(pressure=pressure))
 
     def _guess(self, target: float, attempt: int) -> tuple[float, tuple[float, float] | None]:
-        """Depth to solve next; with no contact above, also (force that is sought, largest likely depth)."""
+        """Return the depth to solve next; without a contact above, also (target force, largest likely depth)."""
         depth = self._next_depth(target, attempt)
         if self._above:
             return depth, None
@@ -213,13 +215,13 @@ class ForceSearch:
         return depth, (target, self._solver.depth_of_box(depth, largest))
 
     def _next_depth(self, target: float, attempt: int) -> float:
-        """Depth to solve next, between the nearest contacts below and above the force."""
+        """Return the depth to solve next, between the nearest contacts below and above the force."""
         below = Level.of(self._below)
         by_tangent = below.depth + (target - below.pressure_sum) / below.tangent_sum
         if below.count == self._solver.elements.count:
             return by_tangent
         if not self._above:
-            # The power law through the last contact, whose exponent only grows where the contact does.
+            # Use the power law through the last contact; its exponent grows as the contact grows.
             exponent = below.pressure_sum / (below.tangent_sum * below.depth)
             ratio = (target / below.pressure_sum) ** exponent
             return below.depth * (ratio if below.count >= _REPRESENTATIVE else min(ratio, _MAX_DEPTH_RATIO))
@@ -228,13 +230,13 @@ class ForceSearch:
             depth = min(by_tangent, above.depth - (above.pressure_sum - target) / above.tangent_sum)
         else:
             depth = interpolate(below, above, np.array([target]))[0]
-        # Both contacts are only as exact as the tolerance: where they are too close, the tangent gives the next depth.
+        # Both contacts are only as exact as the tolerance. If they are too close, the tangent gives the next depth.
         return float(min(depth, above.depth) if depth > below.depth else by_tangent)
 
     def _is_near(self, contact: ContactState, other: ContactState, target: float) -> bool:
-        """Whether the tangent of a contact leads to the force: the stiffness changes by less than the tolerance.
+        """Return True if the tangent of a contact leads to the force: the stiffness changes by less than the tolerance.
 
-        other : a contact from which the change of the stiffness with depth is known
+        other : a second contact, which gives the change of the stiffness with depth
         """
         distance = abs(target - contact.pressure_sum) / contact.tangent_sum
         if contact.fields is None:  # a dense solution is exact only at its own depth

@@ -1,7 +1,8 @@
-"""The elements of an indenter in the order of increasing initial gap, as far as a contact needs them.
+"""Rank the elements of an indenter by increasing initial gap, as far as a contact needs them.
 
 Only elements whose initial gap is below the depth can touch. Light contact on a large map therefore needs few of them,
-and sorting all would take longer than the contact: the map is read a few times, and those up to a depth are sorted.
+and sorting all would take longer than the contact itself. The map is read a few times instead, and only the elements
+up to a depth are sorted.
 """
 
 import numpy as np
@@ -13,13 +14,13 @@ from viscorough.types import Array, Integers
 
 # Sample size for choosing sort ranges, and the largest number of ranges.
 _SAMPLE, _MOST_RANGES = 1000, 8
-# Where no depth is known, fewer elements than the first number are all ranked, for curves, which come to need all of
-# them, up to the second; and all are from a share on.
+# If no depth is known: rank all elements below the first count; rank all elements for curves, which will need them all,
+# below the second count; rank all elements if the share of the map exceeds the third number.
 _LEAST, _LEAST_OF_CURVES, _MOST_SHARE = 1 << 12, BLOCK, 0.5
-# About how many elements, and at most which share, are ranked at first where no depth is known; how many of these are
-# in the sample that tells the depth, and its largest size.
+# If no depth is known, rank about this many elements first, and at most this share. A sample determines the depth:
+# number of these elements in the sample, and largest size of the sample.
 _FIRST, _FIRST_SHARE, _OF_SAMPLE, _LARGEST_SAMPLE = 1 << 12, 0.25, 64, 1 << 14
-# Depth up to which elements are ranked next where only those of the largest height are, over the largest initial gap.
+# If only elements of the largest height are ranked, rank next up to this depth over the largest initial gap.
 _SMALLEST_DEPTH = 1e-3
 
 
@@ -47,9 +48,9 @@ class Ranking:
             self._shape = rows, columns
 
     def first(self, depth: float, whole: bool = False) -> Elements:
-        """The Elements up to a reduced depth; where it is infinite, all of a small map and none of a large one.
+        """Return the Elements up to a reduced depth; for an infinite depth all of a small map and none of a large map.
 
-        whole : whether all will be needed
+        whole : True if all will be needed
         """
         nothing = np.empty(0, np.int32)
         fixed = self._origin, self._shape, self._aspect
@@ -59,9 +60,9 @@ class Ranking:
         return self.up_to(elements, depth) if np.isfinite(depth) else elements
 
     def small_depth(self) -> float:
-        """A reduced depth up to which there are about as many elements as are ranked in no time."""
+        """Return the reduced depth that contains about _FIRST elements, which are ranked quickly."""
         (rows, columns), share = self._heights.shape, min(_FIRST / self._count, _FIRST_SHARE)
-        # Spread evenly over the map by a quasi-random sequence (R2, Roberts 2018).
+        # Sample the map evenly by a quasi-random sequence (R2, Roberts 2018).
         places = np.arange(min(_OF_SAMPLE / share, _LARGEST_SAMPLE))
         row, column = (places * 0.7548776662466927 % 1 * rows, places * 0.5698402909980532 % 1 * columns)
         sample = self._heights[row.astype(int), column.astype(int)]
@@ -70,7 +71,7 @@ class Ranking:
         return float(np.partition(gap, rank)[rank]) if gap.size else np.inf
 
     def up_to(self, elements: Elements, depth: float) -> Elements:
-        """The Elements with all those ranked whose initial gaps are up to a reduced depth, or a larger one."""
+        """Return the Elements with all initial gaps up to a reduced depth, or a larger depth, ranked."""
         if depth <= elements.ranked_depth:
             return elements
         while True:
@@ -95,7 +96,7 @@ class Ranking:
         return longer
 
     def _between(self, above: float, up_to: float) -> tuple[Integers, Array]:
-        """Places on the map of the elements with reduced initial gaps between two depths, and these gaps."""
+        """Return places on the map of the elements with reduced initial gaps between two depths, and these gaps."""
         heights, length = self._heights.ravel(), self.units.length
 
         def find(i: int, j: int) -> tuple[Integers, Array]:
@@ -108,7 +109,7 @@ class Ranking:
         return np.concatenate(places), np.concatenate(gaps)
 
     def _in_order(self, place: Integers, gap: Array) -> tuple[Integers, Integers, Array]:
-        """Row, column and initial gap in increasing order of the gaps."""
+        """Return row, column and initial gap in increasing order of the gaps."""
         order = _increasing_order(gap, self._threads)
         row, column, in_order = (np.empty(gap.size, dtype) for dtype in (np.int32, np.int32, float))
 
@@ -123,18 +124,18 @@ class Ranking:
 
 
 def elements_of(indenter: Indenter, threads: int = 1) -> tuple[Elements, Units]:
-    """All Elements of an indenter, and the Units in which their initial gaps are expressed."""
+    """Return all Elements of an indenter, and the Units of their initial gaps."""
     ranking = Ranking(indenter, threads)
     return ranking.first(1.0), ranking.units
 
 
 def _increasing_order(gap: Array, threads: int) -> Integers:
-    """Indices that sort an array, equal values in the order in which they stand, so that ranks are the same everywhere.
+    """Return indices that sort an array and keep the order of equal values, so that ranks are the same everywhere.
 
-    Sorting is several times as fast where that order need not be kept; indices of equal values are sorted afterwards.
+    Sorting is several times as fast if it need not keep this order. Indices of equal values are sorted afterwards.
     """
     order = np.argsort(gap) if threads == 1 or gap.size <= BLOCK else _order_by_ranges(gap, min(threads, _MOST_RANGES))
-    is_equal = np.zeros(gap.size, dtype=bool)  # to the value before
+    is_equal = np.zeros(gap.size, dtype=bool)  # equal to the value before
 
     def compare(i: int, j: int) -> None:
         in_order = gap[order[max(i - 1, 0) : j]]
@@ -143,14 +144,14 @@ def _increasing_order(gap: Array, threads: int) -> Integers:
     run_blocks(compare, gap.size, threads)
     if is_equal.any():
         members = np.flatnonzero(is_equal | np.append(is_equal[1:], False))
-        # Numbers that order the members by groups of equal values, and by their indices within a group.
+        # These numbers order the members by groups of equal values, and by their indices within a group.
         group = np.cumsum(~is_equal[members]) * gap.size
         order[members] = np.sort(group + order[members]) - group
     return order
 
 
 def _order_by_ranges(gap: Array, ranges: int) -> Integers:
-    """Indices that sort an array, found for ranges of about as many values each on threads of their own."""
+    """Return indices that sort an array, in ranges of about equal size on separate threads."""
     inner = np.quantile(gap[:: max(gap.size // _SAMPLE, 1)], np.arange(1, ranges) / ranges)
     limits = [-np.inf, *inner, np.inf]
 

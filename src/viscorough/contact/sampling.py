@@ -20,17 +20,17 @@ from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Progress
 
-# A tolerance t causes an error of this number times √t in the velocity on a given grid, root mean square over all
+# A tolerance t causes an error of this number times √t in the velocity on a given grid, as root mean square over all
 # forces: 1 % at t = 1e-2, and 2 to 4 % at t = 0.1 (self-affine discs of 129 to 513 elements across, H = 0.2 to 0.8). It
-# grows as √t because k jumps at contact events, and loose tolerances do not resolve these.
+# grows as √t because k jumps at contact events, which loose tolerances do not resolve.
 _ERROR_PER_ROOT = 0.12
 # Share of the requested error that the tolerance may cause. Independent errors add in squares: 92 % are left to the
 # grid.
 _SHARE_OF_TOLERANCE = 0.4
 _LOOSEST_TOLERANCE = 0.1
-# Fewest points of the coarsest sampling across a map: with fewer, grids agree by chance.
+# Smallest number of points across a map in the coarsest sampling: with fewer, grids agree by chance.
 _FEWEST_POINTS = 16
-# Fewest points that are not nan, for the same reason.
+# Smallest number of points that are not nan, for the same reason.
 _FEWEST_ELEMENTS = 100
 
 Compute = Callable[[Indenter, float, Progress], LoadingCurve]
@@ -41,7 +41,7 @@ def curve_within(error: float, indenter: Indenter, compute: Compute, progress: P
 
     error : relative, root mean square over the forces from grid_error.lowest_force on
     compute : function of a map, a tolerance and a Progress that returns the curve
-    progress : function of the share that is done
+    progress : function of the finished share
     """
     tolerance, steps = tolerance_for(error), _steps(indenter)
     ends = np.cumsum([0.0, *(1.0 / step**2 for step in steps)])

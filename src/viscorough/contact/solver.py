@@ -1,9 +1,9 @@
-"""Frictionless contact of a rigid indenter with the elastic half-space at a given depth, started from a shallower one.
+"""Solve the frictionless contact of a rigid indenter at a given depth, started from a smaller depth.
 
-Deflections are written w = K P with P = p d/(4πG), a length, so that F/G = 4π d ΣP for elements of area d² (symbols:
-contact.state). At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the initial gap. With the
-tangent q, the solution of K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq is the exact tangent
-stiffness and P + Δu q the predictor for the depth u + Δu.
+The half-space is elastic. Deflections are written w = K P with P = p d/(4πG), a length, so F/G = 4π d ΣP for elements
+of area d² (symbols: contact.state). At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the
+initial gap. With the tangent q, the solution of K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq
+is the exact tangent stiffness and P + Δu q the predictor for the depth u + Δu.
 """
 
 import sys
@@ -34,23 +34,22 @@ from viscorough.indenter import Indenter, check_indenter
 from viscorough.summaries import with_unit
 from viscorough.types import Array
 
-# Depth that the box of a grid allows for, over the requested depth: less makes boxes smaller, but there are more of
-# them, each of which takes two applications of the operator. A box that would cover more than this share of the whole
-# grid is replaced by the whole grid.
+# Allow for this multiple of the requested depth when a new box is set up: a smaller margin means more boxes, each of
+# which costs two applications of the operator. Use the whole grid if the box would cover more than this share of it.
 _BOX_DEPTH_MARGIN, _LARGEST_BOX = 2.0, 0.8
-# Growth of the area of a box up to which it allows for more than the depth that is needed.
+# Largest growth of the area of a box by this allowance.
 _GROWTH_OF_BOX = 1.3
 # Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
 # multiple of the tolerance times the depth; a larger gap is an error.
 _LOST_CONTACT = 3
-# Largest reduced depth: single precision holds numbers a thousand times as large and more.
+# Largest reduced depth: single precision has a range of at least a thousand times as much.
 _LARGEST_DEPTH = 1e25
 # Residual of the linear problems of complete contact, over the tolerance. The relative error of the depth is a few
-# times as large as this residual, and the largest residual of an element is below it times the root of their number.
+# times this residual. The largest residual of an element is below it times the root of the number of elements.
 _JOINED_SHARE = 1e-4
-# A gap is open beyond doubt if it is larger than the residual by this factor: a margin for rounding.
+# A gap counts as open if it exceeds the residual by this factor, a margin for rounding.
 _OPEN_GAP = 1.1
-# Ratio of depths up to which a contact is transferred to another grid as the start there.
+# Largest ratio of depths for a contact to be transferred to another grid as a start.
 _LARGEST_RATIO_OF_START = 2.0
 
 
@@ -78,7 +77,8 @@ def check_solvable(
 def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:
     """Give an AccuracyWarning, which starts with the name, for a depth larger than the map is wide.
 
-    Not where the unit of length is not known: the theory is linear in the heights, which then may be in any unit.
+    No warning is given if the unit of length is unknown: the theory is linear in the heights, which may then be in any
+    unit.
     """
     rows, columns = indenter.heights.shape
     extent = max(rows * indenter.row_spacing, columns * indenter.spacing)
@@ -89,19 +89,19 @@ def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:
 
 
 class ContactSolver:
-    """Solves the contact of one indenter at increasing depths, to a residual of `tolerance` times the depth.
+    """Solver for the contact of one indenter at increasing depths, to a residual of `tolerance` times the depth.
 
     indenter : Indenter with two-dimensional heights
     tolerance : largest |e| in contact or overlap outside it, over the depth
     options : SolverOptions
-    threads : on which contacts on the grid are computed
-    largest_depth : the largest depth that will be requested, where it is known: no grid allows for more [length]
-    whole : whether the whole map will be in contact, so that the memory must suffice for it; else it must for boxes
-        around the elements that can touch, as they are needed
+    threads : number of threads for contacts on the grid
+    largest_depth : the largest depth that will be requested, if it is known: no grid allows for more [length]
+    whole : True if the whole map will be in contact, so memory is checked for the whole map; otherwise it is checked
+        for each box around the elements that can touch
 
     indenter : as it was given
     elements, units : its state.Elements and state.Units
-    is_flat : whether all elements are of one height, so that all touch at once
+    is_flat : True if all elements have one height, so all touch at once
 
     Raises MemoryError if the available memory does not suffice for the map.
     """
@@ -129,16 +129,16 @@ class ContactSolver:
 
     @property
     def operator_applications(self) -> int:
-        """Applications of the half-space operator on the grid so far."""
+        """Return the number of applications of the half-space operator on the grid so far."""
         return self._former_applications + (self._grid.operator_applications if self._grid else 0)
 
     def unloaded_state(self) -> ContactState:
-        """The ContactState at depth zero: no pressure, and no element in contact yet."""
+        """Return the ContactState at depth zero: no pressure, and no element in contact yet."""
         nothing = np.empty(0)
         return ContactState(self.units, 0.0, 0, 0.0, 0.0, loads=MemberLoads(nothing.astype(int), nothing, nothing))
 
     def first_contact(self) -> ContactState:
-        """The ContactState up to which the curve is straight, since only the highest elements are in contact.
+        """Return the ContactState where the straight start of the curve ends: only the highest elements touch.
 
         Its depth is the smallest positive initial gap, or the side of an element for an indenter of one height.
         """
@@ -152,10 +152,10 @@ class ContactSolver:
         return self.advance_reduced(self.unloaded_state(), depth)
 
     def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
-        """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.
+        """Extrapolate the contact along its tangent to a nearby depth, and rescale its pressures to the given sum.
 
-        contact : the last one that was solved
-        depth, pressure_sum : u and ΣP, reduced; for a dense solution, those of the contact
+        contact : the contact solved last
+        depth, pressure_sum : u and ΣP, reduced; for a dense solution, the values of the contact
 
         Its residual may be up to twice the tolerance. It includes a bound on the overlap of elements outside the box of
         the grid: the depth beyond the initial gap.
@@ -166,7 +166,7 @@ class ContactSolver:
         return replace(settled, residual=max(settled.residual, 1 - self.elements.next_gap(self._reach) / depth))
 
     def advance(self, contact: ContactState, depth: float) -> ContactState:
-        """The ContactState at a depth [length] larger than that of `contact`.
+        """Solve the ContactState at a depth [length] larger than the depth of `contact`.
 
         Raises ConvergenceError if it is not solved to the tolerance, ValueError for a depth too large to represent.
         """
@@ -179,11 +179,12 @@ class ContactSolver:
         force: tuple[float, float] | None = None,
         guess: ContactState | None = None,
     ) -> ContactState:
-        """The ContactState at a larger depth in units of the largest initial gap. Raises what `advance` raises.
+        """Solve the ContactState at a larger depth in units of the largest initial gap. Raises errors like `advance`.
 
-        force : (ΣP, largest depth) where the depth is a first guess of the one with this ΣP: on the grid the contact is
-            the one at this force, within the tolerance, or else at the largest depth; a dense solution is at the guess
-        guess : with loads like those at the larger depth, from which the iteration on a grid starts instead
+        force : (ΣP, largest depth) if the depth is a first guess for this ΣP. On the grid the contact is then solved at
+            this force, within the tolerance, or at the largest depth; a dense solution is at the guess
+        guess : contact with loads similar to the loads at the larger depth; the iteration on a grid starts from it
+            instead
         """
         if depth > _LARGEST_DEPTH:
             text = f"contact at depth {depth * self.units.length:g}: larger than {_LARGEST_DEPTH:g} times the largest"
@@ -197,7 +198,7 @@ class ContactSolver:
                 return self._checked(contact, solution)
         grid, start = self._grid_up_to(max(candidates, 1), deepest), contact
         if not _has_fields_on(grid, contact):
-            # The fields of a much shallower contact cost more than they save.
+            # The fields of a much smaller contact cost more than they save.
             is_start = depth < _LARGEST_RATIO_OF_START * contact.reduced_depth
             start = replace(contact, fields=grid.fields(contact)) if is_start else guess or self.unloaded_state()
         if force:
@@ -207,7 +208,7 @@ class ContactSolver:
     def follow_events(
         self, contact: ContactState, most: int, pressure_sum: float
     ) -> tuple[ContactEvents, ContactState, bool]:
-        """Events at which the next elements touch, and the contact at the last one; see dense.follow_events."""
+        """Follow events at which the next elements touch; return them and the last contact; see dense.follow_events."""
         while True:
             events, last, ends_at_force = dense.follow_events(self.elements, contact, most, pressure_sum)
             if last.reduced_depth < self.elements.ranked_depth:
@@ -215,11 +216,11 @@ class ContactSolver:
             self.elements = self._ranking.up_to(self.elements, _BOX_DEPTH_MARGIN * last.reduced_depth)
 
     def may_be_complete(self, contact: ContactState) -> bool:
-        """Return whether a contact may lie at or beyond the depth from which the contact is complete.
+        """Return True if a contact may lie at or beyond the depth of complete contact.
 
-        An element that overlaps the surface by less than the tolerance need not join the contact, so that the number
-        of elements in contact does not decide. At and beyond that depth no exact gap is open, and none that is computed
-        exceeds the residual.
+        An element that overlaps the surface by less than the tolerance need not join the contact, so the number of
+        elements in contact does not decide. At and beyond the depth of complete contact no exact gap is open, and no
+        computed gap exceeds the residual.
         """
         if contact.fields is None:
             return contact.count == self.elements.count  # a dense solution is exact
@@ -246,9 +247,9 @@ class ContactSolver:
         return replace(contact, loads=None, fields=grid.fields(contact))
 
     def gap_map(self, contact: ContactState) -> Array:
-        """Gap e between the deformed surfaces [length], of the shape of the heights; nan outside the indenter.
+        """Return the gap e between the deformed surfaces [length], shape of the heights; nan outside the indenter.
 
-        Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact says.
+        Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact.
         """
         heights, (top, left), (rows, columns) = self.indenter.heights, self.elements.origin, self.elements.shape
         own = slice(top, top + rows), slice(left, left + columns)
@@ -292,19 +293,19 @@ class ContactSolver:
         return gap
 
     def candidates(self, depth: float, deepest: float) -> int:
-        """Number of elements whose initial gaps are below a reduced depth: only these can touch there.
+        """Return the number of elements with initial gaps below a reduced depth: only these can touch at it.
 
-        deepest : depth up to which elements are ranked if they are not up to the first one
+        deepest : rank elements up to this depth if they are not ranked up to the first depth
         """
         if depth > self.elements.ranked_depth:
             self.elements = self._ranking.up_to(self.elements, deepest)
         return int(np.searchsorted(self.elements.initial_gap, depth))
 
     def depth_of_box(self, depth: float, deepest: float) -> float:
-        """A reduced depth up to a deeper one for which a box is hardly larger than for the first one.
+        """Return the largest reduced depth, up to a deepest one, whose box is hardly larger than that of a depth.
 
-        Elements are ranked up to the deeper one. A single element far from all others, which will hardly touch, can
-        make the box many times as large.
+        Elements are ranked up to the deepest one. A single element far from all others can make the box many times
+        as large, although it will hardly touch.
         """
         rank, reach = (max(self.candidates(u, deepest), 1) for u in (depth, deepest))
         area = np.ones(reach - rank + 1)
@@ -315,14 +316,14 @@ class ContactSolver:
         return min(deepest, self.elements.next_gap(reach))
 
     def _grid_up_to(self, rank: int, deepest: float) -> GridSolver:
-        """The grid solver of a box around the elements up to a rank: the current one, or else one with a larger box.
+        """Return the grid solver of a box around the elements up to a rank: the current one, or one of a larger box.
 
         Only elements whose initial gap is below the depth can touch.
 
         deepest : depth that a larger box allows for
         """
         if self._grid is None or rank > self._reach:
-            # The box allows for larger depths to come, or is the whole grid where it would save little.
+            # The box allows for larger depths to come, or is the whole grid if a box would save little.
             reach = max(rank, self.candidates(deepest, deepest))
             places = self.elements.row[:reach], self.elements.column[:reach]
             first, last = ([pick(place) for place in places] for pick in (np.min, np.max))
@@ -335,7 +336,7 @@ class ContactSolver:
                 self._grid.place_elements(self.elements)
                 return self._grid
             self._former_applications = self.operator_applications
-            self._grid = None  # its memory is free for the larger one
+            self._grid = None  # frees its memory for the larger grid
             require_for_box(self.indenter.heights, box, **self._of_memory)
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
@@ -343,7 +344,7 @@ class ContactSolver:
         return self._grid
 
     def _checked(self, before: ContactState, after: ContactState) -> ContactState:
-        """The contact after a step, if it has no tension, a residual within the tolerance, and has only grown."""
+        """Return the contact after a step, if it is valid: no tension, a small residual, and only growth."""
         pressure = after.fields.pressure if after.fields else after.member_loads().pressure
         if after.residual > self.tolerance or self._loops.lowest(pressure) < 0:
             raise ConvergenceError(
@@ -357,12 +358,12 @@ class ContactSolver:
                 f"{opening * self.units.length:g} although contact can only grow; choose a smaller tolerance"
             )
         if self.elements.initial_gap[after.count - 1] == 0 and self.elements.initial_gap[after.members[-1]] == 0:
-            # All touch from the outset: the curve is straight up to here, as LoadingCurve.at_force recognizes.
+            # All elements touch at once: the curve is straight up to here, as LoadingCurve.at_force recognizes.
             return replace(after, pressure_sum=after.reduced_depth * after.tangent_sum)
         return after
 
     def _lost_contact(self, before: ContactState, after: ContactState) -> tuple[int, float]:
-        """Number of elements that left the contact in a step, and the largest gap there, reduced."""
+        """Return the number of elements that left the contact in a step, and their largest gap, reduced."""
         if after.fields and before.fields:
             _, places = self._loops.new_places(before.fields, after.fields)
         else:
@@ -374,5 +375,5 @@ class ContactSolver:
 
 
 def _has_fields_on(grid: GridSolver, contact: ContactState) -> bool:
-    """Whether a contact has fields that are those of this grid."""
+    """Return True if a contact has fields of this grid."""
     return contact.fields is not None and contact.fields.initial_gap is grid.initial_gap

@@ -1,4 +1,4 @@
-"""The types that the parts of the contact solver exchange, and the symbols that describe them.
+"""Define the types that the parts of the contact solver exchange, and their symbols.
 
 For elements of sides dx and dy on an incompressible half-space of shear modulus G, with d = √(dx dy):
 
@@ -10,8 +10,8 @@ For elements of sides dx and dy on an incompressible half-space of shear modulus
     q = dP/du          tangent, dimensionless: K q = 1 on the contact set, q = 0 outside it
     e_q = K q − 1      tangent gap de/du, dimensionless, zero in contact
 
-Inside the solver, u, g, P and e are in units of the largest initial gap, so that results do not depend on the user's
-unit of length; such quantities are called reduced. `Units` holds the factors that convert them.
+Inside the solver, u, g, P and e are in units of the largest initial gap, so results do not depend on the user's unit of
+length; such quantities are called reduced. `Units` holds the factors that convert them.
 """
 
 from dataclasses import dataclass, field
@@ -37,17 +37,17 @@ class Units:
 
     @property
     def stiffness(self) -> float:
-        """Factor 4π d of the tangent stiffness k/G = 4π d Σq [length]."""
+        """Return the factor 4π d of the tangent stiffness k/G = 4π d Σq [length]."""
         return 4 * np.pi * self.side
 
     @property
     def force(self) -> float:
-        """Factor of the force F/G = 4π d ΣP [length²]."""
+        """Return the factor of the force F/G = 4π d ΣP [length²]."""
         return 4 * np.pi * self.side * self.length
 
     @property
     def pressure(self) -> float:
-        """Factor of the pressure p/G = 4π P/d [1]."""
+        """Return the factor of the pressure p/G = 4π P/d [1]."""
         return 4 * np.pi * self.length / self.side
 
 
@@ -60,7 +60,8 @@ class Elements:
     origin : first row and column of the indenter's heights that have an element
     shape : rows and columns of the smallest grid with all elements
     aspect : dy/dx of the elements
-    unranked : number of further elements, of larger initial gaps; ranked_depth : up to which all are ranked
+    unranked : number of further elements, with larger initial gaps; ranked_depth : all elements up to this depth are
+        ranked
     """
 
     row: np.ndarray
@@ -74,7 +75,7 @@ class Elements:
 
     @cached_property
     def influence(self) -> Array:
-        """Influence coefficients K by distance in rows and columns, of the shape of the grid, for dense solutions."""
+        """Return influence coefficients K by distance in rows and columns, for dense solutions."""
         rows, columns = (np.arange(n, dtype=float) for n in self.shape)
         return influence_table(rows, columns, self.aspect)
 
@@ -84,15 +85,15 @@ class Elements:
 
     @property
     def count(self) -> int:
-        """Number of elements."""
+        """Return the number of elements."""
         return self.initial_gap.size + self.unranked
 
     def next_gap(self, count: int) -> float:
-        """Lower bound of the initial gaps of all elements but the `count` first ones; infinite if there are no more."""
+        """Return a lower bound of the initial gaps after the `count` first elements; infinite if there are no more."""
         return float(self.initial_gap[count]) if count < self.initial_gap.size else self.ranked_depth
 
     def places_on_map(self, ranks: Integers | slice = slice(None)) -> tuple[Integers, Integers]:
-        """Rows and columns in the indenter's heights of elements of given ranks, or of all ranked ones."""
+        """Return rows and columns in the indenter's heights of elements of given ranks, or of all ranked elements."""
         return self.row[ranks] + self.origin[0], self.column[ranks] + self.origin[1]
 
 
@@ -107,7 +108,7 @@ class BoundedField:
 class ContactSet(NamedTuple):
     """The elements of a grid that are in contact.
 
-    inside : for every place of the flat grid, whether it is in contact
+    inside : for every place of the flat grid, True if it is in contact
     places : indices of the elements in contact in flat fields, shape (count,)
     slots : indices of the same elements in the flattened load array of the half-space operator, which has no border
     """
@@ -133,10 +134,10 @@ class MemberLoads(NamedTuple):
 class GridFields:
     """A contact on the grid: reduced fields as flat arrays with a border.
 
-    inside : whether a place is in contact
+    inside : True for places in contact
     pressure : P
     gap_change : e − g = w − u, the change of the gap since first contact; unlike e it does not exceed the depth, so
-        that single precision suffices for it
+        single precision suffices for it
     tangent : q = dP/du
     tangent_gap : e_q = K q − 1 = de/du, zero in contact
     initial_gap : g
@@ -152,11 +153,11 @@ class GridFields:
     place: np.ndarray
 
     def gap(self, places: Integers) -> Array:
-        """Reduced gap e at places of the flat arrays."""
+        """Return the reduced gap e at places of the flat arrays."""
         return self.gap_change.values[places] + self.initial_gap[places]
 
     def member_loads(self) -> MemberLoads:
-        """The MemberLoads, in double precision."""
+        """Return the MemberLoads, in double precision."""
         members = np.flatnonzero(self.inside[self.place])
         place = self.place[members]
         return MemberLoads(members, self.pressure[place].astype(float), self.tangent[place].astype(float))
@@ -169,10 +170,10 @@ class ContactState:
     units : Units of the reduced quantities
     reduced_depth : u
     count : number of elements in contact
-    pressure_sum, tangent_sum : reduced ΣP, and Σq, corrected for the remaining residuals, so that the errors of both
-        are of second order in these for the given contact set
+    pressure_sum, tangent_sum : reduced ΣP, and Σq, corrected for the remaining residuals; both errors are then of
+        second order in the residuals for the given contact set
     residual : largest |e| on the contact set or overlap outside it, rounding included, over the depth
-    loads : MemberLoads of a dense solution; None on the grid, where they would repeat the fields
+    loads : MemberLoads of a dense solution; None on the grid, because they would repeat the fields
     fields : GridFields of this contact; None for a dense solution, as long as no grid is needed
     """
 
@@ -186,31 +187,31 @@ class ContactState:
     fields: GridFields | None = None
 
     def member_loads(self) -> MemberLoads:
-        """The MemberLoads; on the grid they are gathered at every call."""
+        """Return the MemberLoads; on the grid they are gathered at every call."""
         return self.loads or self.grid_fields.member_loads()
 
     @property
     def grid_fields(self) -> GridFields:
-        """The fields of a contact that is known to be on a grid."""
+        """Return the fields of a contact on a grid."""
         assert self.fields is not None
         return self.fields
 
     @property
     def members(self) -> Integers:
-        """Elements in contact, as ranks, shape (count,)."""
+        """Return elements in contact as ranks, shape (count,)."""
         return self.member_loads().members
 
     @property
     def depth(self) -> float:
-        """Depth u [length]."""
+        """Return the depth u [length]."""
         return self.reduced_depth * self.units.length
 
     @property
     def force(self) -> float:
-        """F/G = 4π d ΣP [length²]."""
+        """Return F/G = 4π d ΣP [length²]."""
         return self.pressure_sum * self.units.force
 
     @property
     def stiffness(self) -> float:
-        """Tangent stiffness k/G = 4π d Σq [length]."""
+        """Return the tangent stiffness k/G = 4π d Σq [length]."""
         return self.tangent_sum * self.units.stiffness

@@ -1,9 +1,9 @@
-"""Placement of the levels of a loading path: few of them, yet close enough for accurate interpolation between them.
+"""Place the levels of a loading path: few levels, yet close enough for accurate interpolation.
 
-The curve is convex, so that between two levels it lies in the triangle of their tangents and their chord. This bounds
-the error of the interpolated depth in every interval, whatever the surface. On rough surfaces the error is far below
-the bound; about three times the bound is accepted where the error predicted from the depths at which elements touch is
-small enough.
+The curve is convex, so between two levels it lies in the triangle of their tangents and their chord. This bounds the
+error of the interpolated depth in every interval, for every surface. On rough surfaces the error is far below the
+bound. About three times the bound is accepted if the error predicted from the contact depths of the elements is small
+enough.
 """
 
 from dataclasses import dataclass
@@ -19,25 +19,24 @@ from viscorough.types import Array
 # Finest tolerance of interpolation: a smaller one would require every contact event as a level, as in direct
 # integration.
 FINEST_ACCURACY = 1e-5
-# Ratios of the depths of successive levels: the largest one; the first one where there are few contact events.
+# Largest ratio of the depths of successive levels, and the first ratio if there are few contact events.
 _MAX_DEPTH_RATIO, _INITIAL_DEPTH_RATIO = 2.0, 1.15
 # An element that joins n others makes a kink of about 1/n in the stiffness: every event is a level up to a contact
 # count of the first number over the accuracy, but at most the second number.
 _EVENTS_PER_ACCURACY, _MAX_EVENTS = 0.4, 400
 # The next step aims at this share of the admissible bound, which is of second order in the logarithm of the depth
-# ratio; this logarithm changes by a factor between the last two numbers.
+# ratio. This logarithm changes by a factor between the last two numbers.
 _AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.8, 2, 0.3, 2.0
 # A step is divided within these shares of it.
 _DIVISION = 0.15, 0.85
-# Shares of an interval's force at which the bound is evaluated, and the factor by which it may be larger in between.
+# Shares of an interval's force for evaluations of the bound, and the factor by which it may be larger in between.
 _POINTS, _BETWEEN_POINTS = np.linspace(0, 1, 18)[1:-1], 1.15
-# An interval is accepted up to this multiple of the bound if the error predicted from the depths at which elements
-# touch is below this share of the accuracy. The prediction needs so many elements, and must agree with the force to
-# within these factors.
+# An interval is accepted up to this multiple of the bound if the predicted error is below this share of the accuracy.
+# The prediction needs so many elements, and must agree with the force to within these factors.
 _RELAXED_BOUND, _PREDICTED_ERROR, _PREDICTED_COUNT, _AGREEMENT = 3.3, 0.5, 10, (0.8, 1.25)
-# Below this share of the accuracy the next step becomes as much longer as allowed, and no prediction is needed.
+# Below this share of the accuracy the next step becomes as much longer as allowed, without a prediction.
 _NEGLIGIBLE_BOUND = 0.15
-# Smallest share of an interval's force at which the bound is evaluated: the logarithm of the force must not overflow.
+# Smallest share of an interval's force for an evaluation of the bound: the logarithm of the force must not overflow.
 _SMALLEST_SHARE = 1e-3
 _TINY = 1e-30
 _MOST_AHEAD = 2
@@ -55,12 +54,12 @@ class Level:
 
     @classmethod
     def of(cls, contact: ContactState) -> "Level":
-        """The level of a contact."""
+        """Return the level of a contact."""
         return cls(contact.reduced_depth, contact.pressure_sum, contact.tangent_sum, contact.count, contact.residual)
 
 
 class ContactsAhead(list):
-    """Contacts already solved beyond the one that is wanted, the nearest last; few, as each takes memory."""
+    """Contacts already solved beyond the requested contact, the nearest last; few, as each takes memory."""
 
     def keep(self, contact: ContactState) -> None:
         """Add a contact nearer than all others."""
@@ -69,13 +68,13 @@ class ContactsAhead(list):
 
 
 class StepControl:
-    """Decides on the depths of successive levels for a given relative error of the interpolated depth.
+    """Choose the depths of successive levels for a given relative error of the interpolated depth.
 
-    tolerance : the error allowed, not below FINEST_ACCURACY
-    threads : on which it computes
+    tolerance : the allowed error, at least FINEST_ACCURACY
+    threads : number of threads
 
     min_ratio : smallest ratio of the depths of successive levels; a triangle of this width is flatter than the accuracy
-    events : contact count up to which every contact event is a level
+    events : largest contact count at which every contact event is a level
     """
 
     def __init__(self, tolerance: float, threads: int = 1) -> None:
@@ -84,7 +83,7 @@ class StepControl:
         self.events = int(min(_EVENTS_PER_ACCURACY / self._accuracy, _MAX_EVENTS))
 
     def first_ratio(self, levels: list[Level]) -> float:
-        """Ratio of the first step after contact events, from the bound over the last quarter of them."""
+        """Return the ratio of the first step after contact events, from the bound over the last quarter of them."""
         first = levels[-1 - len(levels) // 4]
         ratio = levels[-1].depth / first.depth
         if ratio == 1:
@@ -92,27 +91,27 @@ class StepControl:
         return self.next_ratio(ratio, interpolation_bound(first, levels[-1]) / self._accuracy)
 
     def excess(self, before: ContactState, after: ContactState) -> float:
-        """Bound on the error of interpolation between two contacts, over the bound that is allowed there.
+        """Return the bound on the interpolation error between two contacts, over the allowed bound.
 
         before, after : ContactStates
         """
         bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
         if not _NEGLIGIBLE_BOUND < bound < _RELAXED_BOUND:
-            return bound  # the step is to be divided, or the next one much longer, in any case
+            return bound  # in any case the step is divided, or the next step is much longer
         is_smooth = _predicted_error(before, after, self._threads) <= _PREDICTED_ERROR * self._accuracy
         return bound / _RELAXED_BOUND if is_smooth else bound
 
     def next_ratio(self, ratio: float, excess: float) -> float:
-        """Ratio of the step after one with this ratio."""
+        """Return the ratio of the step after a step with this ratio."""
         change = (_AIM / max(excess, _TINY)) ** (1 / _ORDER)
         return np.clip(ratio ** np.clip(change, _LEAST_CHANGE, _LARGEST_CHANGE), self.min_ratio, _MAX_DEPTH_RATIO)
 
 
 def interpolation_bound(before: Level, after: Level) -> float:
-    """Bound on the relative error of the depth interpolated between two levels, from the convexity of the curve.
+    """Bound the relative error of the depth interpolated between two levels, from the convexity of the curve.
 
-    It is the largest distance of the interpolated depth from the sides of the triangle of chord and tangents, which is
-    evaluated where the tangents meet and at equal intervals of the force.
+    The bound is the largest distance of the interpolated depth from the sides of the triangle of chord and tangents. It
+    is evaluated at the intersection of the tangents and at equal intervals of the force.
 
     before, after : Levels
     """
@@ -132,15 +131,15 @@ def interpolation_bound(before: Level, after: Level) -> float:
 
 
 def division(before: Level, after: Level) -> float:
-    """Depth at which to divide the interval between two levels: where their tangents meet.
+    """Return the depth at which to divide the interval between two levels: the intersection of their tangents.
 
-    If the stiffness jumps at one depth, it is this one. Otherwise it is near the middle of the interval.
+    If the stiffness jumps at one depth, it is this depth. Otherwise it is near the middle of the interval.
     """
     return before.depth + (after.depth - before.depth) * np.clip(_meeting(before, after), *_DIVISION)
 
 
 def _meeting(before: Level, after: Level) -> float:
-    """Depth at which the tangents of two levels meet, as a share of the interval between them."""
+    """Return the depth at which the tangents of two levels meet, as a share of the interval between them."""
     width = after.depth - before.depth
     rise = after.tangent_sum - before.tangent_sum
     missing = after.tangent_sum * width - (after.pressure_sum - before.pressure_sum)
@@ -148,23 +147,24 @@ def _meeting(before: Level, after: Level) -> float:
 
 
 def interpolate(before: Level, after: Level, force: Array) -> Array:
-    """Depths interpolated between two Levels at reduced forces ΣP, as LoadingCurve.at_force does."""
+    """Interpolate depths between two Levels at reduced forces ΣP, as LoadingCurve.at_force does."""
     forces, depths = (before.pressure_sum, after.pressure_sum), (before.depth, after.depth)
     stiffnesses = before.tangent_sum, after.tangent_sum
     return interpolate_between(forces, depths, stiffnesses, after.count - before.count, force)[0]
 
 
 def _predicted_error(before: ContactState, after: ContactState, threads: int) -> float:
-    """Relative error of interpolation between two contacts, predicted from the depths at which elements touch.
+    """Predict the relative error of interpolation between two contacts from the contact depths of the elements.
 
     The gap e of an element outside the contact is convex in the depth: it touches no earlier than at u₀ − e/e_q, with
-    the gap and the tangent gap before. Its pressure is concave: it touches no earlier than at u₁ − P/q, with those
-    after. The later of the two predicts its touch closely. The stiffness that an element adds is taken as proportional
-    to e_q², as for the first element to join, and their sum as the difference of the two tangent sums.
+    the gap and the tangent gap before. Its pressure is concave: it touches no earlier than at u₁ − P/q, with pressure
+    and tangent after. The larger of these two depths predicts its touch closely. The stiffness that an element adds is
+    taken as proportional to e_q², as for the first element to join, and the sum as the difference of the two tangent
+    sums.
 
-    Returns infinity where it cannot be predicted.
+    Returns infinity if it cannot be predicted.
     """
-    if before.fields is None or after.fields is None:  # the one after may have been solved from an earlier contact
+    if before.fields is None or after.fields is None:  # the contact after may have been solved from an earlier contact
         return np.inf
     loops = GridLoops(threads)
     place_after, place = loops.new_places(after.fields, before.fields)

@@ -1,4 +1,4 @@
-"""The possible rows of the sparse factor G of the preconditioner, as a table.
+"""Tabulate the possible rows of the sparse factor G of the preconditioner.
 
 Row i of G (in this module not the shear modulus) depends only on which of the twelve nearest elements before element i
 are in contact: there are 4096 rows.
@@ -23,11 +23,11 @@ _LARGEST_ENTRY = 120
 
 @lru_cache(maxsize=4)
 def factor_entries(aspect: float, precision: type[Any]) -> tuple[NDArray[Any], Any]:
-    """Entries of G by neighbour and pattern, and the unit in which they are stored, for elements of an aspect dy/dx.
+    """Return entries of G by neighbour and pattern, and their unit of storage, for elements of an aspect dy/dx.
 
     Bit s of a pattern is set if neighbour s is in contact. With A the influence matrix of the neighbours in contact and
-    the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the unit vector of the element. Entries are zero where there is no
-    contact. The last but one are those for the element, the last ones the sums of the rows; shape (14, 4096).
+    the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the unit vector of the element. Entries are zero for neighbours
+    without contact. The last row but one has the entries of the element, the last row the sums; shape (14, 4096).
     """
     places = np.array([*BEFORE, (0, 0)], dtype=float)
     patterns, (row, column) = np.arange(1 << NEIGHBOURS), np.moveaxis(places[:, None] - places, -1, 0)

@@ -2,8 +2,8 @@
 
 It is a factorized sparse approximate inverse (FSAI) with a multilevel coarse correction.
 
-The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. Row i of G holds entries
-for element i and for those of the twelve nearest elements before it (in rows and columns) that are in contact, and is
+The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. Row i of G has entries
+for element i, and for each of the twelve nearest elements before it (in rows and columns) that is in contact. It is
 exact if no other elements are in contact (Kolotilina and Yeremin 1993). Its storage is described in sparse_factor.
 
 The remainder G K Gᵀ − 1 is smooth: it is the deflection by distant loads. The coarse correction represents it on blocks
@@ -12,7 +12,7 @@ of these vectors, normalised to unit length,
 
     G K Gᵀ ≈ 1 + W (a K a) Wᵀ,     M = Gᵀ (1 − W (1 − (1 + a K a)⁻¹) Wᵀ) G ≈ K⁻¹
 
-where a is the length of the vector of row sums in a block, and K couples blocks as it couples elements. The inverse on
+with a the length of the vector of row sums in a block. K couples blocks as it couples elements. The inverse on
 the blocks is approximated in the same way with blocks of blocks, until there are few enough for a dense inverse. The
 eigenvalues of M K lie between 0.35 and 1.4 for contact sets of any shape, with elements five times as long as wide
 between 0.35 and 1.6 (tests/viscorough/contact/preconditioner/test_multilevel.py); without the coarse correction the
@@ -54,9 +54,10 @@ _OWN = 1.0
 
 @lru_cache(maxsize=4)
 def load_redistribution_stencil(aspect: float) -> Array:
-    """Share of an element's load that each of its eight neighbours takes over when it leaves the contact, shape (3, 3).
+    """Return the share of an element's load that each of its eight neighbours takes over when it leaves the contact.
 
-    Obtained by eliminating the element from the influence matrix of the 5 × 5 elements around it; the centre is −1.
+    It is obtained by eliminating the element from the influence matrix of the 5 × 5 elements around it; the centre is
+    −1. Shape (3, 3).
     """
     row, column = np.divmod(np.arange(25.0), 5)
     inverse = np.linalg.inv(influence_coefficient(row[:, None] - row, column[:, None] - column, aspect))
@@ -65,7 +66,7 @@ def load_redistribution_stencil(aspect: float) -> Array:
 
 @njit(inner=True)
 def _rows(field, place, width):
-    """Views of a flat field from a place's first neighbour on, in three rows: two before, one before, and its own."""
+    """Return views of a flat field from the first neighbour on, in three rows: two before, one before, its own."""
     return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
 
 
@@ -73,14 +74,14 @@ def _rows(field, place, width):
 def _factorise(amplitude, places, before, slots, kernel, rows, weights):
     """Store the rows of G for the matrix 1 + a K a between blocks in `rows`, zero on entry, and G a in `weights`.
 
-    amplitude : a, flat field; places : of the blocks in it
+    amplitude : a, flat field; places : places of the blocks in it
     before, slots : places of the neighbours relative to the block, and their indices in a row of G
     kernel : K between the neighbours and the block, which comes last
     """
     own = before.size
     matrix, present, near = np.empty((own + 1, own + 1)), np.empty(own + 1, np.int64), np.empty(own + 1)
     for t in range(places.size):
-        count = 0  # of the neighbours with elements in contact, and the block itself
+        count = 0  # number of neighbours with elements in contact, and the block itself
         for s in range(own + 1):
             value = amplitude[places[t] + before[s]] if s < own else amplitude[places[t]]
             if value > 0:
@@ -113,7 +114,7 @@ def _normalise(weights, blocks, squares):
 
 @njit(fastmath=True)
 def _restrict(residual, places, rows, width, weights, blocks, values, loads):
-    """values = G r on the set, and loads = Wᵀ G r of the blocks."""
+    """Compute values = G r on the set, and loads = Wᵀ G r of the blocks."""
     loads[:] = 0
     for t in range(places.size):
         row = rows[t]
@@ -127,7 +128,7 @@ def _restrict(residual, places, rows, width, weights, blocks, values, loads):
 
 @njit(fastmath=True)
 def _prolong(places, rows, width, weights, blocks, values, loads, work):
-    """values = Gᵀ (values − W loads); `work` is a flat field of zeros on entry and on return."""
+    """Compute values = Gᵀ (values − W loads); `work` is a flat field of zeros on entry and on return."""
     for t in range(places.size):
         row = rows[t]
         value = values[t] - weights[t] * loads[blocks[t]]
@@ -144,11 +145,11 @@ def _prolong(places, rows, width, weights, blocks, values, loads, work):
 
 
 class Preconditioner:
-    """M ≈ K⁻¹ for one contact set after another, on a flat grid of the given height and width, border included.
+    """M ≈ K⁻¹ for successive contact sets on a flat grid of the given height and width, border included.
 
     aspect : dy/dx of the elements
-    precision : floating-point type in which M is applied; see SparseFactor
-    threads : on which it computes
+    precision : floating-point type of M; see SparseFactor
+    threads : number of threads
     stencil : load_redistribution_stencil of the elements
     """
 
@@ -170,7 +171,7 @@ class Preconditioner:
         self._squares, self._loads = np.zeros((2, *blocks))
 
     def apply(self, residual: Array) -> Array:
-        """M r of a residual r, both flat fields in the precision, of which only the set is defined.
+        """Return M r of a residual r, both flat fields in the precision that are defined on the set only.
 
         Valid until the next call.
         """
@@ -185,7 +186,7 @@ class Preconditioner:
     def prepare(self, inside: Mask, count: int) -> None:
         """Prepare for a contact set.
 
-        inside : whether an element is in the set, flat field; count : elements in it
+        inside : True for elements in the set, flat field; count : number of elements in it
         """
         changed = self._factor.update(inside)
         if not changed:
@@ -201,7 +202,7 @@ class Preconditioner:
 
 
 class _ManyBlocks:
-    """The approximate inverse of 1 + a K a on blocks; `squares`, those of a, must be set before `prepare`."""
+    """The approximate inverse of 1 + a K a on blocks; set `squares`, the squares of a, before `prepare`."""
 
     def __init__(self, sides: tuple[int, int], aspect: float, height: int, width: int, threads: int) -> None:
         self._width, self._threads = width, threads
@@ -230,7 +231,7 @@ class _ManyBlocks:
         self._values, self._loads = np.empty(places.size), np.empty_like(self._coarser.squares)
 
     def apply(self, residual: Array) -> Array:
-        """M r at the places, valid until the next call, for a residual r on the flat grid of blocks."""
+        """Return M r at the places, valid until the next call, for a residual r on the flat grid of blocks."""
         _restrict(residual, *self._factor, self._values, self._loads)
         self._loads[self._coarser.places] -= self._coarser.apply(self._loads)
         _prolong(*self._factor, self._values, self._loads, self._work)
@@ -238,7 +239,7 @@ class _ManyBlocks:
 
 
 class _FewBlocks:
-    """The inverse of 1 + a K a on blocks, dense; `squares`, those of a, must be set before `prepare`."""
+    """The inverse of 1 + a K a on blocks, dense; set `squares`, the squares of a, before `prepare`."""
 
     def __init__(self, sides: tuple[int, int], aspect: float, height: int, width: int) -> None:
         self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
@@ -263,7 +264,7 @@ class _FewBlocks:
 def _coarse_level(
     sides: tuple[int, int], aspect: float, height: int, width: int, threads: int
 ) -> _ManyBlocks | _FewBlocks:
-    """The grid level of blocks of sides[0] rows and sides[1] columns, on a flat grid of given height and width."""
+    """Return the grid level of blocks of sides[0] rows and sides[1] columns, on a grid of given height and width."""
     few = max(height, width) - 2 * REACH <= _DENSE
     grid = sides, aspect, height, width
     return _FewBlocks(*grid) if few else _ManyBlocks(*grid, threads)
@@ -271,12 +272,12 @@ def _coarse_level(
 
 @lru_cache(maxsize=2)
 def _dense_coupling(sides: tuple[int, int], aspect: float, height: int, width: int) -> Array:
-    """K between all blocks of a grid with its border."""
+    """Return K between all blocks of a grid with its border."""
     return _coupling(sides, aspect, *np.divmod(np.arange(height * width), width))
 
 
 def _coupling(sides: tuple[int, int], aspect: float, row: Integers, column: Integers) -> Array:
-    """K between blocks at (row, column): mean deflection of a block by a unit load distributed evenly over another."""
+    """Return K between blocks at (row, column): the mean deflection of one by a unit load spread over the other."""
     row, column = (abs(position[:, None] - position).astype(float) for position in (row, column))
     of_others = influence_coefficient(row, column, aspect * sides[0] / sides[1])
     return np.where((row == 0) & (column == 0), _OWN, of_others) / np.sqrt(sides[0] * sides[1])

@@ -1,13 +1,13 @@
 """The sparse factor G of the preconditioner, and its products, on the grid of the elements.
 
-Row i of G (in this module not the shear modulus) holds entries for element i and for those of the twelve nearest
-elements before it that are in contact, from a table of all possible rows (factor_entries).
+Row i of G (in this module not the shear modulus) has entries for element i, and for each of the twelve nearest elements
+before it that is in contact, from a table of all possible rows (factor_entries).
 
-Entries are stored for the whole grid, one neighbour after the other for every row of it, and are zero where there is no
-contact: loops over a row of the grid then read consecutive numbers and process as many elements at once as a register
-of the processor holds. In single precision an entry is rounded to a whole number of one byte, so that they fit into the
-cache. Rounding changes G, and with it the preconditioner, by a few percent, but not the symmetry of Gᵀ … G. Blocks
-without contact are skipped. Compiled functions take plain arrays, hence many arguments.
+Entries are stored for the whole grid, one neighbour after the other for every row of it, and are zero without contact:
+loops over a row of the grid then read consecutive numbers and process as many elements at once as a register of the
+processor holds. In single precision an entry is rounded to a whole number of one byte, so entries fit into the cache.
+Rounding changes G, and with it the preconditioner, by a few percent, but not the symmetry of Gᵀ … G. Blocks without
+contact are skipped. Compiled functions take plain arrays, hence many arguments.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,7 @@ from viscorough.types import Array, Integers, Mask
 
 # Blocks side by side that are processed together if any of them has elements in contact: wide enough for registers.
 _TOGETHER = 4
-# An element that joins or leaves the set costs as much time as this number of elements where all rows of G are renewed.
+# An element that joins or leaves the set costs as much time as this number of elements in a renewal of all rows of G.
 _COST_OF_CHANGE = 20
 # Bit of a pattern that marks rows of G to be renewed.
 _RENEWED = 1 << NEIGHBOURS
@@ -30,10 +30,10 @@ _RENEWED = 1 << NEIGHBOURS
 
 @njit
 def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, factor):
-    """Renew the patterns and the rows of G from place `start` to `stop` where elements joined or left the set.
+    """Renew patterns and rows of G from place `start` to `stop` that elements joining or leaving the set affect.
 
     inside : the new contact set, flat field; changed : places of elements that joined or left
-    offsets : from a place to its neighbours, and to itself
+    offsets : offsets from a place to its neighbours, and to itself
     rows_of_pattern : rows of G by pattern and neighbour
     """
     rows, count = np.empty(changed.size * offsets.size, changed.dtype), 0
@@ -84,7 +84,7 @@ def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
 
 @njit(inner=True)
 def _any_active(active, first):
-    """Whether any of the blocks that are processed together, from the first one on, has elements in contact."""
+    """Return True if any of the blocks processed together, from the first one on, has elements in contact."""
     total = 0.0
     for block in range(first, min(first + _TOGETHER, active.size)):
         total += active[block]
@@ -93,7 +93,7 @@ def _any_active(active, first):
 
 @njit(inner=True)
 def _next_run(active, first):
-    """First and last of the next blocks side by side to be processed, from `first` on; both at the end if none."""
+    """Return first and last of the next adjacent blocks to process, from `first` on; both at the end if none."""
     while first < active.size and not _any_active(active, first):
         first += _TOGETHER
     last = first
@@ -127,7 +127,7 @@ def _add_up(values, side, sums, first, last):
 
 @njit(inner=True, fastmath=True)
 def _multiply_row(factor, unit, residual, row, first, values):
-    """values = G r for consecutive elements of a row of the grid, from a column on, both with the border."""
+    """Compute values = G r for consecutive elements of a row of the grid, from a column on, both with the border."""
     width = factor.shape[2]
     at, rows = row * width + first, factor[row]
     a, b, c, d, e = rows[0][first:], rows[1][first:], rows[2][first:], rows[3][first:], rows[4][first:]
@@ -143,7 +143,7 @@ def _multiply_row(factor, unit, residual, row, first, values):
 
 @njit(inner=True, fastmath=True)
 def _multiply_row_transposed(factor, unit, residual, row, first, values):
-    """values = Gᵀ r for consecutive elements of a row of the grid, from a column on, both with the border."""
+    """Compute values = Gᵀ r for consecutive elements of a row of the grid, from a column on, both with the border."""
     width, left = factor.shape[2], first - REACH
     at, two, one, rows = row * width + first, factor[row + 2], factor[row + 1], factor[row]
     a, b, c, d, e = two[4][left:], two[3][left:], two[2][left:], two[1][left:], two[0][left:]
@@ -159,7 +159,7 @@ def _multiply_row_transposed(factor, unit, residual, row, first, values):
 
 @njit(fastmath=True)
 def _restrict(first_row, last_row, factor, unit, residual, height, sides, active, values, loads):
-    """values = G r, and loads = Wᵀ G r of the blocks before W is normalised, for some rows of blocks."""
+    """Compute values = G r, and loads = Wᵀ G r of the blocks before W is normalised, for some rows of blocks."""
     width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     for block_row in range(first_row, last_row):
         total = np.zeros(columns, values.dtype)
@@ -178,7 +178,7 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
 
 @njit(fastmath=True)
 def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values):
-    """values −= W loads for some rows of blocks, with W not normalised."""
+    """Compute values −= W loads for some rows of blocks, with W not normalised."""
     width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     spread = np.empty(columns, values.dtype)
     for block_row in range(first_row, last_row):
@@ -197,7 +197,7 @@ def _correct(first_row, last_row, factor, unit, loads, height, sides, active, va
 
 @njit(fastmath=True)
 def _prolong(first_row, last_row, factor, unit, values, height, sides, active, result):
-    """result = Gᵀ values for some rows of blocks."""
+    """Compute result = Gᵀ values for some rows of blocks."""
     width = factor.shape[2]
     for block_row in range(first_row, last_row):
         first, last = _next_run(active[block_row], 0)
@@ -210,14 +210,14 @@ def _prolong(first_row, last_row, factor, unit, values, height, sides, active, r
 
 
 class SparseFactor:
-    """G for one contact set after another, on a flat grid of the given height and width, border included.
+    """G for successive contact sets on a flat grid of the given height and width, border included.
 
     sides : rows and columns of a block
     aspect : dy/dx of the elements
     precision : floating-point type of the products; in single precision entries are rounded to one byte
-    threads : on which rows of blocks are computed
+    threads : number of threads
 
-    squares : of the lengths of the vectors of row sums of G, by rows and columns of blocks
+    squares : squared lengths of the vectors of row sums of G, by rows and columns of blocks
     """
 
     def __init__(
@@ -242,7 +242,7 @@ class SparseFactor:
         self.squares, self._loads = np.zeros((2, *blocks))
 
     def update(self, inside: Mask) -> int:
-        """Change to another contact set, whether an element is in it, flat field; returns how many joined or left."""
+        """Change to another contact set, a flat field of flags; return the number of elements that joined or left."""
 
         def changes(i: int, j: int) -> Integers:
             changed = i + np.flatnonzero(inside[i:j] != self._inside[i:j])
@@ -255,7 +255,7 @@ class SparseFactor:
         return changed.size
 
     def _renew_rows(self, first_row: int, last_row: int, changed: Integers) -> None:
-        """Renew what depends on elements that joined or left the set, of some rows of blocks."""
+        """Renew the data that depend on elements that joined or left the set, for some rows of blocks."""
         width, side = self._factor.shape[2], self._sides[0]
         start, stop = ((row * side + REACH) * width for row in (first_row, last_row))
         # Rows of G depend on elements up to two rows of the grid before.
@@ -263,7 +263,7 @@ class SparseFactor:
         if first == last:
             return
         if (last - first) * _COST_OF_CHANGE > stop - start:
-            members = self._inside.view(np.uint8)  # whose bits are shifted
+            members = self._inside.view(np.uint8)  # its bits are shifted
             _renew_all(first_row, last_row, side, members, self._patterns, self._entries, self._factor)
         else:
             stored = self._patterns, self._rows_of_pattern, self._factor
@@ -280,7 +280,7 @@ class SparseFactor:
         return self._loads
 
     def prolong(self, loads: Array) -> Array:
-        """Gᵀ (G r − W loads), flat field, of which only the contact set is defined; valid until the next call."""
+        """Return Gᵀ (G r − W loads), a flat field defined on the contact set only; valid until the next call."""
         of_grid = self._height, self._sides, self.squares
         self._over_rows(_correct, self._factor, self._unit, loads, *of_grid, self._values)
         self._over_rows(_prolong, self._factor, self._unit, self._values, *of_grid, self._result)

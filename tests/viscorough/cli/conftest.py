@@ -10,7 +10,7 @@ from viscorough.cli import cli, main
 
 # Arguments of Python whose options are spelled otherwise; those of media are keys of files as well.
 _OF_PYTHON = {option.name for command in cli.commands.values() for option in command.params if "_" in option.name}
-_OF_PYTHON |= {"contact_at", "read_heights", "read_line", "roll_off_wavelength", "young_modulus", "poisson="}
+_OF_PYTHON |= {"contact_at", "read_heights", "read_line", "roll_off_wavelength"}
 _OF_PYTHON -= {"shear_modulus"}
 
 

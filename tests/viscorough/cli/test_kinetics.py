@@ -160,7 +160,7 @@ def test_missing_values_give_a_warning(here, capsys, complaint):
     assert "at 1 of 4 times depth, force or velocity are missing" in capsys.readouterr().err
     assert "depth, force or velocity are missing" in netcdf.read("kin.nc").attributes["warnings"]
     line = f"kinetics late.nc {load} --times 0.1,0.11 -o k.nc"
-    assert "all are before the curve's first level" in complaint(line)
+    assert "all times are before the curve's first level" in complaint(line)
 
 
 # ---- mistakes

@@ -1,12 +1,13 @@
 """Elastic constants: from Young's modulus E and Poisson ratio ν to the shear modulus that the solvers use.
 
-Contact without friction depends on E/(1 − ν²) alone. A half-space is therefore as stiff as the incompressible one with
+Contact without friction depends on E/(1 − ν²) alone. A half-space is therefore as stiff as an incompressible one with
 the shear modulus
 
-    G = E/(1 − ν²)/4,    E/3 if it is incompressible itself (ν = 1/2).
+    G = E/(1 − ν²)/4,    E/3 if ν = 1/2.
 
-In a linear viscoelastic medium whose Poisson ratio is constant, this holds for Young's modulus at every time. Its
-moduli in shear, E/(2(1 + ν)), and its viscosities in shear are then 2(1 − ν) times those of the incompressible medium.
+In a linear viscoelastic medium with a constant Poisson ratio this holds for Young's modulus at every time. A contact
+responds as on an incompressible medium, whose moduli and viscosities are the medium's moduli E/(2(1 + ν)) and
+viscosities in shear, divided by 2(1 − ν).
 """
 
 from typing import Any
@@ -20,7 +21,7 @@ INCOMPRESSIBLE = 0.5  # Poisson ratio
 def shear_modulus_of(
     length_unit: str, shear_modulus: Any = None, young_modulus: Any = None, poisson: Any = None
 ) -> float | None:
-    """Return G of the incompressible half-space that is as stiff as the given one; None if no modulus is given.
+    """Return G of the incompressible half-space that is as stiff as the given half-space; None without a modulus.
 
     shear_modulus, young_modulus : G or E in Pa, or with a unit; in consistent units if the unit of length is not known
     poisson : ν, with Young's modulus only; default: 0.5
@@ -54,10 +55,10 @@ def poisson_ratio(name: str, value: Any) -> float:
 
 
 def young_over_shear(poisson: float) -> float:
-    """Return the ratio of Young's modulus to the modulus in shear of the incompressible medium, 4(1 − ν²)."""
+    """Return the factor 4(1 − ν²), from the modulus in shear of the incompressible medium to Young's modulus."""
     return 4 * (1 - poisson**2)
 
 
 def shear_over_incompressible(poisson: float) -> float:
-    """Return the ratio of moduli and viscosities in shear to those of the incompressible medium, 2(1 − ν)."""
+    """Return the factor 2(1 − ν), from the incompressible medium to moduli and viscosities in shear of the given medium."""
     return 2 * (1 - poisson)

@@ -60,5 +60,5 @@ def young_over_shear(poisson: float) -> float:
 
 
 def shear_over_incompressible(poisson: float) -> float:
-    """Return the factor 2(1 − ν), from the incompressible medium to moduli and viscosities in shear of the given medium."""
+    """Return the factor 2(1 − ν), from the incompressible medium to the moduli and viscosities in shear."""
     return 2 * (1 - poisson)

@@ -1,4 +1,4 @@
-"""Suffixes of the files that are written: what each stands for, and the check of a name before anything is computed."""
+"""Suffixes of the files that are written, with their kinds, and the check of a name before anything is computed."""
 
 from __future__ import annotations
 

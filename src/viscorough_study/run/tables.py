@@ -10,10 +10,8 @@ from hashlib import sha256
 from pathlib import Path
 
 import pandas as pd
-import xarray as xr
 
 from viscorough.io.atomic import atomic_write, reading
-from viscorough.io.datasets import write_dataset
 from viscorough.io.netcdf import opened
 
 CSV_DIGEST = "csv_sha256"  # attribute of the NetCDF file: SHA-256 of the bytes of the CSV file
@@ -28,6 +26,10 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
     Floats in the CSV have as many digits as needed to read them back exactly; missing values are empty.
     Both files must have the same name but for the suffix. Raises ValueError if columns and table differ.
     """
+    import xarray as xr  # takes long to import, and only writing needs it
+
+    from viscorough.io.datasets import write_dataset
+
     if differing := sorted(set(columns) ^ set(table.columns)):
         raise ValueError(f"{nc_path}: table and descriptions differ in {', '.join(differing)}; both are needed")
     csv = table.to_csv(index=False, lineterminator="\n").encode()

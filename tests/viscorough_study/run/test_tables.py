@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from support.cf import violations
+from support.command_line import python
 from support.contract import refused
 from support.workflow import load_script
 from viscorough.io.datasets import read_dataset
@@ -82,3 +83,8 @@ def test_missing_texts_are_read_as_requested(files):
     )
     assert read_table(csv)["reason"].isna().tolist() == [True, True]
     assert read_table(csv, keep_default_na=False, na_values=[""])["reason"].tolist()[1] == "NA"
+
+
+def test_reading_imports_no_xarray():
+    """Jobs that draw a figure only read tables; the import would take a sixth of their time to start."""
+    python("-c", "import sys, viscorough_study.run.tables; assert 'xarray' not in sys.modules")

@@ -119,7 +119,7 @@ def chaos(folder, kills, seed):
 
     A killed run is repeated with its results so far. A run that ends by itself is followed by one without results.
     """
-    run_to_end(folder)  # compiles functions that are missing in numba's caches
+    run_to_end(folder)  # compiles the solvers unless that was done before
     wanted = contents(folder)
     remove_results(folder)
     seconds = run_to_end(folder)

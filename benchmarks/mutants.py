@@ -164,25 +164,11 @@ def run_tests(tests, folder, time_limit, *options):
     return run.returncode, (failed or lines)[-1], time.perf_counter() - began
 
 
-def compiled_with(file, texts):
-    """Return files whose compiled functions may contain functions of a file: itself, and all its importers."""
-    with_kernels = {name for name, text in texts.items() if "viscorough.compilation import" in text}
-    affected, waiting = set(), {file} & with_kernels
-    while waiting:
-        affected.add(name := waiting.pop())
-        module = name.removeprefix("src/").removesuffix(".py").replace("/", ".")
-        waiting |= {other for other in with_kernels - affected if f"from {module} import" in texts[other]}
-    return affected
-
-
 def outcome(mutant, clean, folder, texts, stages, time_limit):
-    """Return the outcome of one mutant as a dictionary for the file; stages : lists of tests, run until one fails"""
-    for name in ("src", "workflow"):  # keep the times of the files, which decide whether code is compiled again
+    """Return the outcome of one mutant as a dictionary for the file; stages : lists of tests, run until one of them fails."""
+    for name in ("src", "workflow"):
         shutil.rmtree(folder / name, ignore_errors=True)
         shutil.copytree(clean / name, folder / name)
-    for name in compiled_with(mutant.file, texts):
-        for compiled in (folder / name).parent.glob(f"__pycache__/{Path(name).stem}.*.nb[ic]"):
-            compiled.unlink()
     (folder / mutant.file).write_text(mutant.text, encoding="utf-8")
     code, began = 0, time.perf_counter()
     for tests in filter(None, stages):

@@ -9,7 +9,7 @@ _NOT_COPIED = shutil.ignore_patterns(".git", ".venv*", ".snakemake", ".pytest_ca
 
 
 def copy_project(folder):
-    """Copy the project with numba's caches, since compiling would take most of the time, into a folder.
+    """Copy the project into a folder.
 
     Of the folders called results, only the results of runs are left out.
     """

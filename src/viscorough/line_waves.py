@@ -141,7 +141,7 @@ def _draw(first, key, amplitude, fixed, parts):
     return _polar(direction, modulus, parts)
 
 
-@njit(inner=True, fastmath=True)
+@njit(fastmath=True)
 def _moduli(size, amplitude, modulus):
     """A √(-2 ln U) with U = (size + 1/2) / 2^32."""
     for i in range(size.size):

@@ -64,17 +64,6 @@ def test_every_source_has_tests():
     )
 
 
-def test_changed_kernels_are_compiled_again_with_what_uses_them():
-    texts = {
-        "src/viscorough/kernels.py": "from viscorough.compilation import njit",
-        "src/viscorough/loops.py": "from viscorough.compilation import njit\nfrom viscorough.kernels import add",
-        "src/viscorough/other.py": "from viscorough.compilation import njit",
-        "src/viscorough/plain.py": "from viscorough.kernels import add",
-    }
-    assert campaign.compiled_with("src/viscorough/kernels.py", texts) == set(list(texts)[:2])
-    assert campaign.compiled_with("src/viscorough/plain.py", texts) == set()
-
-
 def test_a_mutant_is_caught_survives_or_is_undecided(tmp_path, monkeypatch):
     """The project has one module and one test."""
     clean, file = tmp_path / "clean", "src/half.py"

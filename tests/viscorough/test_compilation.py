@@ -31,8 +31,8 @@ import numpy as np, viscorough
 line = viscorough.Indenter(np.array([0.0, 1.0, 0.5]), 1.0)
 print(viscorough.reduce(line).force[-1])
 """
-# The only folder that numba considers then is below a file, so nobody can write there, not even root.
-NOWHERE = {"NUMBA_CACHE_LOCATOR_CLASSES": "UserProvidedCacheLocator", "NUMBA_CACHE_DIR": f"{__file__}/cache"}
+# A folder below a file: nobody can write there, not even root.
+NOWHERE = {"NUMBA_CACHE_DIR": f"{__file__}/cache"}
 NO_ROOM = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))"
 
 
@@ -43,6 +43,50 @@ def test_unwritable_cache_is_reported_in_one_line(before, tmp_path):
     assert len(done.stderr.splitlines()) == 1, done.stderr
     assert "compiled code cannot be kept on disk" in done.stderr
     assert "set NUMBA_CACHE_DIR to a folder that is writable" in done.stderr
+
+
+KERNELS = {
+    "parts.py": """
+from viscorough.compilation import njit
+FACTOR = 2
+@njit(inner=True)
+def scaled(x):
+    return FACTOR * x
+""",
+    "whole.py": """
+from parts import scaled
+from viscorough.compilation import njit
+@njit
+def more(x):
+    return scaled(x) + 1
+""",
+}
+
+
+def test_copies_of_a_source_share_compiled_code_and_changes_are_noticed(tmp_path):
+    def result(folder, changes=("", "")):
+        (tmp_path / folder).mkdir()
+        for name, text in KERNELS.items():
+            (tmp_path / folder / name).write_text(text.replace(*changes))
+        script = f"import sys; sys.path.insert(0, {str(tmp_path / folder)!r}); import whole; print(whole.more(3))"
+        done = python("-c", script, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
+        return int(done.stdout), len(list((tmp_path / "cache").iterdir()))
+
+    assert result("first") == (7, 1)
+    assert result("copy") == (7, 1)
+    assert result("comment", ("import njit", "import njit  # a decorator")) == (7, 1)
+    assert result("constant", ("FACTOR = 2", "FACTOR = 5")) == (16, 2)
+    assert result("called", ("FACTOR * x", "FACTOR - x")) == (0, 3)
+    assert result("option", ("(inner=True)", "(inner=True, fastmath=True)")) == (7, 4)
+
+
+def test_inner_functions_are_refused_in_python_whether_compiled_or_not():
+    inner = njit(inner=True)(eval("lambda x: 2 * x"))
+    outer = numba.njit(lambda x: inner(x) + 1)
+    for _ in range(2):
+        with pytest.raises(TypeError, match="can only be called by other compiled functions"):
+            inner(3)
+        assert outer(3) == 7
 
 
 class Interrupt(event.Listener):
@@ -63,8 +107,9 @@ def interrupts_raise():
     signal.signal(signal.SIGINT, before)
 
 
-def test_interrupt_waits_for_the_compiler(interrupts_raise):
-    function = njit(eval("lambda x: x + 1"))  # without a source file, so it is not loaded from a cache
+def test_interrupt_waits_for_the_compiler(interrupts_raise, tmp_path, monkeypatch):
+    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path))
+    function = njit(lambda x: x + 1)
     with pytest.raises(KeyboardInterrupt), event.install_listener("numba:compile", Interrupt()):
         function(1.0)
     assert len(function.signatures) == 1, "compiled to the end"

@@ -324,7 +324,7 @@ def complete_rules(rules):
 
 
 def compile_kernels():
-    """Fill numba's cache once before any job.
+    """Compile the solvers once before any job.
 
     This is no rule: an output that many jobs need would rerun them all when it is remade, and as an `ancient` input it
     hides changes of their parameters from Snakemake.
@@ -333,7 +333,7 @@ def compile_kernels():
     digest = SOURCES.digest(Path(importlib.util.find_spec("viscorough_study.run.kernels").origin))
     if stamp.is_file() and stamp.read_text() == digest:
         return
-    print("Compiling the solvers, once: about a minute", file=sys.stderr, flush=True)
+    print("Compiling the solvers, once: about 20 seconds", file=sys.stderr, flush=True)
     start = time.monotonic()
     subprocess.run([sys.executable, "-m", "viscorough_study.run.kernels"], check=True)
     cost = Path(KERNELS_BENCHMARK)  # as for a job, without its memory

@@ -2,7 +2,7 @@
 
     python -m viscorough_study.run.kernels
 
-Processes that compile into numba's cache at the same time repeat the work, and can crash.
+Processes that compile at the same time repeat the work.
 """
 
 

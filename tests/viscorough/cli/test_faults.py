@@ -40,13 +40,12 @@ def here(here):
 # ---- damaged compiled code
 
 
-@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
-def test_incomplete_compiled_code_is_compiled_again(here, caplog, monkeypatch, suffix):
+def test_incomplete_compiled_code_is_compiled_again(here, caplog, monkeypatch):
     monkeypatch.setattr("numba.core.config.CACHE_DIR", str(here / "cache"))
     (here / "ours.py").write_text("from viscorough.compilation import njit\n@njit\ndef double(x):\n    return 2 * x\n")
     for damage in (None, DAMAGES["truncated"], DAMAGES["second half zeros"], lambda whole: b""):
         if damage:
-            (file,) = here.glob(f"cache/**/*.{suffix}")
+            (file,) = here.glob("cache/*")
             file.write_bytes(damage(file.read_bytes()))
         for warned in (bool(damage), False):  # the code is compiled once and then kept
             caplog.clear()

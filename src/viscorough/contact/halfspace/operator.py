@@ -20,6 +20,9 @@ _ROW_PADDING = 16
 _KEPT = 1 << 20
 # The number of rows in a block is a multiple of this: the library transforms so many at once.
 _ROWS_AT_ONCE = 16
+# Elements of a grid below which columns are convolved by the library. Our transforms would save a millisecond for a
+# curve, 2 % of its time, but take seconds to compile.
+_COMPILED_FROM = 5000
 
 
 def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
@@ -131,7 +134,7 @@ class Halfspace:
         self._is_one = self._block >= rows
         # Two blocks of rows: with their padding, and as they result from inverse transforms.
         self._buffer = Buffer((2, 0 if self._is_one else self._block, length + _ROW_PADDING), precision)
-        convolution = LibraryConvolution if once else ColumnConvolution
+        convolution = LibraryConvolution if once or rows * columns < _COMPILED_FROM else ColumnConvolution
         self._convolution = convolution(rows, spectrum, precision, threads) if rows > 1 else None
         self._spectrum = spectrum.astype(precision) if rows == 1 else None
         self.load = np.zeros((rows, (length if self._is_one else columns) + _ROW_PADDING), dtype=precision)

@@ -304,13 +304,15 @@ class _LoadingPath:
     def _advance_to(self, depth: float) -> ContactState:
         """Return the contact at a larger depth, or the first complete contact if that is reached before.
 
-        The depth of complete contact is computed as soon as a contact may lie beyond it.
+        The depth of complete contact is computed as soon as a contact may lie beyond it, unless the curve ends there.
         """
         if self._complete is None:
             contact = self._solver.advance_reduced(self._contact, depth)
-            far = self._until_count <= _FAR_FROM_COMPLETE * self._solver.elements.count
-            is_last = contact.count >= self._until_count
-            if (far and is_last) or not self._solver.may_be_complete(contact):
+            every = self._solver.elements.count
+            far = self._until_count <= _FAR_FROM_COMPLETE * every
+            is_last = far and contact.count >= self._until_count
+            is_last = is_last or (contact.count < every and contact.pressure_sum >= self._until_pressure_sum)
+            if is_last or not self._solver.may_be_complete(contact):
                 return contact
             self._complete = self._solver.complete_contact()
             # Rounding and residuals must not decide the order of two levels at nearly the same depth.

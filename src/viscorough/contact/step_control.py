@@ -22,8 +22,9 @@ FINEST_ACCURACY = 1e-5
 # Largest ratio of the depths of successive levels, and the first ratio if there are few contact events.
 _MAX_DEPTH_RATIO, _INITIAL_DEPTH_RATIO = 2.0, 1.15
 # An element that joins n others makes a kink of about 1/n in the stiffness: every event is a level up to a contact
-# count of the first number over the accuracy, but at most the second number.
-_EVENTS_PER_ACCURACY, _MAX_EVENTS = 0.4, 400
+# count of the first number over the accuracy. At least the second number of events is followed, since so few cost less
+# than a single longer step, and at most the third.
+_EVENTS_PER_ACCURACY, _FEWEST_EVENTS, _MAX_EVENTS = 0.4, 40, 400
 # The next step aims at this share of the admissible bound, which is of second order in the logarithm of the depth
 # ratio. This logarithm changes by a factor between the last two numbers.
 _AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.8, 2, 0.3, 2.0
@@ -80,7 +81,7 @@ class StepControl:
     def __init__(self, tolerance: float, threads: int = 1) -> None:
         self._threads, self._accuracy = threads, max(tolerance, FINEST_ACCURACY)
         self.min_ratio = 1 + self._accuracy
-        self.events = int(min(_EVENTS_PER_ACCURACY / self._accuracy, _MAX_EVENTS))
+        self.events = int(np.clip(_EVENTS_PER_ACCURACY / self._accuracy, _FEWEST_EVENTS, _MAX_EVENTS))
 
     def first_ratio(self, levels: list[Level]) -> float:
         """Return the ratio of the first step after contact events, from the bound over the last quarter of them."""

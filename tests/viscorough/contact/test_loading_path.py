@@ -5,6 +5,7 @@ import pytest
 
 from support.contract import refused
 from viscorough import Indenter, SolverOptions, contact_at, indent, reference, self_affine_disc
+from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.viscous.integration.events import march_events
 
@@ -149,6 +150,23 @@ def test_curve_that_ends_at_once_has_its_first_level(end):
     curve, whole = indent(disc, **end), indent(disc)
     np.testing.assert_array_equal(curve.depth, whole.depth[:1])
     np.testing.assert_array_equal(curve.force, whole.force[:1])
+
+
+@pytest.mark.parametrize(("seed", "share"), [(1, 0.8), (2, 0.9), (3, 0.9), (4, 0.9)])
+def test_curve_that_ends_at_a_force_does_without_complete_contact(monkeypatch, seed, share):
+    """At a loose tolerance the last contact may be complete, but the force at which to stop is reached."""
+    disc = self_affine_disc(0.7, 33, seed=seed)
+    fine = indent(disc, until_fraction=0.98)
+    force = np.interp(share, fine.contact_fraction, fine.force)
+    monkeypatch.setattr(ContactSolver, "complete_contact", lambda solver: pytest.fail("complete contact was computed"))
+    curve = indent(disc, tolerance=0.1, until_fraction=1.0, until_force=force)
+    assert curve.force[-1] >= force
+    assert curve.depth[-1] == pytest.approx(fine.at_force(curve.force[-1])[0], rel=0.1)
+
+
+def test_first_contact_events_are_levels_at_every_tolerance():
+    curve = indent(self_affine_disc(0.7, 33, seed=1), tolerance=0.1)
+    assert curve.contact_count[:39].tolist() == list(range(1, 40))
 
 
 def test_first_level_is_one_element_in_contact():

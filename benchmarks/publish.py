@@ -62,9 +62,12 @@ PUBLISHED = {
         "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
         "literature zeta_laws grid_dependence periodic",
     ),
-    "speed": _made("speed level_placement", "methods other_solvers level_placement"),
-    "light": _made("light_contact", "light_contact"),  # part of `make speed`
-    "stability": _made("failure_map", "failure_map", "campaign.json sum_rules.json"),
+    "speed": _made(
+        "speed level_placement",
+        "methods other_solvers level_placement one_surface mean_accuracy sufficient_models",
+    ),
+    "light": _made("light_contact", "light_contact"),  # a part of `make speed`
+    "stability": _made("failures failure_map", "failure_map failure_knobs", "campaign.json sum_rules.json"),
     "sizes": _made("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
     "large": _made("large", "large"),
     "bench": ["benchmarks.json"],
@@ -281,6 +284,33 @@ def large_maps():
     return markdown_table(head, filled(row, table))
 
 
+def sufficient_models():
+    """The cheapest sufficient model for every question and error, as a table in Markdown."""
+    table = pd.read_csv(ROOT / "docs/results/sufficient_models.csv").fillna({"setting": ""})
+    reached = table["reached"] == 1
+    name = "`" + table["model"] + "`" + table["setting"].where(table["setting"] == "", ", " + table["setting"])
+    table["named"] = name.where(reached, "none measured; closest: " + name)
+    table["time"] = table["processor_s"].map("{:.2g} s".format).where(table["processor_s"] > 0, "none")
+    table["percent"], table["measured"] = 100 * table["allowed"], 100 * table["error"]
+    head = "| question | error allowed | cheapest sufficient model | its error | processor time |"
+    return markdown_table(head, filled("| {question} | {percent:g} % | {named} | {measured:.2g} % | {time} |", table))
+
+
+def requested_errors():
+    """Errors and cost of curves to a requested error, as a table in Markdown."""
+    table = pd.read_csv(ROOT / "docs/results/one_surface.csv").query("quantity == 'velocity'")
+    full = table.query("model == 'grid' and across == across.max()").set_index("hurst")["processor_s"]
+    rows = table.query("model == 'requested error'").sort_values(["value", "hurst"], ascending=[False, True])
+    rows = rows.assign(over=rows["processor_s"] / rows["hurst"].map(full))
+    for name in ("value", "error", "stated"):
+        rows[name] *= 100
+    head = "| request | H | points across, of 513, median | error | stated | processor time "
+    head += "| over the full curve with `--grid-error` |"
+    line = "| `--error {value:g}%` | {hurst:g} | {across:g} | {error:.2g} % | {stated:.2g} % "
+    line += "| {processor_s:.2g} s | {over:.2g} |"
+    return markdown_table(head, filled(line, rows))
+
+
 def light_loads():
     """Return the time of one light load on large maps, and the times of other solvers over it, as a Markdown table."""
     table = pd.read_csv(ROOT / "docs/results/light_contact.csv").eval("percent = 100 * fraction")
@@ -423,6 +453,8 @@ def tables():
         ("docs/index.md", "installation"): installation(),
         ("docs/index.md", "citation"): bibtex(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
+        ("docs/performance.md", "sufficient models"): sufficient_models(),
+        ("docs/performance.md", "requested errors"): requested_errors(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
         ("docs/performance.md", "large maps"): large_maps(),
         ("docs/performance.md", "light loads"): light_loads(),

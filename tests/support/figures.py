@@ -117,18 +117,20 @@ def interface_curves():
     return pd.concat(curves, ignore_index=True)
 
 
-FROM_TABLES = {  # arguments of the figures that need only tables
+OTHER_SOLVERS = pd.read_csv(ROOT / "resources/published/other_solvers.csv").to_dict("records")
+FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "collapse": (curves_of_sizes(), published("collapse"), published("infinite_grid")),
     "conventions": (published("scaling"), SHOWN),
     "direct": (published("direct"),),
     "failure_map": (published("failure_map"),),
+    "failures": (published("failure_map"), published("failure_knobs")),
     "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0)),
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),
-    "level_placement": (published("level_placement").assign(reached=lambda table: table["choice"] != "naive"),),
+    "level_placement": (published("level_placement"),),
     "mdr_lambda": (published("mdr_lambda"), published("mdr_exponents")),
     "media": (media_table(),),
     "reduction": (published("reduction"),),
     "sizes": (published("sizes"), SHOWN),
-    "speed": (published("methods"),),
+    "speed": (published("one_surface"), published("mean_accuracy"), published("methods"), OTHER_SOLVERS),
     "validation": (published("validation"),),
 }

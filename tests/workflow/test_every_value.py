@@ -56,7 +56,7 @@ RUNS = {
                 {"name": "others", "corners": True, "amplitudes": "fixed", "rms_over": "square"},
             ]
         },
-        "methods": {"bodies": ["cone"]},
+        "methods": {"bodies": ["cone", "sphere"]},
     },
     "upper_half": {
         "figures": {"window_rule": "upper_half"},

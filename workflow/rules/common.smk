@@ -1,5 +1,6 @@
 """Functions and constants of the rules; code independent of Snakemake is in viscorough_study."""
 
+import csv
 import hashlib
 import importlib.util
 import os
@@ -27,6 +28,13 @@ PROJECT = WORKFLOW.parent
 
 def read_yaml(path):
     return yaml.load((PROJECT / path).read_text(encoding="utf-8"), yaml.CSafeLoader)
+
+
+def read_records(path):
+    """Rows of a CSV file as [{column: number or text}]."""
+    with (PROJECT / path).open(newline="", encoding="utf-8") as file:
+        rows = csv.DictReader(file)
+        return [{name: yaml.safe_load(value) for name, value in row.items()} for row in rows]
 
 
 def end_run(message):

@@ -6,6 +6,7 @@ FIGURE_PARAMS = {
     "conventions": config["figures"],
     "fraction_min": config["scaling"]["fraction_min"],
     "hurst_range": paper("laws")["beta"]["hurst_range"],
+    "other_solvers": read_records("resources/published/other_solvers.csv"),
 }
 
 for name, figure in FIGURES.items():

@@ -9,7 +9,16 @@ PAGE_FIGURES = {
 PAGE_TEXTS = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
 QUOTED = ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")
 PAGE_TEXTS += [PROJECT / name for name in QUOTED]
-PAGE_TABLES = ["claims", "scaling", "methods", "failure_map", "level_placement", "rule_costs", "media", "literature"]
+PAGE_TABLES = [
+    "claims",
+    "scaling",
+    "one_surface",
+    "failure_map",
+    "rule_costs",
+    "media",
+    "literature",
+    "sufficient_models",
+]
 PAGE_TABLES += ["measured_scans", "measured_contacts", "measured_fits"] if MEASURED else []
 
 

@@ -53,8 +53,11 @@ TABLE_PARAMS = {
         **chosen("methods", "levels", "repeats", "longest"),
         **SEED,
     },
+    "measure_surfaces": config["methods"]["one_surface"] | SEED,
+    "compare_means": {"conventions": config["figures"]},
     "compare_level_placement": config["methods"]["scenes"] | chosen("methods", "repeats") | SEED,
     "map_failures": config["stability"] | {"hurst_min": BETA_HURST_MIN} | SEED,
+    "vary_settings": {"conventions": config["figures"], **chosen("stability", "across")} | SEED,
     "fit_sizes": config["scaling"] | chosen("sizes", "windows") | SEED,
     "compare_grids": chosen("scaling", "elements_min") | chosen("figures", "rms_convention"),
     "fit_collapse": {

@@ -11,10 +11,13 @@ TARGETS = {
         figure_files("measured") + table_files("measured") if MEASURED else [],
     ),
     "speed": (
-        "Speed against accuracy of every method, and the placement of levels.",
+        "Speed against accuracy of every model and method, and the placement of levels.",
         [rules.plot_speed.output, rules.plot_level_placement.output],
     ),
-    "stability": ("Failure map of all methods.", rules.plot_failure_map.output),
+    "stability": (
+        "Where methods fail, and the failure map.",
+        [rules.plot_failures.output, rules.plot_failure_map.output],
+    ),
     "sizes": ("Exponents on grids from coarse to fine.", [rules.plot_sizes.output, rules.plot_collapse.output]),
 }
 TARGETS |= {

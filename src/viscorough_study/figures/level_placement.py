@@ -1,35 +1,43 @@
 """Levels placed automatically for a scene, compared with levels placed by hand and naively."""
 
-from matplotlib.patches import Patch
-from matplotlib.ticker import NullLocator
-
 from viscorough_study.figures import style
-from viscorough_study.run.readable import readable
+from viscorough_study.run.names import AUTOMATIC, BY_HAND, NAIVE
 
-CHOICES = {"automatic": style.BLUE, "best by hand": style.GREEN, "naive": style.VERMILION}
-HEIGHT = 0.8 / len(CHOICES)  # of a bar
-MISSED = "////"  # hatching of bars that miss the accuracy
+# {choice: label, color, marker, and place of the label from the end of the curve}
+CHOICES = {
+    AUTOMATIC: ("automatic", style.BLUE, "o", (-4, -9), "right"),
+    BY_HAND: ("by hand", style.GREEN, "s", (4, 4), "left"),
+    NAIVE: ("naive", style.VERMILION, "^", (4, 4), "left"),
+}
+TITLES = {
+    "one asperity": "One smooth asperity",
+    "region (b)": "Rough disc, light contact",
+    "full curve": "Rough disc, to 90 % contact",
+}
+ERRORS = (0.1, 1e-2, 1e-3, 1e-4)  # ticks
+FLOOR = 3e-5  # smaller errors are drawn at this value
 
 
 @style.figure
 def plot_level_placement(table):
-    """Wall time of every choice of levels over that of the automatic choice, as bars.
+    """Error of the depth over processor time, a curve for each choice of levels, for every scene.
 
     table : of viscorough_study.performance.level_placement
-    A choice that does not reach the accuracy is hatched.
     """
-    scenes, accuracy = list(table["scene"].unique()), table.groupby("scene")["accuracy"].first()
-    figure, axes = style.new_subplots(12 * len(scenes) + 28)
-    for row in table.itertuples():
-        y = scenes.index(row.scene) + HEIGHT * (list(CHOICES).index(row.choice) - (len(CHOICES) - 1) / 2)
-        look = {"color": CHOICES[row.choice]} if row.reached else {"facecolor": "white", "hatch": MISSED}
-        axes.barh(y, row.ratio, 0.9 * HEIGHT, edgecolor=CHOICES[row.choice], linewidth=0.6, **look)
-    axes.axvline(1, color=style.GREY, linewidth=0.8)
-    labels = [f"{scene}\nerror up to {readable(accuracy[scene])}" for scene in scenes]
-    axes.set_yticks(range(len(scenes)), labels)
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.set(xlabel="wall time over that of the automatic choice", ylim=(len(scenes) - 0.45, -0.55))
-    handles = [Patch(color=color, label=choice) for choice, color in CHOICES.items()]
-    handles.append(Patch(facecolor="white", edgecolor=style.GREY, hatch=MISSED, label="accuracy not reached"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=4)
+    names = list(table["scene"].unique())
+    figure, panels = style.new_panels(
+        len(names), 3, 58, 18, xlabel="processor time (s)", ylabel="error of the depth", sharey=True
+    )
+    figure.suptitle("Error that a given time buys, by who places the levels of a loading curve")
+    for axes, name, letter in zip(panels, names, "abcdef", strict=False):
+        rows = table[table["scene"] == name]
+        for choice, (label, color, marker, offset, side) in CHOICES.items():
+            curve = rows[rows["choice"] == choice].assign(error=lambda rows: rows["error"].clip(lower=FLOOR))
+            axes.plot("processor_s", "error", data=curve, color=color, marker=marker, markersize=3.5)
+            end = tuple(curve.iloc[0 if side == "left" else -1][["processor_s", "error"]])
+            axes.annotate(label, end, offset, textcoords="offset points", color=color, ha=side)
+        axes.set(title=f"({letter}) {TITLES.get(name, name)}", xscale="log", yscale="log")
+        axes.set(ylim=(FLOOR * 0.8, 0.3), xlim=(table["processor_s"].min() / 2, table["processor_s"].max() * 3))
+        axes.set_yticks(ERRORS, [f"{100 * error:g} %" for error in ERRORS])
+        axes.grid(axis="y", color=style.PALE, linewidth=0.6, zorder=0)
     return figure

@@ -1,63 +1,178 @@
-"""Speed against accuracy of the main methods."""
+"""Speed against accuracy: of one surface, of the mean of many surfaces, and of the solver on its grid."""
 
 import numpy as np
 
 from viscorough_study.figures import style
-from viscorough_study.performance.costs import fastest, pareto_front
+from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, REQUEST
 
-METHODS = {
-    "path, automatic levels": "elastic path, automatic levels",
-    "path, at the depths": "elastic path, given levels",
-    "implicit": "implicit time steps",
-    "explicit, logarithmic steps": "explicit time steps",
-    "MDR": "MDR (model)",
+ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # lines of equal error
+SMALL_ERRORS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)
+TIME, ERROR = "processor time (s)", "error of the velocity $v$"
+LEFT = 0.02  # place of a model without cost, as a share of the width of the axes
+LEAST_DISTANCE = 0.045  # of labels, as a share of the height of the axes
+GRIDS = (style.SKY_BLUE, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE)  # from coarse to fine
+PATH = "path, at the depths"
+# {method: label, color, and place of the label from the first point}
+SOLVERS = {
+    PATH: ("viscorough", style.BLUE, (-4, 5)),
+    "implicit": ("implicit steps", style.GREEN, (5, 2)),
+    "explicit, logarithmic steps": ("explicit steps", style.PURPLE, (5, 2)),
 }
-ELEMENTS_ACROSS = 257  # largest grid drawn
-FLOOR = 1e-13  # smaller errors are drawn at this value
-HEADLINE = 0.01  # error at which the fastest methods are compared
-RINGED = {"path", "marching"}  # groups of methods that are compared
-RING = {"color": style.BLACK, "marker": "o", "markersize": 9, "markerfacecolor": "none", "linestyle": ""}
-RING |= {"label": "fastest of its kind to an error of 1 %"}
-PARETO = {"color": style.GREY, "linewidth": 3, "alpha": 0.35, "drawstyle": "steps-post"}
-PARETO |= {"label": "Pareto front of all methods"}
+RACE, RACE_TOLERANCE = "eight levels", 1e-6  # task of the other solvers, and residual to which it is solved
+ACROSS = 257  # largest grid of the solvers
+FLOOR = 1e-10  # smaller errors are drawn at this value
 
 
 @style.figure
-def plot_speed(table):
-    """Error of v against wall time: the elastic path, time steps and a model.
+def plot_speed(one_surface, means, methods, other_solvers):
+    """Error over processor time, for one surface (a, b), the mean of many (c), and the solver on its grid (d).
 
-    table : of viscorough_study.performance.measurement; drawn are its first rough disc (a) and the sphere (b), as far
-        as it has them, otherwise its first problem
-    The staircase is the Pareto front of all methods of the table. Rings mark the fastest solutions by the path and by
-    time steps with an error of at most 1 %.
+    one_surface, means, methods : tables of performance.one_surface, comparisons.mean_of_surfaces and
+        performance.measurement
+    other_solvers : list of the published times of other solvers over those of the elastic path, as of
+        resources/published/other_solvers.csv
     """
-    rough = sorted(name for name in table["problem"].unique() if name.startswith("rough"))
-    problems = [*rough[:1], *({"sphere"} & set(table["problem"]))] or [table["problem"].iloc[0]]
-    figure, panels = style.new_subplots(100, 1, len(problems), squeeze=False)
-    for axes, problem, letter in zip(panels[0], problems, "ab", strict=False):
-        title, rows = _finest_grid(table, problem)
-        _draw_costs(axes, rows.assign(error=np.maximum(rows["error"], FLOOR)))
-        axes.set(title=f"({letter}) {title}", xlabel="wall time (s)", xscale="log", yscale="log")
-        axes.set_ylabel("relative error of $v$, root mean square")
-    labelled = {line.get_label(): line for axes in panels[0] for line in axes.lines if line.get_label()[0] != "_"}
-    figure.legend(handles=[*labelled.values()], loc="outside lower center", ncols=3)
+    figure, ((left, right), (many, solver)) = style.new_subplots(150, 2, 2)
+    velocity = one_surface[one_surface["quantity"] == "velocity"]
+    exponents = sorted(velocity["hurst"].unique())
+    for axes, letter, hurst in zip((left, right), "ab", (exponents[0], exponents[-1]), strict=True):
+        axes.set_title(f"({letter}) One surface, $H$ = {hurst:g}:\nonly a finer grid makes it accurate")
+        _draw_one_surface(axes, velocity[velocity["hurst"] == hurst])
+    rows = means[means["quantity"] == "velocity"]
+    hurst = min(rows["hurst"], key=lambda value: (abs(value - exponents[0]), value))
+    many.set_title(f"(c) Mean of many surfaces, $H$ = {hurst:g}:\nthe law needs no simulation")
+    _draw_mean(many, rows[rows["hurst"] == hurst])
+    solver.set_title("(d) Solver alone, on a given grid:\nits error is far below that of the grid")
+    _draw_solvers(solver, methods, velocity, other_solvers)
     return figure
 
 
-def _finest_grid(table, problem):
-    """Title and rows of a problem on its finest grid of at most `ELEMENTS_ACROSS`, otherwise on its coarsest."""
-    rows = table[table["problem"] == problem]
-    sizes = rows["elements"].unique()
-    size = max(sizes[sizes <= ELEMENTS_ACROSS], default=sizes.min())
-    return f"{problem}, {size} elements across", rows[rows["elements"] == size]
+def _lines_of_equal_error(axes, errors, limits):
+    axes.set(xscale="log", yscale="log", xlabel=TIME, ylabel=ERROR, ylim=limits)
+    axes.set_yticks(errors, [f"{100 * error:g} %" if error > 1e-4 else _power(100 * error) for error in errors])
+    axes.grid(axis="y", color=style.PALE, linewidth=0.6, zorder=0)
 
 
-def _draw_costs(axes, costs):
-    """Draw the Pareto front, a line for each method, and a ring around the fastest solution of each kind."""
-    axes.plot("wall_s", "error", data=pareto_front(costs), **PARETO, zorder=1)
-    axes.axhline(HEADLINE, color=style.PALE, linewidth=0.6, zorder=0)
-    for name, look in style.series_looks(METHODS).items():
-        axes.plot("wall_s", "error", data=costs[costs["method"] == name], **look, markersize=3.5, label=METHODS[name])
-    for group, best in fastest(costs, HEADLINE).items():
-        if group in RINGED:
-            axes.plot(best["wall_s"], best["error"], **RING)
+def _limits(rows):
+    """Ends of the axis of errors."""
+    return 0.5 * rows["error"].min(), max(2 * rows["error"].max(), 0.6)
+
+
+def _power(number):
+    return f"$10^{{{np.log10(number):.0f}}}$ %"
+
+
+def _draw_free(axes, rows, above=False):
+    """Draw the law, which costs nothing, at the left edge, with its label above or below it."""
+    place, edge = (LEFT, rows["error"].iloc[0]), axes.get_yaxis_transform()
+    look = {"color": style.VERMILION, "clip_on": False}
+    axes.plot(*place, "D", transform=edge, markersize=5, **look)
+    offset = (6, 6 if above else -10)
+    axes.annotate("law: free", place, offset, xycoords=edge, textcoords="offset points", **look)
+
+
+def _label_ends(axes, ends, side="right"):
+    """Label curves on one side, without overlap; ends : [(text, (least, largest) x, y, color)]"""
+    bottom, top = np.log(axes.get_ylim())
+    lowest = -np.inf
+    for text, x, y, color in sorted(ends, key=lambda end: end[2]):
+        lowest = max(np.log(y), lowest + LEAST_DISTANCE * (top - bottom))
+        where = {"textcoords": "offset points", "va": "center", "color": color}
+        place, offset, ha = (x[1], 5, "left") if side == "right" else (x[0], -5, "right")
+        axes.annotate(text, (place, np.exp(lowest)), (offset, 0), **where, ha=ha)
+
+
+def _say(axes, text):
+    """State what distinguishes the points of each curve."""
+    axes.text(0.97, 0.96, text, transform=axes.transAxes, ha="right", va="top", color=style.GREY)
+
+
+def _draw_curve(axes, curve, look, color, label):
+    """Draw a curve, and return its label, as for `_label_ends`."""
+    axes.plot("processor_s", "error", look, data=curve, color=color, markersize=3)
+    return label, tuple(curve["processor_s"].agg(["min", "max"])), curve["error"].iloc[-1], color
+
+
+def _draw_one_surface(axes, rows):
+    full = rows[rows["model"] == GRID]["across"].max()  # to which all are compared
+    grids = rows[(rows["model"] == GRID) & (rows["across"] < full)]
+    ends = [
+        _draw_curve(axes, curve, "o-", color, f"{across:g} × {across:g}")
+        for (across, curve), color in zip(grids.groupby("across"), GRIDS, strict=False)
+    ]
+    ends.append(_draw_curve(axes, rows[rows["model"] == MDR], "v-", style.GREY, "MDR"))
+    shown = rows[(rows["across"] != full) | (rows["model"] == REQUEST)]
+    _lines_of_equal_error(axes, ERRORS, _limits(shown))
+    low, high = shown[shown["processor_s"] > 0]["processor_s"].agg(["min", "max"])
+    axes.set_xlim(low / 12, high * 8)
+    _label_ends(axes, ends, "left")
+    requests = rows[rows["model"] == REQUEST]
+    axes.plot("processor_s", "error", "x", data=requests, color=style.BLACK, markersize=7, markeredgewidth=1.6)
+    for row in requests.itertuples():
+        text, where = f"--error {100 * row.value:g}%", {"textcoords": "offset points", "va": "center"}
+        axes.annotate(text, (row.processor_s, row.error), (6, 0), **where)
+    law = rows[rows["model"] == LAW]
+    _draw_free(axes, law, above=law["error"].iloc[0] > rows[rows["model"] == MDR]["error"].iloc[-1])
+    _say(axes, "along a curve: finer tolerances\n× a requested error")
+
+
+def _draw_mean(axes, rows):
+    grids = rows[rows["model"] == GRID].dropna(subset="processor_s")
+    ends = [
+        _draw_curve(axes, curve, "o-", color, f"{across:g} × {across:g}")
+        for (across, curve), color in zip(grids.groupby("across"), GRIDS, strict=False)
+    ]
+    for model, look in {MDR_PI: "v-", MDR_FITTED: "^-"}.items():
+        if len(curve := rows[rows["model"] == model]):
+            ends.append(_draw_curve(axes, curve, look, style.GREY, model))
+    timed = rows[rows["processor_s"] > 0]["processor_s"]
+    _lines_of_equal_error(axes, ERRORS, _limits(rows))
+    axes.set_xlim(timed.min() / 12, timed.max() * 40)
+    _label_ends(axes, ends)
+    _draw_free(axes, rows[rows["model"] == LAW])
+    _say(axes, "along a curve: 1 to 256 surfaces")
+
+
+def _draw_solvers(axes, methods, velocity, other_solvers):
+    rough = methods[methods["hurst"].notna() & (methods["elements"] <= ACROSS)]
+    rough = rough[rough["elements"] == rough["elements"].max()]
+    rough = rough[rough["hurst"] == rough["hurst"].min()]
+    rough = rough.assign(error=np.maximum(rough["error"], FLOOR))
+    _lines_of_equal_error(axes, SMALL_ERRORS, (FLOOR, 1))
+    for method, (label, color, offset) in SOLVERS.items():
+        curve = rough[rough["method"] == method]
+        axes.plot("processor_s", "error", "o-", data=curve, color=color, markersize=3)
+        if len(curve):
+            place = tuple(curve.iloc[0][["processor_s", "error"]])
+            axes.annotate(label, place, offset, textcoords="offset points", color=color)
+    of_grid = velocity.query("model == @GRID and across == @rough.elements.iloc[0]")["error"]
+    if len(of_grid):
+        axes.axhspan(of_grid.min(), of_grid.max(), color=style.ORANGE, alpha=0.4, linewidth=0, zorder=0)
+        edge = axes.get_yaxis_transform()
+        axes.annotate(
+            "error of the grid", (0.98, of_grid.max()), (0, 2), xycoords=edge, textcoords="offset points", ha="right"
+        )
+    _draw_others(axes, rough, other_solvers)
+    axes.text(0.97, 0.03, "■ other solvers, published times", transform=axes.transAxes, ha="right", color=style.GREY)
+
+
+def _draw_others(axes, rough, other_solvers):
+    """Draw other solvers at the error of the elastic path that has the residual to which they are solved."""
+    own = rough[(rough["method"] == PATH) & (rough["value"] <= RACE_TOLERANCE)]
+    races = [race for race in other_solvers if race["task"] == RACE]
+    if not len(own) or not races:
+        return
+    own, hurst = own.iloc[0], rough["hurst"].iloc[0]
+    nearest = min((race["hurst"] for race in races), key=lambda value: abs(value - hurst))
+    ratios = {}
+    for race in races:
+        if race["hurst"] == nearest:  # of several modes of a solver the fastest
+            name = race["solver"].split()[0]
+            ratios[name] = min(race["ratio"], ratios.get(name, np.inf))
+    for rank, (name, ratio) in enumerate(sorted(ratios.items(), key=lambda item: item[1])):
+        place = ratio * own["processor_s"], own["error"]
+        axes.plot(*place, "s", color=style.BLACK, markersize=4)
+        line = {"arrowstyle": "-", "color": style.GREY, "linewidth": 0.5}
+        offset = (0, -10 * (len(ratios) - rank))
+        axes.annotate(name, place, offset, textcoords="offset points", arrowprops=line, va="top")
+    axes.set_xlim(right=6 * max(ratios.values()) * own["processor_s"])

@@ -29,7 +29,6 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
     published = read_published(project / "docs/claims.csv")
     conventions = results.settings["claims"]["conventions"]
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)
-    fastest = answers.fastest_methods(results)
     costs_nc = Path(tables["rule_costs"]).with_suffix(".nc")
     return {
         "results": results,
@@ -45,20 +44,15 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
         "case_counts": {claim["name"]: claim["case_counts"] for claims in verdicts.values() for claim in claims},
         "verdicts": verdicts,
         "differing": [claim for claims in verdicts.values() for claim in claims if claim["full_scale"]],
-        "groups": answers.GROUPS,
-        "fastest_methods": fastest,
-        "advised": fastest[answers.ADVISED],
-        "advised_elements": results.number("methods", answers.rough_disc(results).index[0], "elements"),
-        "best_model": answers.best_model(results),
+        "models": results.records("sufficient_models"),
+        "full_map": results.number("one_surface", results.tables["one_surface"]["across"].idxmax(), "across"),
         "failures": answers.failures(results),
         "outcomes": OUTCOMES,
         "other": content.other_solvers(project / "resources/published/other_solvers.csv"),
-        "scenes": content.scenes(results),
         "media": content.media(results),
         "literature": discussion(results),
         "quantities": QUANTITIES,
         "measured": content.measured(results, conventions),
-        "choices": ("automatic", "best by hand", "naive"),
         "costs": results.records("rule_costs"),
         **{name: read_recorded(costs_nc, name) for name in ("machine", "versions", "made")},
         "time": duration_text(results.tables["rule_costs"]["share_s"].sum()),

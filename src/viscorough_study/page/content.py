@@ -75,14 +75,6 @@ def other_solvers(path):
     return {"versions": versions, "rows": rows, **table[["measured", "machine"]].iloc[0]}
 
 
-def scenes(results):
-    """Return {scene: {choice of levels: its record}}."""
-    scenes = {}
-    for record in results.records("level_placement"):
-        scenes.setdefault(record["scene"], {})[record["choice"]] = record
-    return scenes
-
-
 def media(results):
     """Return the exponent of vt/h in time by medium and H: at the first time, near X = 0.01, at the last time."""
     table, rows = results.tables["media"], []

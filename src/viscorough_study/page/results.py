@@ -12,7 +12,7 @@ import pandas as pd
 from viscorough_study.run.tables import read_recorded, read_table
 from viscorough_study.verdicts.claims import JUDGES
 
-MAY_BE_EMPTY = ("convention", "reason")  # columns of texts
+MAY_BE_EMPTY = ("convention", "reason", "setting")  # columns of texts
 _ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}  # options of pandas.read_csv
 
 

@@ -103,6 +103,11 @@ def light_map_key(hurst, elements, number):
     return _key(17, _millionths(hurst), elements, number)
 
 
+def one_surface_key(hurst, number):
+    """Surfaces that are sampled with grids from coarse to fine, each with a line of the same h, L and H."""
+    return _key(18, _millionths(hurst), number)
+
+
 def random_indenter_key(case):
     """Return the key of a small indenter of the stability campaign; case : its number"""
     return _key(case)

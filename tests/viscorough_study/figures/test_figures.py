@@ -12,10 +12,8 @@ from viscorough import reference
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures.collapse import SHIFT
 from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
-from viscorough_study.figures.speed import FLOOR, METHODS, PARETO, RING
 from viscorough_study.figures.style import SMALL
 from viscorough_study.fits.conventions import fits
-from viscorough_study.performance.costs import pareto_front
 from viscorough_study.robustness.failure_map import VERDICTS
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -90,7 +88,11 @@ def expected_points(scaling):
         yield "sizes", panel + 1, points(fits(table, SHOWN | {"window_rule": rule}, **of_lines), None, "beta")
     limits = published("infinite_grid").query("source == 'discs'")
     yield "collapse", 2, points(limits.assign(less=limits["beta"] - limits["expected"]), None, "less")
-    yield "level_placement", 0, points(published("level_placement"), "ratio", None)
+    for panel, (_, rows) in enumerate(published("level_placement").groupby("scene", sort=False)):
+        yield "level_placement", panel, points(rows.query("error > 3e-5"), "processor_s", "error")
+    for panel, (_, rows) in enumerate(published("failure_knobs").groupby("knob", sort=False), 2):
+        rows = rows[(rows["hurst"] == 0.4) | (rows["knob"] != "power law")]
+        yield "failures", panel, points(rows.query("error > 0"), "value", "error")
 
 
 def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
@@ -102,22 +104,59 @@ def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
         assert near.all(), (figure, panel, expected[~near])
 
 
-def test_speed_has_the_front_of_all_methods_and_rings_around_the_fastest():
-    table = published("methods")
-    table.loc[table["error"].idxmin(), "error"] = 0.0
-    figure = plot("speed", table)
-    rough, sphere = figure.axes
-    (legend,) = figure.legends
-    labels = {*METHODS.values(), RING["label"], PARETO["label"]}
-    assert {text.get_text() for text in legend.get_texts()} == labels
-    assert rough.get_title() == "(a) rough disc, H = 0.4, 257 elements across"
-    assert sphere.get_title().startswith("(b) sphere, ")
-    costs = table.query("problem == 'rough disc, H = 0.4' and elements == 257")
-    costs = costs.assign(error=np.maximum(costs["error"], FLOOR))
-    close(rough.lines[0].get_xydata(), pareto_front(costs)[["wall_s", "error"]])
-    rings = sorted(line.get_xdata()[0] for line in rough.lines if line.get_label() == RING["label"])
-    kinds = costs.query("error <= 0.01 and group in ('path', 'marching')").groupby("group")
-    close(rings, sorted(kinds["wall_s"].min()))
+def test_speed_has_a_curve_for_each_grid_and_a_cross_for_each_request(drawn):
+    surfaces, means, _, _ = tables.FROM_TABLES["speed"]
+    velocity = surfaces.query("quantity == 'velocity'")
+    for axes, (hurst, rows) in zip(drawn["speed"].axes, velocity.groupby("hurst"), strict=False):
+        assert f"$H$ = {hurst:g}" in axes.get_title()
+        (crosses,) = [line for line in axes.lines if line.get_marker() == "x"]
+        close(crosses.get_xydata(), rows.query("model == 'requested error'")[["processor_s", "error"]])
+        curves = [line.get_xydata() for line in axes.lines if line.get_marker() == "o"]
+        grids = rows.query("model == 'grid' and across < across.max()").groupby("across")
+        for curve, (_, grid) in zip(curves, grids, strict=True):
+            close(curve, grid[["processor_s", "error"]])
+        (law,) = [line for line in axes.lines if line.get_marker() == "D"]
+        close(law.get_ydata(), rows.query("model == 'law'")["error"])
+    many = drawn["speed"].axes[2]
+    grids = means.query("quantity == 'velocity' and model == 'grid' and hurst == 0.4").dropna().groupby("across")
+    curves = [line.get_xydata() for line in many.lines if line.get_marker() == "o"]
+    for curve, (_, grid) in zip(curves, grids, strict=True):
+        close(curve, grid[["processor_s", "error"]])
+
+
+def test_other_solvers_have_their_published_times_at_the_error_of_the_same_residual(drawn):
+    _, _, methods, others = tables.FROM_TABLES["speed"]
+    rough = methods.query("hurst == 0.4 and elements == 257 and method == 'path, at the depths' and value == 1e-6")
+    ratios = {}
+    for race in others:
+        if (race["task"], race["hurst"]) == ("eight levels", 0.4):
+            ratios.setdefault(race["solver"].split()[0], []).append(race["ratio"])
+    squares = [line.get_xydata()[0] for line in drawn["speed"].axes[3].lines if line.get_marker() == "s"]
+    expected = [(min(found) * rough["processor_s"].item(), rough["error"].item()) for found in ratios.values()]
+    close(sorted(map(tuple, squares)), sorted(expected))
+
+
+def test_bars_of_failures_are_shares_that_add_up_to_all_cases(drawn):
+    table, _ = tables.FROM_TABLES["failures"]
+    by_method, by_group = drawn["failures"].axes[:2]
+    for axes, column in ((by_method, "method"), (by_group, "group")):
+        widths = np.array([patch.get_width() for patch in axes.patches]).reshape(-1, 5)
+        np.testing.assert_allclose(widths.sum(axis=1), 1)
+        for row, (_, cells) in zip(widths, table.groupby(column, sort=False), strict=True):
+            assert row[0] == pytest.approx(cells["verdict"].isin(["holds", "model"]).mean())
+            assert row[4] == (cells["verdict"] == "unnoticed").mean()
+
+
+def test_silent_failures_are_counted_in_the_title_and_at_their_bar():
+    table, knobs = tables.FROM_TABLES["failures"]
+    place = table.query("method == 'events'").index[:2]
+    axes = plot(
+        "failures", table.assign(verdict=table["verdict"].mask(table.index.isin(place), "unnoticed")), knobs
+    ).axes[0]
+    assert axes.get_title() == f"(a) 2 of {len(table)} results are silently wrong"
+    numbers = [text.get_text() for text in axes.texts if text.get_text() != "silent"]
+    assert numbers.count("2") == 1
+    assert set(numbers) == {"0", "2"}
 
 
 def test_failure_map_shows_every_cell_but_those_where_a_difficulty_cannot_matter(drawn):

@@ -9,8 +9,8 @@ import pytest
 import xarray as xr
 
 from support.study import CLAIMS, NUMBERS, ROOT
-from viscorough_study.page.answers import best_model, failures, fastest_methods, method_row
-from viscorough_study.page.content import measured, media, scale, scenes, verdicts
+from viscorough_study.page.answers import failures
+from viscorough_study.page.content import measured, media, scale, verdicts
 from viscorough_study.page.results import Results
 
 
@@ -44,41 +44,17 @@ def test_scale_follows_from_the_ensembles(tmp_path, elements, realizations, line
     assert (content["discs"]["hurst"], content["discs"]["cases_per_hurst"]) == ([0.4, 0.9], 2)
 
 
-def test_page_names_the_fastest_method_that_reaches_an_error():
-    rows = [
-        ("path", "path, at the depths", 1e-1, 0.1, 3e-2),
-        ("path", "path, at the depths", 1e-3, 0.2, 5e-4),
-        ("path", "path, automatic levels", 1e-3, 0.3, 4e-4),
-        ("marching", "explicit, logarithmic steps", 64, 5.0, 8e-3),
-        ("model", "MDR", 64, 1e-3, 0.2),
-        ("model", "power law", 0, 1e-6, 0.3),
-    ]
-    table = pd.DataFrame(rows, columns=["group", "method", "value", "wall_s", "error"]).assign(parameter="tolerance")
-    table = table.assign(problem="rough disc, H = 0.8", hurst=0.8, elements=257)
-    coarse = table.assign(elements=65, wall_s=1e-6, error=0.0)
-    methods = Results({"methods": pd.concat([coarse, table], ignore_index=True)}, {})
-    fastest = fastest_methods(methods)
-    assert fastest[0.1]["path"] == method_row(methods, 6)
-    assert [fastest[1e-2][group]["wall_s"].value for group in ("path", "marching")] == [0.2, 5.0]
-    assert fastest[1e-2]["model"] is None
-    assert set(fastest[1e-6].values()) == {None}
-    assert best_model(methods)["method"] == "MDR"
-
-
-def test_numbers_come_from_the_rows_that_the_page_names():
+def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     conventions = {"rms_convention": "disc", "average": "geometric", "window_rule": "default"}
-    levels = pd.DataFrame({"scene": ["a", "a", "b"], "choice": ["c", "d", "c"], "levels": [1, 2, 3]})
     fits = pd.DataFrame({"case_group": ["j", "k", "k"], **conventions, "beta": [0.1, 0.2, 0.3]})
     fits.loc[2, "average"] = "arithmetic"
-    tables = {"level_placement": levels, "measured_fits": fits, "measured_scans": pd.DataFrame({"file": ["g"]})}
+    tables = {"measured_fits": fits, "measured_scans": pd.DataFrame({"file": ["g"]})}
     tables |= {"measured_contacts": pd.DataFrame({"file": ["g", "g"], "normal_force": [0.1, 0.2]})}
     results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {})
     for claim in chain(*verdicts(results, CLAIMS, results.tables["claims"]).values()):
         shown = results.tables["claims"].loc[[case["value"].row for case in claim["cases"]]]
         assert set(shown["claim"]) == {claim["name"]}
         assert shown["case"].tolist() == [case["case"] for case in claim["cases"]]
-    found = {(scene, name): row["levels"].row for scene, rows in scenes(results).items() for name, row in rows.items()}
-    assert found == {("a", "c"): 0, ("a", "d"): 1, ("b", "c"): 2}
     of_scans = measured(results, conventions)
     assert of_scans["scans"] == [{"file": "g"}]
     assert [(row["file"], row["normal_force"].value) for row in of_scans["contacts"]] == [("g", 0.1), ("g", 0.2)]

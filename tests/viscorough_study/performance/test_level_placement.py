@@ -4,28 +4,29 @@ import pytest
 
 from viscorough_study.performance import level_placement
 
+ACCURACIES = (1e-1, 1e-2)
+
 
 @pytest.fixture(scope="module")
 def scenes():
     return level_placement.scenes(17, 0.7, 1)
 
 
-def test_scenes_are_answered_to_their_accuracy(scenes):
+def test_scenes_are_answered_to_every_accuracy(scenes):
     for scene in scenes:
-        table = level_placement.compare(*scene, 1, hand_picked=(6, 32, 128), naive=(8,))
+        table = level_placement.compare(*scene, 1, accuracies=ACCURACIES, numbers=(6, 32, 128))
         assert list(table.columns) == list(level_placement.COLUMNS)
-        automatic = table[table["choice"] == "automatic"]
-        assert automatic["reached"].item() == 1
-        assert automatic["ratio"].item() == 1
-        assert (table[table["choice"] == "best by hand"]["error"] <= scene[2]).all()
-        assert table["choice"].tolist()[-1] == "naive"
+        assert table["accuracy"].tolist() == [accuracy for accuracy in ACCURACIES for _ in range(3)]
+        assert (table[table["choice"] == "automatic"]["reached"] == 1).all()
+        assert ((table["error"] <= table["accuracy"]) == table["reached"]).all()
+        assert (table["processor_s"] > 0).all()
 
 
 def test_levels_by_hand_are_the_fewest_that_reach_the_accuracy(scenes):
-    tried = (2, 4, 8, 16, 32, 64, 128)
-    table = level_placement.compare(*scenes[2], 1, hand_picked=tried, naive=(8,))
-    number = table.set_index("choice").loc["best by hand", "levels"]
-    fewer = [smaller for smaller in tried if smaller < number]
+    tried, at = (2, 4, 8, 16, 32, 64, 128), {"accuracies": (1e-3,)}
+    table = level_placement.compare(*scenes[2], 1, numbers=tried, **at).set_index("choice")
+    assert table.loc["best by hand", "reached"] == 1
+    fewer = [number for number in tried if number < table.loc["best by hand", "levels"]]
     assert fewer
-    table = level_placement.compare(*scenes[2], 1, hand_picked=fewer, naive=(8,))
-    assert "best by hand" not in table["choice"].tolist()
+    table = level_placement.compare(*scenes[2], 1, numbers=fewer, **at).set_index("choice")
+    assert table.loc["best by hand", "reached"] == 0

@@ -1,0 +1,94 @@
+"""The cheapest model that answers a question to a given error, among those whose error was measured.
+
+Errors and times are the largest over the Hurst exponents of the tables, so that a model suffices for all of them. The
+map of all points is no candidate by its agreement with itself: its error is the one that it states for its own grid.
+"""
+
+import pandas as pd
+
+from viscorough_study.run.names import CONTACT, GRID, LAW, MDR, MDR_FITTED, MDR_PI, PAPER, REQUEST
+from viscorough_study.run.readable import readable
+
+# (question, table, quantity, errors allowed)
+QUESTIONS = (
+    ("mean exponent β", "mean", "exponent", (0.05,)),
+    ("mean velocity", "mean", "velocity", (0.05,)),
+    ("velocity of one surface", "one", "velocity", (0.2, 0.1, 0.03, 0.01)),
+    ("contact area of one surface", "one", "contact area", (0.1,)),
+    ("pressures of one surface, on its grid", "one", "pressures", (0.01,)),
+    ("medium from a creep test on one surface", "one", "creep compliance", (0.05,)),
+)
+COLUMNS = {
+    "question": ("question", ""),
+    "allowed": ("relative error allowed", "1"),
+    "model": ("cheapest model whose error is within it, or the most accurate one if there is none", ""),
+    "setting": ("setting of the model", ""),
+    "error": ("relative error, the largest over the Hurst exponents", "1"),
+    "processor_s": ("processor time, the largest over the Hurst exponents", "s"),
+    "reached": ("1 if the error is within the one allowed, else 0", "1"),
+    "hurst": ("Hurst exponents", ""),
+}
+
+
+def sufficient_models(one_surface, mean_accuracy):
+    """The cheapest sufficient model for every question and error; a pandas.DataFrame with the columns of `COLUMNS`.
+
+    one_surface, mean_accuracy : tables of performance.one_surface and comparisons.mean_of_surfaces
+    """
+    tables, rows = {"one": _judged_by_itself(one_surface), "mean": mean_accuracy}, []
+    for question, name, quantity, errors in QUESTIONS:
+        measured = tables[name][tables[name]["quantity"] == quantity].dropna(subset="processor_s")
+        candidates = _over_hurst(measured)
+        for allowed in errors if len(candidates) else ():
+            within = candidates[candidates["error"] <= allowed]
+            order = ["processor_s", "error"] if len(within) else ["error", "processor_s"]
+            best = (within if len(within) else candidates).sort_values(order).iloc[0]
+            rows.append(
+                {
+                    "question": question,
+                    "allowed": allowed,
+                    **dict(zip(("model", "setting"), _names(best), strict=True)),
+                    **best[["error", "processor_s", "hurst"]],
+                    "reached": int(best["error"] <= allowed),
+                }
+            )
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def _judged_by_itself(table):
+    """Rows of one surface with the stated error of the map to which all others are compared."""
+    full = (table["model"] == GRID) & (table["across"] == table["across"].max())
+    stated = table["stated"].where(table["quantity"] == "velocity")
+    kept = ~full | stated.notna()
+    return table.assign(error=table["error"].where(~full, stated))[kept]
+
+
+def _over_hurst(table):
+    """Candidates that were measured at all Hurst exponents, with the largest error and time over these."""
+    keys = ["model", "across", "parameter", "value"] if "parameter" in table else ["model", "across", "surfaces"]
+    if "parameter" in table:
+        table = table.assign(across=table["across"].where(table["model"] != REQUEST))
+    every = sorted(table["hurst"].unique())
+    largest = {"error": ("error", "max"), "processor_s": ("processor_s", "max"), "number": ("hurst", "nunique")}
+    grouped = table.groupby(keys, sort=False, dropna=False).agg(**largest).reset_index()
+    return grouped[grouped["number"] == len(every)].assign(hurst=", ".join(f"{hurst:g}" for hurst in every))
+
+
+def _names(row):
+    """Name and setting of a model."""
+    model, size = row["model"], f"{row['across']:g} × {row['across']:g}"
+    if model == PAPER:
+        return "H/(1 + H)", ""
+    if model == LAW:
+        return "viscorough.penetration_law", ""
+    if model == REQUEST:
+        return "viscorough.indent", f"error={row['value']:g}"
+    if model == CONTACT:
+        return "viscorough.contact_at", f"{size} points, tolerance={row['value']:g}"
+    if model == MDR:
+        return "viscorough.reduce", f"a line of {readable(row['value'])} points"
+    if model in (MDR_PI, MDR_FITTED):
+        return "viscorough.reduce", f"{row['surfaces']:g} lines, {model.removeprefix('MDR, ')}"
+    if "surfaces" in row:
+        return "viscorough.indent", f"{row['surfaces']:g} discs of {size} points"
+    return "viscorough.indent", f"{size} points, tolerance={row['value']:g}"

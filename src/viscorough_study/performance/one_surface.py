@@ -1,0 +1,176 @@
+"""Error and cost of every model of one surface: grids and tolerances, requested errors, the MDR and the law.
+
+The error is the deviation from the same surface on a finer grid, the map of all points. It is a root mean square of
+ln(v/v_full) over X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several surfaces; likewise for the contact area
+and for the creep compliance that a record of the depth gives. The error of the pressures is that of the solver on a
+given grid, since the pressures of a self-affine surface have no limit on finer grids.
+"""
+
+import logging
+import warnings
+
+import numpy as np
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from viscorough.calibrated_law import penetration_law
+from viscorough.contact.grid_error import every_nth_point
+from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
+from viscorough.errors import AccuracyWarning
+from viscorough.mdr import reduce
+from viscorough.surfaces import self_affine_disc, self_affine_line
+from viscorough.viscous.identification import identify_medium
+from viscorough.viscous.kinetics import kinetics
+from viscorough.viscous.media import StandardLinearSolid
+from viscorough_study.performance import timing
+from viscorough_study.run.kernels import compile_kernels
+from viscorough_study.run.names import CONTACT, GRID, LAW, MDR, REQUEST
+from viscorough_study.run.seeds import one_surface_key, realization_seed
+
+X = (0.01, 3.0)
+PER_DECADE = 50
+STEPS = (16, 8, 4, 2)  # every n-th point of the full map
+FEWEST_ACROSS = 17  # of the coarsest grid
+TOLERANCES = (1e-1, 1e-2, 1e-3)
+FULL_TOLERANCE = 1e-3  # of the curve of all points
+REQUESTS = (0.2, 0.1, 0.05)
+POINTS = tuple(2**n for n in (8, 11, 14, 17))
+# The contact whose pressures are compared: at this X, on every second point, with the one to the finest tolerance.
+CONTACT_X, CONTACT_STEP, CONTACT_TOLERANCES, EXACT_TOLERANCE = 0.1, 2, (1e-1, 1e-2, 1e-3), 1e-8
+SHORT, REPEATS = 0.1, 2  # seconds below which a computation is repeated so many times
+# The creep test: a constant force, in units of h = L = 1, on a solid whose modulus relaxes by a factor of 100.
+SOLID, TIMES = StandardLinearSolid(100.0, 1.0, 1.0), np.geomspace(1e-2, 1e3, 60)
+COLUMNS = {
+    "hurst": ("Hurst exponent", "1"),
+    "quantity": ("velocity, contact area, pressures, or creep compliance", ""),
+    "model": ("grid, requested error, MDR, law, or one contact", ""),
+    "across": ("points across the map that is used; missing without a map", "1"),
+    "parameter": ("parameter of the model", ""),
+    "value": ("value of that parameter", "1"),
+    "processor_s": ("processor time, median over the surfaces", "s"),
+    "error": ("relative error, root mean square over X and over the surfaces", "1"),
+    "stated": ("error that the curve states itself, mean over the surfaces; missing where it states none", "1"),
+    "surfaces": ("surfaces", "1"),
+}
+LABELS = ["hurst", "quantity", "model", "across", "parameter", "value"]
+
+
+def measure_surfaces(*, hurst, elements, surfaces, seed):
+    """Cost and error of every model, on one thread; a pandas.DataFrame with the columns of `COLUMNS`.
+
+    hurst : Hurst exponents; elements : across the full map; surfaces : number for each exponent; seed : root seed
+    """
+    compile_kernels()  # so that loading compiled code is not timed
+    rows = []
+    with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
+        for exponent in hurst:
+            for number in range(surfaces):
+                logging.info("H = %g, surface %d", exponent, number)
+                own_seed = realization_seed(seed, *one_surface_key(exponent, number))
+                rows += [
+                    {"hurst": exponent, "surface": number} | row for row in surface_rows(exponent, elements, own_seed)
+                ]
+    return averaged(pd.DataFrame(rows))
+
+
+def averaged(table):
+    """Rows of single surfaces, with their squared errors averaged and their times by the median."""
+    table = table.assign(square=table["error"] ** 2)
+    # Requests choose the grid for each surface.
+    grids = table["across"].where(table["model"] != REQUEST)
+    means = {"processor_s": "median", "square": "mean", "stated": "mean", "across": "median", "surface": "nunique"}
+    labels = [name for name in LABELS if name != "across"]
+    grouped = table.assign(grid=grids).groupby([*labels, "grid"], sort=False, dropna=False)
+    result = grouped.agg(means).reset_index().rename(columns={"surface": "surfaces"})
+    return result.assign(error=np.sqrt(result["square"]))[list(COLUMNS)]
+
+
+def surface_rows(hurst, elements, seed):
+    """Rows of every model of one surface, each with quantity, model, across, parameter, value, time, error, stated."""
+    own_seed, line_seed = seed.spawn(2)
+    disc = self_affine_disc(hurst, elements, seed=own_seed)  # h = L = 1
+    x = np.geomspace(*X, round(PER_DECADE * np.log10(X[1] / X[0])))
+    force = 4 * x
+    until = {"until_fraction": 1.0, "until_force": 4 * X[1] * (1 + 1e-9)}
+    full, full_time = _timed(lambda: indent(disc, tolerance=FULL_TOLERANCE, estimate_grid_error=True, **until))
+    record = kinetics(full, force[-1] * SOLID.relaxed_modulus, SOLID, TIMES)
+    truth = _answers(full, force, disc)
+
+    def rows(curve, seconds, model, across, parameter, value, stated=np.nan):
+        shared = {"model": model, "across": across, "parameter": parameter, "value": value, "processor_s": seconds}
+        answers = _answers(curve, force, disc)
+        errors = {name: _deviation(answers[name], truth[name]) for name in truth}
+        if model == REQUEST:
+            errors["creep compliance"] = _compliance_error(curve, record, force[-1] * SOLID.relaxed_modulus)
+        return [shared | {"quantity": name, "error": error, "stated": stated} for name, error in errors.items()]
+
+    table = rows(full, full_time, GRID, elements, "tolerance", FULL_TOLERANCE, full.mean_grid_error)
+    for step in STEPS:
+        sampled = every_nth_point(disc, step)
+        across = len(sampled.heights)
+        if across < FEWEST_ACROSS:
+            continue
+        for tolerance in TOLERANCES:
+            curve, seconds = _timed(lambda: indent(sampled, tolerance=tolerance, **until))  # noqa: B023
+            table += rows(curve, seconds, GRID, across, "tolerance", tolerance)
+    for error in REQUESTS:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", AccuracyWarning)  # the stated error exceeds the requested one
+            curve, seconds = _timed(lambda: indent(disc, error=error, **until))  # noqa: B023
+        across = len(disc.heights[:: curve.sampling])
+        table += rows(curve, seconds, REQUEST, across, "error", error, curve.mean_grid_error)
+    of_velocity = {"quantity": "velocity", "across": np.nan, "stated": np.nan}
+    for points in POINTS:
+        velocity, seconds = _timed(lambda: _reduced_velocity(hurst, points, force, line_seed))  # noqa: B023
+        made = {"model": MDR, "parameter": "points", "value": points, "processor_s": seconds}
+        table.append(of_velocity | made | {"error": _deviation(velocity, truth["velocity"])})
+    velocity = penetration_law(hurst).velocity(x)
+    made = {"model": LAW, "parameter": "", "value": np.nan, "processor_s": 0.0}
+    table.append(of_velocity | made | {"error": _deviation(velocity, truth["velocity"])})
+    return table + _pressure_rows(every_nth_point(disc, CONTACT_STEP))
+
+
+def _timed(function):
+    """Result of a function and its processor time: of a short one the least of several."""
+    result, _, seconds = timing.timed(function)
+    repeats = REPEATS if seconds < SHORT else 0
+    return result, min([seconds, *(timing.timed(function)[2] for _ in range(repeats))])
+
+
+def _answers(curve, force, disc):
+    """{quantity: its values at forces F/G}, for h = L = 1."""
+    force = np.clip(force, curve.force[0], curve.force[-1])
+    fraction = np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)))
+    return {"velocity": force / curve.at_force(force)[1], "contact area": fraction}
+
+
+def _deviation(values, truth):
+    return float(np.sqrt(np.mean(np.log(values / truth) ** 2)))
+
+
+def _compliance_error(curve, record, force):
+    """Error of the creep compliance that a curve gives for a record of the depth under a constant force."""
+    reached = record.depth <= curve.depth[-1]
+    found = identify_medium(curve, force, record.time[reached], record.depth[reached])
+    here = found.time > 0
+    return _deviation(found.compliance[here], SOLID.creep_compliance(found.time[here]))
+
+
+def _reduced_velocity(hurst, points, force, seed):
+    """Velocities vt = (F/G)/(k/G) of one random line with the h, L and H of the surface."""
+    line = self_affine_line(hurst, points, seed=seed)
+    return force / reduce(line, until_force=force[-1] * (1 + 1e-9)).at_force(force)[1]
+
+
+def _pressure_rows(sampled):
+    """Rows of the pressures of one contact on a given grid, over the tolerance."""
+    force = 4 * CONTACT_X
+    exact = contact_at(sampled, force=force, tolerance=EXACT_TOLERANCE).pressure
+    scale, rows = np.sqrt(np.nanmean(exact**2)), []
+    shared = {"quantity": "pressures", "model": CONTACT, "across": len(sampled.heights), "parameter": "tolerance"}
+    for tolerance in CONTACT_TOLERANCES:
+        contact, seconds = _timed(lambda: contact_at(sampled, force=force, tolerance=tolerance))  # noqa: B023
+        error = float(np.sqrt(np.nanmean((contact.pressure - exact) ** 2)) / scale)
+        rows.append(shared | {"value": tolerance, "processor_s": seconds, "error": error, "stated": np.nan})
+    return rows

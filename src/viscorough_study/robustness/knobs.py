@@ -1,0 +1,87 @@
+"""Error over a setting that decides whether a method works: steps, empty space around a map, range of a power law.
+
+- Explicit steps: their number, in equal ratios of time, on a rough disc; largest error of the depth against the
+  integration from contact event to contact event.
+- Box: its width over that of the map. Fourier transforms convolve periodically: in a box less than twice as wide as the
+  map, distant elements act on each other over the shorter way, across the edge of the box. Error of the stiffness of a
+  disc whose elements all touch, against the same without periods.
+- Power law: X^β/ζ as fitted in region (b), over X = Ft/(4ηhL); error against the geometric mean of vt/h of the discs.
+"""
+
+import warnings
+
+import numpy as np
+import pandas as pd
+
+from viscorough.contact.halfspace.influence import influence_coefficient
+from viscorough.errors import AccuracyWarning
+from viscorough.surfaces import cut_disc, self_affine_disc
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.stepping import march_steps
+from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.fits.conventions import fits
+from viscorough_study.run.names import BOX, RANGE, STEPS
+from viscorough_study.run.seeds import failure_map_key, realization_seed
+
+HURST = 0.7  # of the disc of the explicit steps, as in the stress-test cases
+NUMBERS = (8, 32, 128, 512, 2048)  # of steps
+FRACTIONS = (0.02, 0.5)  # contact fractions between which depths are compared
+COMPARED = 6  # impulses at which depths are compared
+COLUMNS = {
+    "knob": ("explicit steps, box, or power law", ""),
+    "hurst": ("Hurst exponent of the surface; missing for a flat disc", "1"),
+    "value": ("number of steps, width of the box over that of the map, or X", "1"),
+    "error": ("largest relative error of depth, stiffness or velocity", "1"),
+    "warned": ("1 if the user is warned, else 0", "1"),
+}
+
+
+def failure_knobs(discs, scaling, *, seed, across, conventions):
+    """Error over the three settings; a pandas.DataFrame with the columns of `COLUMNS`.
+
+    discs : pool; scaling : table of power laws; across : elements across the disc and the map; conventions : of figures
+    """
+    rows = [*_step_rows(seed, across), *_box_rows(across), *_range_rows(discs, scaling, conventions)]
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def _step_rows(seed, across):
+    disc = self_affine_disc(HURST, across, seed=realization_seed(seed, *failure_map_key()))
+    events = march_events(disc, until_fraction=FRACTIONS[1])
+    # The first element touches at an impulse of zero.
+    first = events.impulse[np.searchsorted(events.contact_count, max(FRACTIONS[0] * disc.elements, 2))]
+    impulses = np.geomspace(first, events.impulse[-1] * (1 - 1e-9), COMPARED)
+    for number in NUMBERS:
+        ends = np.union1d(np.geomspace(impulses[0] / number, impulses[-1], number + 1)[1:], impulses)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", AccuracyWarning)
+            steps = march_steps(disc, ends, scheme="explicit")
+        depth = steps.depth[np.searchsorted(steps.impulse, impulses)]
+        yield STEPS, HURST, number, np.abs(depth / events.depth_at(impulses) - 1).max(), int(bool(caught))
+
+
+def _box_rows(across):
+    exact = periodic_stiffness(across, 2 * across)
+    for width in range(across, 2 * across + 1):
+        yield BOX, np.nan, width / across, abs(periodic_stiffness(across, width) / exact - 1), 0
+
+
+def periodic_stiffness(across, width):
+    """Sum of the pressures of a flat disc at a depth of 1, in reduced units, by convolution in a periodic box.
+
+    across, width : elements across the disc and across the box
+    """
+    place = np.argwhere(np.isfinite(cut_disc(np.zeros((across, across)), across)))
+    row, column = np.moveaxis(np.abs(place[:, None] - place), -1, 0)
+    influence = influence_coefficient(np.minimum(row, width - row), np.minimum(column, width - column))
+    return float(np.linalg.solve(influence, np.ones(len(place))).sum())
+
+
+def _range_rows(discs, scaling, conventions):
+    base = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
+    laws = fits(scaling, conventions, source="discs", case_group="base").set_index("hurst")
+    for hurst, law in laws.iterrows():
+        x, velocity = base[hurst]["x"].values, base[hurst]["velocity_geometric"].values
+        known = np.isfinite(velocity) & (base[hurst]["contact_count_median"].values > 1)
+        for abscissa, exact in zip(x[known], velocity[known], strict=True):
+            yield RANGE, hurst, abscissa, abs(abscissa ** law["beta"] / law["zeta"] / exact - 1), 0

@@ -38,7 +38,7 @@ def plot_failures(table, knobs):
 
     table : of robustness.failure_map; knobs : of robustness.knobs
     """
-    figure = style.new_figure(135)
+    figure = style.new_figure(110)
     upper, lower = figure.subfigures(2, 1, height_ratios=[3, 2])
     by_method, by_group = upper.subplots(1, 2)
     steps, box, power_law = lower.subplots(1, 3)

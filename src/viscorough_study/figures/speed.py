@@ -9,7 +9,7 @@ ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # lines of equal error
 SMALL_ERRORS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)
 TIME, ERROR = "processor time (s)", "error of the velocity $v$"
 LEFT = 0.02  # place of a model without cost, as a share of the width of the axes
-LEAST_DISTANCE = 0.045  # of labels, as a share of the height of the axes
+LEAST_DISTANCE = 0.055  # of labels, as a share of the height of the axes
 GRIDS = (style.SKY_BLUE, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE)  # from coarse to fine
 PATH = "path, at the depths"
 # {method: label, color, and place of the label from the first point}
@@ -32,7 +32,7 @@ def plot_speed(one_surface, means, methods, other_solvers):
     other_solvers : list of the published times of other solvers over those of the elastic path, as of
         resources/published/other_solvers.csv
     """
-    figure, ((left, right), (many, solver)) = style.new_subplots(150, 2, 2)
+    figure, ((left, right), (many, solver)) = style.new_subplots(122, 2, 2)
     velocity = one_surface[one_surface["quantity"] == "velocity"]
     exponents = sorted(velocity["hurst"].unique())
     for axes, letter, hurst in zip((left, right), "ab", (exponents[0], exponents[-1]), strict=True):
@@ -138,7 +138,7 @@ def _draw_solvers(axes, methods, velocity, other_solvers):
     rough = rough[rough["elements"] == rough["elements"].max()]
     rough = rough[rough["hurst"] == rough["hurst"].min()]
     rough = rough.assign(error=np.maximum(rough["error"], FLOOR))
-    _lines_of_equal_error(axes, SMALL_ERRORS, (FLOOR, 1))
+    _lines_of_equal_error(axes, SMALL_ERRORS, (FLOOR, 5))
     for method, (label, color, offset) in SOLVERS.items():
         curve = rough[rough["method"] == method]
         axes.plot("processor_s", "error", "o-", data=curve, color=color, markersize=3)
@@ -173,6 +173,6 @@ def _draw_others(axes, rough, other_solvers):
         place = ratio * own["processor_s"], own["error"]
         axes.plot(*place, "s", color=style.BLACK, markersize=4)
         line = {"arrowstyle": "-", "color": style.GREY, "linewidth": 0.5}
-        offset = (0, -10 * (len(ratios) - rank))
-        axes.annotate(name, place, offset, textcoords="offset points", arrowprops=line, va="top")
+        offset = (0, 8 * (len(ratios) - rank) - 3)
+        axes.annotate(name, place, offset, textcoords="offset points", arrowprops=line)
     axes.set_xlim(right=6 * max(ratios.values()) * own["processor_s"])

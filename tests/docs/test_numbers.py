@@ -313,9 +313,9 @@ QUOTED = {
         "and up to {:.1f} times on a smooth asperity": lambda: placed("best by hand", "one asperity").max(),
         "naive levels take at least {:.1f} times as long": lambda: (1 / placed("naive", "full curve")).min(),
         "It is off by {:.1f} to {:.0f} %": lambda: errors_of_means("law").agg(["min", "max"]),
-        "that of the MDR stays off by {:.0f} to {:.0f} %": lambda: errors_of_means("MDR, λ = π", "MDR, λ fitted").agg(
-            ["min", "max"]
-        ),
+        "the mean of the MDR stays off by {:.0f} to {:.0f} %": lambda: errors_of_means(
+            "MDR, λ = π", "MDR, λ fitted"
+        ).agg(["min", "max"]),
         "lines took {:.0f} % and discs {:.0f} %": lambda: (
             100 * costs()[["reduce_lines", "indent_surfaces"]] / costs().sum()
         ),

@@ -1,7 +1,7 @@
-"""The cheapest model that answers a question to a given error, among those whose error was measured.
+"""The cheapest model that answers a question to a given error, among all measured models.
 
 Errors and times are the largest over the Hurst exponents of the tables, so that a model suffices for all of them. The
-map of all points is no candidate by its agreement with itself: its error is the one that it states for its own grid.
+map of all points agrees with itself, so that it counts with the error that it states for its grid.
 """
 
 import pandas as pd
@@ -21,11 +21,11 @@ QUESTIONS = (
 COLUMNS = {
     "question": ("question", ""),
     "allowed": ("relative error allowed", "1"),
-    "model": ("cheapest model whose error is within it, or the most accurate one if there is none", ""),
+    "model": ("cheapest model within this error; if there is none, the most accurate model", ""),
     "setting": ("setting of the model", ""),
     "error": ("relative error, the largest over the Hurst exponents", "1"),
     "processor_s": ("processor time, the largest over the Hurst exponents", "s"),
-    "reached": ("1 if the error is within the one allowed, else 0", "1"),
+    "reached": ("1 if the error is within the allowed error, else 0", "1"),
     "hurst": ("Hurst exponents", ""),
 }
 

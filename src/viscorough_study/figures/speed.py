@@ -29,8 +29,7 @@ def plot_speed(one_surface, means, methods, other_solvers):
 
     one_surface, means, methods : tables of performance.one_surface, comparisons.mean_of_surfaces and
         performance.measurement
-    other_solvers : list of the published times of other solvers over those of the elastic path, as of
-        resources/published/other_solvers.csv
+    other_solvers : rows of resources/published/other_solvers.csv, with ratios of times
     """
     figure, ((left, right), (many, solver)) = style.new_subplots(122, 2, 2)
     velocity = one_surface[one_surface["quantity"] == "velocity"]

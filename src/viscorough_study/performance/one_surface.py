@@ -3,7 +3,7 @@
 The error is the deviation from the same surface on a finer grid, the map of all points. It is a root mean square of
 ln(v/v_full) over X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several surfaces; likewise for the contact area
 and for the creep compliance that a record of the depth gives. The error of the pressures is that of the solver on a
-given grid, since the pressures of a self-affine surface have no limit on finer grids.
+given grid: pressures of a self-affine surface have no limit on finer grids.
 """
 
 import logging
@@ -36,7 +36,7 @@ TOLERANCES = (1e-1, 1e-2, 1e-3)
 FULL_TOLERANCE = 1e-3  # of the curve of all points
 REQUESTS = (0.2, 0.1, 0.05)
 POINTS = tuple(2**n for n in (8, 11, 14, 17))
-# The contact whose pressures are compared: at this X, on every second point, with the one to the finest tolerance.
+# Pressures are compared at this X, on every second point, with the pressures to the finest tolerance.
 CONTACT_X, CONTACT_STEP, CONTACT_TOLERANCES, EXACT_TOLERANCE = 0.1, 2, (1e-1, 1e-2, 1e-3), 1e-8
 SHORT, REPEATS = 0.1, 2  # seconds below which a computation is repeated so many times
 # The creep test: a constant force, in units of h = L = 1, on a solid whose modulus relaxes by a factor of 100.

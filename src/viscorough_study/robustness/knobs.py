@@ -2,9 +2,9 @@
 
 - Explicit steps: their number, in equal ratios of time, on a rough disc; largest error of the depth against the
   integration from contact event to contact event.
-- Box: its width over that of the map. Fourier transforms convolve periodically: in a box less than twice as wide as the
-  map, distant elements act on each other over the shorter way, across the edge of the box. Error of the stiffness of a
-  disc whose elements all touch, against the same without periods.
+- Box: its width over the width of the map. Fourier transforms convolve periodically: in a box less than twice as wide
+  as the map, distant elements act on each other over the shorter way, across the edge of the box. Error of the
+  stiffness of a disc whose elements all touch, against the same without periods.
 - Power law: X^β/ζ as fitted in region (b), over X = Ft/(4ηhL); error against the geometric mean of vt/h of the discs.
 """
 
@@ -30,7 +30,7 @@ COMPARED = 6  # impulses at which depths are compared
 COLUMNS = {
     "knob": ("explicit steps, box, or power law", ""),
     "hurst": ("Hurst exponent of the surface; missing for a flat disc", "1"),
-    "value": ("number of steps, width of the box over that of the map, or X", "1"),
+    "value": ("number of steps, width of the box over the width of the map, or X", "1"),
     "error": ("largest relative error of depth, stiffness or velocity", "1"),
     "warned": ("1 if the user is warned, else 0", "1"),
 }

@@ -165,7 +165,10 @@ def run_tests(tests, folder, time_limit, *options):
 
 
 def outcome(mutant, clean, folder, texts, stages, time_limit):
-    """Return the outcome of one mutant as a dictionary for the file; stages : lists of tests, run until one of them fails."""
+    """Return the outcome of one mutant as a dictionary for the file.
+
+    stages : lists of tests, run until one of them fails
+    """
     for name in ("src", "workflow"):
         shutil.rmtree(folder / name, ignore_errors=True)
         shutil.copytree(clean / name, folder / name)

@@ -25,8 +25,9 @@ def first_decrease(times: Array, terms: Terms, limit: float = np.inf) -> float:
         rising, falling, size = terms(interval, start, left=False)
         rising_at_end, falling_at_end, size_at_end = terms(interval, end, left=True)
         begins = times[interval]
-        negative = rising + falling < -ROUNDING * size
-        negative_at_end = rising_at_end + falling_at_end < -ROUNDING * size_at_end
+        with np.errstate(invalid="ignore"):  # terms of both signs that are infinite decide nothing
+            negative = rising + falling < -ROUNDING * size
+            negative_at_end = rising_at_end + falling_at_end < -ROUNDING * size_at_end
         for which, offset in ((negative, start), (negative_at_end, end)):
             limit = min(limit, (begins + offset)[which].min(initial=np.inf))
         doubtful = ~negative & (rising + falling_at_end < -ROUNDING * np.minimum(size, size_at_end))
@@ -47,5 +48,6 @@ def rate_at_samples(times: Array, terms: Terms) -> Array:
     before = after[np.append(lengths, 0)[after + 1] == 0]  # intervals that end there
     for interval, shift in ((after, 0), (before, 1)):
         rising, falling, _ = terms(interval, shift * lengths[interval], left=bool(shift))
-        rate[interval + shift] = rising + falling
+        with np.errstate(invalid="ignore"):  # the rate of two infinite terms of both signs is not known
+            rate[interval + shift] = rising + falling
     return rate

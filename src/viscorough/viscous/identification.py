@@ -119,12 +119,12 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
 
     @property
     def measured(self) -> str:
-        """The measured quantity: "depth" or "force"."""
+        """Return the name of the measured quantity, "depth" or "force"."""
         return "depth" if self.relaxation_modulus is None else "force"
 
     @property
     def quality(self) -> str:
-        """Scatter and misfit in words, on one line."""
+        """Return scatter and misfit in words, on one line."""
         name, shown = self.measured, "J" if self.measured == "depth" else "ψ"
         unit = self.length_unit if name == "depth" else si_unit("N", self.length_unit)
         if np.isnan(self.scatter):
@@ -135,7 +135,7 @@ class IdentifiedMedium(ReadOnlyArrays, Saved):
 
     @property
     def zero_of_depth(self) -> str:
-        """Offset and drift of the depth in words, on one line."""
+        """Return offset and drift of the depth in words, on one line."""
         unit = self.length_unit
         rate = unit if unit == units.UNKNOWN else f"{unit} s-1"
         texts = []

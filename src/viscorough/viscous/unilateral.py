@@ -371,20 +371,42 @@ def _touch(row, law, state, t, u, force, count, by_depth):
 
 
 @njit(inner=True)
+def _carried(row, law, state, t, u, count):
+    """Force of the springs in contact from their deflections and internal variables, without a parallel dashpot."""
+    stiffness, moment = row.stiffness[count], row.moment[count]
+    force = law.relaxed * (stiffness * u - moment)
+    for b in range(law.rates.size):
+        variable = stiffness * state.common[b]
+        variable += state.total[count - 1, b] * np.exp(-law.rates[b] * (t - state.joined[count - 1]))
+        force += law.moduli[b] * variable
+    return force
+
+
+@njit(inner=True)
+def _balanced(row, law, state, t, u, force, count):
+    """Return u after a step at which the springs in contact carry the force; the common variables step with it.
+
+    A spring lets go with a force of zero to rounding only. Springs of much less stiffness would have to carry the rest.
+    In a fluid the force does not depend on u itself, and with a parallel dashpot u follows from the force.
+    """
+    if law.viscosity > 0 or law.relaxed == 0:
+        return u
+    step = (force - _carried(row, law, state, t, u, count)) / (row.stiffness[count] * (law.relaxed + law.moduli.sum()))
+    state.common[:] += step
+    return u + step
+
+
+@njit(inner=True)
 def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
     """Force and velocity at a time; `remainders` is set in place, but that of a parallel dashpot is kept.
 
     From u and F it would lose all digits when creep has nearly ended.
     """
-    stiffness, moment = row.stiffness[count], row.moment[count]
+    stiffness = row.stiffness[count]
     if by_depth:
         if count == 0:
             return 0.0, rate
-        force = law.relaxed * (stiffness * u - moment) + law.viscosity * stiffness * rate
-        for b in range(law.rates.size):
-            variable = stiffness * state.common[b]
-            variable += state.total[count - 1, b] * np.exp(-law.rates[b] * (t - state.joined[count - 1]))
-            force += law.moduli[b] * variable
+        force = _carried(row, law, state, t, u, count) + law.viscosity * stiffness * rate
         return max(force, 0.0), rate
     if law.viscosity == 0:
         _remainders_in_contact(row, law, state, t, u, force, count, remainders)
@@ -429,6 +451,8 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, of_release):
         state.common[:] += step
         u = target if by_depth and reaches else u + step
         force = target if reaches else force + row.stiffness[count] * modulus * step
+        if reaches and not by_depth:
+            u = _balanced(row, law, state, t, u, force, count)
         if reaches:
             return u, force, count, SETTLED
         if rises and count == row.gaps.size:
@@ -547,11 +571,15 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     ended = RESTLESS
                 elif release < touch:
                     count = _let_go(row, law, state, t, u, count)
+                    if count > 0 and not by_depth:
+                        u = _balanced(row, law, state, t, u, f, count)
                     if count > 0:
                         _remainders_in_contact(row, law, state, t, u, f, count, remainders)
                 elif count == springs:
                     ended = BEYOND
                 else:
+                    if not by_depth:
+                        u = _balanced(row, law, state, t, u, f, count)
                     kept = np.exp(-law.decays * (t - state.left[count]))
                     remainders += weights[count] * state.remainder[count] * kept
                     count = _touch(row, law, state, t, u, f, count, by_depth)

@@ -113,7 +113,8 @@ def other_runs(table):
         runs += with_seeds.values()
         seeds = f" and also with {len(with_seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)),"
     for claim, verdict in overall(table).items():
-        if others := {overall(run)[claim] for run in runs} - {verdict}:
+        # A run that was published before a claim was added has no verdict on it.
+        if others := {overall(run).get(claim, verdict) for run in runs} - {verdict}:
             differ.append(f"{claim} ({', '.join(sorted(others))})")
     opposed = [f"{claim}, {case}" for claim, case in opposed_cases([table, *runs])]
     return (

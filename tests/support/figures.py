@@ -9,6 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from support.study import SHOWN
 from support.workflow import RESULTS, ROOT
 from viscorough.calibrated_law import CONSTANTS, interface_velocity, penetration_law
+from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.fits.scaling_collapse import Grid, curve_table
@@ -98,6 +99,14 @@ def media_table():
     return table.assign(x=1e-2 * table["time"], depth=power, velocity=power, realizations=6)
 
 
+def histories_table():
+    """Return motions of two durations with few times, in which symbols lie 1 % above the lines."""
+    motions, time = (FORCE_CURVE, RECOVERY), np.linspace(-1.0, 10.0, 23)
+    table = combinations_of(motion=motions, hurst=HURST, duration=(0.1, 10.0), time=time)
+    table = table.assign(depth=2 + table["hurst"] - 0.1 * table["time"], force=table["duration"] + table["time"] ** 2)
+    return table.assign(direct=1.01 * table["depth"].where(table["motion"] == RECOVERY, table["force"]))
+
+
 def measured_kinetics():
     """Return a table of two scans of one group under two forces in two media."""
     scans, media, time = ("polished_1", "polished_2"), ("newtonian", "maxwell"), np.geomspace(1e-3, 1e3, 13)
@@ -125,6 +134,7 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "failure_map": (published("failure_map"),),
     "failures": (published("failure_map"), published("failure_knobs")),
     "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0)),
+    "histories": (histories_table(),),
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),
     "level_placement": (published("level_placement"),),
     "mdr_lambda": (published("mdr_lambda"), published("mdr_exponents")),

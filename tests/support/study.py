@@ -158,6 +158,7 @@ def mdr_tables(drift=1.0, ratio=1.0):
     gap = interval("gap_ratio", np.where(np.arange(9) % 2, np.nan, ratio), 0.01)
     every = pd.DataFrame({"hurst": HURST})
     return {
+        "histories": every.assign(deviation=-2e-5, deviation_coarse=8e-5),
         "mdr_summary": every.assign(**summary),
         "mdr_exponents": every.merge(pd.DataFrame(difference).assign(realizations=1000), how="cross"),
         "reduction": every.merge(pd.DataFrame({"x": x} | compared | gap), how="cross"),

@@ -23,6 +23,7 @@ from viscorough_study.ensembles.surface_files import read_surfaces
 LAST = {"tabulate_rule_costs", "make_page"}  # these rules run again after any change
 BOUNDARY_ELEMENTS = {"indent_surfaces", "compare_direct", "compare_reduction", "validate", "measure_methods"}
 BOUNDARY_ELEMENTS |= {"map_failures", "compare_level_placement", "measure_surfaces", "vary_settings"}
+BOUNDARY_ELEMENTS |= {"compare_histories"}
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +56,7 @@ FEW_STEPS = {"media": {"force": 2e-4}, "verdicts": {"draws": 3}, "interface": {"
 FEW_STEPS |= {"methods": {"levels": 3, "scenes": {"elements": 31}}, "validation": {"elements": [17, 31]}}
 FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
 OF_FEW_STEPS = {"compute_media", "measure_plateaus", "judge_claims", "fit_interface", "measure_methods", "validate"}
-OF_FEW_STEPS |= {"compare_level_placement", "map_failures", "vary_settings", "compare_direct"}
+OF_FEW_STEPS |= {"compare_level_placement", "map_failures", "vary_settings", "compare_direct", "compare_histories"}
 FITS = {"match_lines", "compare_zeta_laws", "judge_claims"}
 OF_CONVENTIONS = FITS | {
     "tabulate_calibration",

@@ -26,6 +26,7 @@ TABLE_PARAMS = {
     | {"hursts": config["discs"]["hurst"]}
     | SEED,
     "compare_direct": config["direct"] | {"hursts": config["discs"]["hurst"]} | SEED,
+    "compare_histories": chosen("direct", "elements") | {"hursts": config["discs"]["hurst"]} | SEED,
     "measure_plateaus": {
         "control": next(CONTROLS, None),
         "region": without("scaling", "stiffness_range", "resamples"),

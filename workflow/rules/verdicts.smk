@@ -19,7 +19,7 @@ rule check_validation:
 
 # Tables for judging the claims.
 EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "zeta_laws")
-EVIDENCE += ("methods", "sizes", "grid_dependence")
+EVIDENCE += ("methods", "sizes", "grid_dependence", "histories")
 
 
 rule judge_claims:

@@ -8,7 +8,7 @@ quantities that a line should reproduce are judged here as well: Lyashenko, Past
 import numpy as np
 
 from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, interval
-from viscorough_study.verdicts.evidence import hurst_name, judged
+from viscorough_study.verdicts.evidence import exact, hurst_name, judged
 
 EQUAL_WINDOWS = ("same X", "same κ")
 
@@ -62,6 +62,16 @@ def single_surface(evidence, tolerance):
         return tuple(np.exp(deviation_interval(row[column], row["realizations"] - 1)))
 
     return _at_centres(evidence, "stiffness_scatter", (-np.inf, 1 + tolerance), factor)
+
+
+def own_line(evidence, tolerance):
+    """Judge the deviation of the row of springs of a surface's own line from direct integration in time.
+
+    The deviation must fall to less than half with twice as many steps; the extremes are the deviations at both.
+    """
+    for hurst, rows in evidence.tables["histories"].groupby("hurst"):
+        fine, coarse = (rows[name].abs().max() for name in ("deviation", "deviation_coarse"))
+        yield exact(hurst_name(hurst), fine, 0.0, fine <= tolerance and fine < 0.5 * coarse, (fine, coarse))
 
 
 def _at_centres(evidence, column, allowed, values=interval):

@@ -51,7 +51,7 @@ def faults(caption, figure):
         "hatched": any(patch.get_hatch() for axes in figure.axes for patch in axes.patches),
         "rings": any(line.get_markersize() > 8 and line.get_markerfacecolor() == "none" for line in artists),
     }.items():
-        wrong += [f"nothing is {word}"] if word in text and not is_drawn else []
+        wrong += [f"nothing is {word}"] if re.search(rf"\b{word}\b", text) and not is_drawn else []
     return wrong
 
 

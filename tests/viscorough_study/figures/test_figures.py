@@ -10,6 +10,7 @@ from support.figures import X, dashed, drawn_points, plot, published, whole_on_p
 from support.study import SHOWN
 from viscorough import reference
 from viscorough.surfaces import self_affine_disc
+from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.figures.collapse import SHIFT
 from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
 from viscorough_study.figures.style import SMALL
@@ -78,6 +79,9 @@ def expected_points(scaling):
         for panel, (_, rows) in enumerate(table.groupby(key, sort=False)):
             yield figure, panel, points(rows, x, y)
     yield "media", 2, points(media, "x", "depth")
+    motions = dict(tuple(tables.histories_table().query("hurst == 0.9").groupby("motion")))
+    yield "histories", 0, points(motions[FORCE_CURVE], "depth", "force", "direct")
+    yield "histories", 1, points(motions[RECOVERY].query("time >= 0"), "time", "depth", "direct")
     base = curves[curves["case_group"] == "base"]
     yield "interface", 0, points(base, "x", "interface", "interface_low", "interface_high")
     yield "interface", 0, points(published("periodic"), "x", "g")

@@ -34,6 +34,18 @@ def test_equal_quantities_are_reproduced_and_different_ones_are_not(claim, windo
     assert verdicts(claim, 0.1, **mdr_tables(drift, ratio)) == ["not reproduced"] * windows * len(HURST)
 
 
+@pytest.mark.parametrize(
+    ("deviation", "coarse", "verdict"),
+    [(2e-5, 8e-5, "reproduced"), (2e-5, 3e-5, "not reproduced"), (2e-3, 8e-3, "not reproduced")],
+)
+def test_own_line_is_exact_if_its_deviation_is_small_and_falls_with_the_steps(deviation, coarse, verdict):
+    every = mdr_tables()["histories"]
+    first = every["hurst"] == HURST[0]
+    changed = {"deviation": every["deviation"].mask(first, -deviation)}
+    changed["deviation_coarse"] = every["deviation_coarse"].mask(first, coarse)
+    assert verdicts("own_line", 1e-3, histories=every.assign(**changed)) == [verdict, "reproduced", "reproduced"]
+
+
 def test_intervals_across_the_tolerance_are_undecided():
     assert set(verdicts("lambda_constant", 0.1, **mdr_tables(drift=1.1))) == {"undecided"}
     few = mdr_tables(ratio=1.2)["reduction"].assign(realizations=3)

@@ -1,0 +1,86 @@
+"""Compare motions of the row of springs with direct integration: loading, unloading and reloading.
+
+A row of independent springs has the same loading curve as the surface (docs/theory.md, Any history). With every spring
+replaced by a unilateral viscoelastic element, `viscorough.kinetics` gives force and depth for any history.
+`viscorough.march` integrates the same motion in time without the curve. It is of second order in the time step: if the
+motion of the springs is exact, half the step reduces the deviation to a quarter.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+import pandas as pd
+
+from viscorough.contact.loading_path import indent
+from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.integration.march import march
+from viscorough.viscous.kinetics import kinetics
+from viscorough.viscous.load import Load
+from viscorough.viscous.media import StandardLinearSolid
+from viscorough_study.run.seeds import gamma_factor_key, realization_seed
+
+FORCE_CURVE, RECOVERY = "force curve", "recovery"
+COLUMNS = {
+    "motion": (f"{FORCE_CURVE}: depth ramped up, down and up again; {RECOVERY}: constant force, then removed", ""),
+    "hurst": ("Hurst exponent H", "1"),
+    "duration": ("duration T of a ramp, or of the force, over the relaxation time τ", "1"),
+    "time": ("time t/τ since the start of the ramps, or since the removal of the force", "1"),
+    "depth": ("depth u/h by the row of springs", "1"),
+    "force": ("force F/(GhL) by the row of springs, with the relaxed shear modulus G", "1"),
+    "direct": ("force in a force curve, depth in a recovery, by direct integration", "1"),
+    "deviation": ("direct integration less row of springs, over the largest force or depth of the motion", "1"),
+    "deviation_coarse": ("the same with time steps twice as long", "1"),
+}
+MEDIUM = StandardLinearSolid(4.0, 1.0, 1.0)  # the shear modulus relaxes from 4 G to G, with τ = 1
+DURATIONS = 0.1, 1.0, 10.0  # fast, as fast as the medium relaxes, slow
+RAMPS = 0.0, 1.0, 0.0, 1.0  # depth at the ends of the ramps, over its largest value
+RECOVERY_TIME = 10.0  # longer than the retardation time of 4 τ
+STEPS = 60  # long time steps in every linear part of a history; short steps are half as long
+FRACTION = 0.05  # largest contact fraction: about 165 elements on a disc of 65 elements across
+LAST = 0.99  # share of the curve that the motions use
+TOLERANCE = 1e-6  # tolerance of the loading curve
+
+
+def compare_histories(*, hursts, elements, seed):
+    """Return motions by the row of springs and by direct integration, a pandas.DataFrame with `COLUMNS`.
+
+    Each Hurst exponent has one disc with two kinds of motion at three durations. In force curves the contact opens and
+    closes again. All recoveries of a disc start at the same depth.
+    hursts : Hurst exponents; elements : across all discs; seed : root of the discs' seeds
+    """
+    tables = []
+    for hurst in hursts:
+        disc = self_affine_disc(hurst, elements, seed=realization_seed(seed, *gamma_factor_key(hurst)))
+        curve = indent(disc, tolerance=TOLERANCE, until_fraction=FRACTION)
+        for duration in DURATIONS:
+            ramps = Load(duration * np.arange(len(RAMPS)), depth=LAST * curve.depth[-1] * np.array(RAMPS))
+            force = LAST * curve.force[-1] / MEDIUM.creep_compliance(duration)
+            removed = Load([-duration, 0, 0, RECOVERY_TIME], force=[force, force, 0, 0])
+            for motion, load in ((FORCE_CURVE, ramps), (RECOVERY, removed)):
+                compared = _compare(disc, curve, load)
+                tables.append(pd.DataFrame({"motion": motion, "hurst": hurst, "duration": duration} | compared))
+    return pd.concat(tables, ignore_index=True)[list(COLUMNS)]
+
+
+def _compare(disc, curve, load):
+    """Return {column: values} at the ends of the long steps. Heights of the disc have h = L = 1."""
+    fine, coarse = (_with_steps(load, number) for number in (2 * STEPS, STEPS))
+    quantity = "force" if load.by_depth else "depth"
+    springs = kinetics(curve, coarse, MEDIUM)
+    exact = getattr(springs, quantity)
+    direct = getattr(march(disc, fine, MEDIUM), quantity)[np.isin(fine.time, coarse.time)]
+    direct_coarse = getattr(march(disc, coarse, MEDIUM), quantity)
+    return {
+        "time": springs.time,
+        "depth": springs.depth,
+        "force": springs.force,
+        "direct": direct,
+        "deviation": (direct - exact) / exact.max(),
+        "deviation_coarse": (direct_coarse - exact) / exact.max(),
+    }
+
+
+def _with_steps(load, number):
+    """Return the load with this number of time steps in each of its linear parts."""
+    parts = [np.linspace(start, end, number + 1) for start, end in pairwise(load.time)]
+    return load.with_times(np.unique(np.concatenate(parts)))[0]

@@ -1,0 +1,34 @@
+"""Plot the force over depth for loading, unloading and reloading, and the recovery after a force is removed."""
+
+from viscorough_study.figures import style
+
+FORCE_CURVE, RECOVERY = "force curve", "recovery"  # as in the table
+SYMBOLS = 25  # number of symbols of a motion
+
+
+@style.figure
+def plot_histories(table):
+    """Plot motions of one disc: lines by the row of springs, symbols by direct integration.
+
+    table : table of viscorough_study.comparisons.histories. The figure shows the Hurst exponent in the middle.
+    """
+    exponents = sorted(table["hurst"].unique())
+    hurst = exponents[len(exponents) // 2]
+    shown = table[(table["hurst"] == hurst) & ((table["motion"] == FORCE_CURVE) | (table["time"] >= 0))]
+    looks = style.series_looks(shown["duration"])
+    figure, (curves, recoveries) = style.new_subplots(75, 1, 2)
+    for axes, motion, x, y in ((curves, FORCE_CURVE, "depth", "force"), (recoveries, RECOVERY, "time", "depth")):
+        for duration, rows in shown[shown["motion"] == motion].groupby("duration"):
+            color, marker = looks[duration]["color"], looks[duration]["marker"]
+            axes.plot(rows[x], rows[y], color=color)
+            marked = rows.iloc[:: max(1, len(rows) // SYMBOLS)]
+            axes.plot(marked[x], marked["direct"], marker, color=color, markersize=3.5, markerfacecolor="none")
+    curves.set(title="(a) loading, unloading, reloading", xlabel="depth $u/h$", ylabel="force $F/(GhL)$")
+    recoveries.set(title="(b) after the force is removed", xlabel="time $t/τ$", ylabel="depth $u/h$")
+    hollow = {"markersize": 3.5, "markerfacecolor": "none"}
+    handles = [style.handle(f"$T/τ = {duration:g}$", **look, **hollow) for duration, look in looks.items()]
+    handles += [style.handle("row of springs", color=style.GREY)]
+    handles += [style.handle("direct integration", color=style.GREY, marker="o", linestyle="", **hollow)]
+    title = f"one disc, $H = {hurst:g}$"
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)
+    return figure

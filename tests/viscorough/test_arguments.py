@@ -171,7 +171,8 @@ CALLS = {
         call(
             viscorough.IdentifiedMedium,
             {"time": [0.0, 1.0], "compliance": [0.5, 1.0], "low": [0.5, 0.5], "high": [1.0, 1.0], "scatter": 0.5}
-            | {"misfit": 0.25},
+            | {"relaxation_modulus": [2.0, 1.0], "misfit": 0.25, "offset": 0.5, "offset_interval": [0.25, 0.75]}
+            | {"drift": 0.5, "drift_interval": [0.25, 0.75], "assumed_offset": 0.5, "offset_effect": 0.125},
             medium=SOLID,
         )
     ],

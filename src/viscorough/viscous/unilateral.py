@@ -42,6 +42,10 @@ _ROUNDING = 1e-14
 _CLOSE = 0.2
 # Events within this share of an interval belong to the sample at its start.
 _AT_ONCE = 1e-11
+# The force of a spring is a sum of exponentials from the start of an interval. Branches that have relaxed since then
+# were large, and their rounding errors remain. If a release lies more relaxation times of the fastest branch ahead than
+# the first number, the row first moves by this share of the time, from where the sum is taken again.
+_FORGOTTEN, _APPROACH = 5.0, 0.999
 # Halvings of an interval in search of an event, and Newton steps: enough to reach the rounding of a number.
 _HALVINGS, _NEWTON_STEPS = 64, 60
 # Below this x the functions of exp(−x) are computed by series with this many terms.
@@ -426,6 +430,12 @@ def _gap_of_next(row, law, state, t, count):
 def _jump(row, law, state, t, u, force, count, target, by_depth, of_release):
     """Step of the load to `target` at a time; returns u, F, the number of springs in contact, and how it ended."""
     if law.viscosity > 0 and not by_depth:
+        # The surface stays, and springs that would be pulled let go.
+        while count > 1:
+            value, _, rounding = _release(row, law, state, t, u, target, 0.0, count, by_depth, of_release)
+            if value <= rounding:
+                break
+            count = _let_go(row, law, state, t, u, count)
         return u, target, count, SETTLED
     if law.viscosity > 0:
         # The surface stays: all springs let go at once, or none is touched.
@@ -527,6 +537,7 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
     )  # fmt: skip
     depth, force, velocity = np.full(samples, np.nan), np.full(samples, np.nan), np.full(samples, np.nan)
     in_contact, deflection, largest = np.zeros(samples, np.int64), np.zeros(samples), np.ones(samples, np.bool_)
+    fastest = law.rates.max() if branches else 0.0
     of_release, none = np.zeros(branches), np.zeros(branches)
     of_touch, drive, remainders = np.zeros(elements), np.zeros(elements), np.zeros(elements)
     t, u, f, rate, count, ended, until = 0.0, 0.0, 0.0, 0.0, 0, SETTLED, times[-1]
@@ -539,6 +550,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
         if length == 0:
             remainders += load[k] - f
             u, f, count, ended = _jump(row, law, state, t, u, f, count, load[k], by_depth, of_release)
+            if law.viscosity > 0 and not by_depth:
+                _remainders_in_contact(row, law, state, t, u, f, count, remainders)
         else:
             rate, f = (load[k] - before) / length, before
             started, events, at = False, 0, t
@@ -555,6 +568,9 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 event = min(touch, release)
                 arrives = event > times[k] - t
                 s = times[k] - t if arrives else event
+                approaches = release < touch and not arrives and s * fastest > _FORGOTTEN and t + _APPROACH * s > t
+                if approaches:
+                    s *= _APPROACH
                 if k and not started and t + s - last > _AT_ONCE * length:
                     started = True
                     force[k - 1], velocity[k - 1], in_contact[k - 1] = now, speed, count
@@ -565,6 +581,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 f = before + rate * (t - last) if abs(before) < abs(load[k]) else load[k] - rate * (times[k] - t)
                 if arrives:
                     break
+                if approaches:
+                    continue
                 events = events + 1 if t == at else 1
                 at = t
                 if events > _MOST_AT_ONCE * springs + 8:

@@ -85,7 +85,7 @@ MISTAKES = [
     (f"{KINETICS} --force 1 --viscosity 1 -o curve.nc", "would replace the curve"),
     (f"{KINETICS} --force 1 --medium table.yaml -o table.csv", "would replace the table of the medium"),
     (f"{CONTACT_UM} --force 1 --young 1e-320", "too small"),
-    ("creep curve.nc record.csv -o m.yaml", "one of --force and --force-history is needed"),
+    ("creep curve.nc record.csv -o m.yaml", "one of --force, --force-history and --depth-history is needed"),
     (f"{CREEP} record.yaml", "record.csv: would replace the record"),
     (f"{ESTIMATE} --rms '1 um' --force 1 --viscosity 1", "one has a unit; both or none is allowed"),
     (f"{ESTIMATE} --rms 1 --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),

@@ -281,6 +281,7 @@ CALLS = {
 OPTIONAL = {
     *("progress", "options", "precision", "padding", "length_unit", "corners", "amplitudes", "rms_over", "dtype"),
     *("detrend", "fill", "flip", "kind", "scheme", "medium", "method", "load", "estimate_grid_error"),
+    *("fit_offset", "fit_drift"),
 }
 # Public names without numbers among their arguments, and functions of files (test_heights.py covers their numbers).
 WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "Medium", "reference", "read_medium"}
@@ -423,6 +424,8 @@ def is_allowed(each, name, wrong):
         return name == "seed"
     # Allowed nan: points outside a map, unknown values, marks of missing points, and forces beyond a curve.
     may_be_nan = {"nodata", "heights", "pressure", "gap", "compliance", "low", "high", "time", "scatter", "misfit"}
+    may_be_nan |= {"relaxation_modulus", "offset", "offset_interval", "drift", "drift_interval"}
+    may_be_nan |= {"assumed_offset", "offset_effect"}
     if each.function in (*FORMULAS, viscorough.Motion):
         # A formula of nan is nan. A motion has nan where the curve is undetermined, and springpots have infinite
         # velocities.

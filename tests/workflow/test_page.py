@@ -115,7 +115,7 @@ def test_tooltip_of_every_number_names_a_rule_and_a_source_file(page):
 
 
 def test_answer_states_no_numbers_outside_the_tables(page, tables):
-    """Other numbers are equation numbers, the factor in the findings, and numbers of cases; settings are table texts."""
+    """Other numbers are equation numbers, a factor in the findings, and numbers of cases. Settings are in a table."""
     assert sum(section == "answer" for section, *_ in page.numbers) > 20
     text = re.sub(r"Eqs?\. \d+(, \d+)*( and \d+)?|To 1 % error|1/Γ\(2 − α\)", "", page.texts["answer"])
     text = re.sub(r"\(\d+ of \d+ cases(, \d+ undecided)?\)", "", text)

@@ -32,8 +32,10 @@ from viscorough.viscous.record_fit import (
     ROUNDING,
     RecordFit,
     Shift,
+    damped_step,
     distance_of,
     finer_times,
+    limit_early_times,
     no_prony_series,
     scatter_of,
     spread_times,
@@ -62,7 +64,7 @@ def fit_growing_depth(
     """
     lags = load.time[place] - load.time[0]
     record = _Record(curve, depth, shift.columns(lags))
-    spectrum = Spectrum(record, load, place, lags[lags > 0])
+    spectrum = _Spectrum(record, load, place, lags[lags > 0])
     freedom = np.inf
     if scatter is None:
         residual = record.residual(spectrum.creep)
@@ -80,9 +82,7 @@ def fit_growing_depth(
     low = high = np.full(time.size + fitted, np.nan)
     if not np.isnan(scatter):
         low, high = record.intervals(coefficients, responses, bend, values, distance_of(scatter, freedom))
-        # Before the first row that shows J, all that is known is that J does not decrease.
-        before = np.flatnonzero(time < (0.0 if lags[0] == 0 < load.values[0] else lags[lags > 0][0]))
-        low[before], high[before] = 0.0, high[before.size]
+        limit_early_times(low, high, time, first_lag(load, lags))
     if kind == "prony":
         medium: CreepTable | Prony | Springpot = spectrum.prony(load.values[place].max())
     elif kind == "springpot":
@@ -113,6 +113,11 @@ def _spectral_responses(load: Load, place: Integers, times: Array) -> Array:
     """Return the creep responses of J = 1, t and 1 − exp(−t/θ_j), shape (rows, 2 + times)."""
     delayed, _ = branch_states(np.diff(load.time), load.values, times)
     return np.column_stack([load.values[place], load.integral[place], delayed[place]])
+
+
+def first_lag(load: Load, lags: Array) -> float:
+    """Return the time after the start of the load of the first row that shows J."""
+    return 0.0 if lags[0] == 0 < load.values[0] else float(lags[lags > 0][0])
 
 
 def knots_of(load: Load, lags: Array) -> Array:
@@ -151,24 +156,26 @@ class _Record:
         # At first the elastic curve is replaced by its tangents at the measured depth, without offset and drift.
         amounts, _ = non_negative(responses / self.stiffness[:, None], (self.creep - bend) / self.stiffness)
         shift = np.zeros(self.signed.shape[1])
-        elastic_depth, stiffness = self._elastic(responses @ amounts + bend)
-        residual = self.depth - elastic_depth
+        count = amounts.size
+
+        def evaluate(unknowns: Array) -> tuple[float, tuple[Array, Array, Array]]:
+            elastic_depth, stiffness = self._elastic(responses @ unknowns[:count] + bend)
+            residual = self.depth - elastic_depth - self.signed @ unknowns[count:]
+            return float(residual @ residual), (elastic_depth, stiffness, residual)
+
+        unknowns = np.append(amounts, shift)
+        squares, (elastic_depth, stiffness, residual) = evaluate(unknowns)
         for _ in range(_ITERATIONS_OF_SHIFT if shift.size else _ITERATIONS):
-            target = responses @ amounts / stiffness + self.depth - elastic_depth
-            new, new_shift = non_negative(responses / stiffness[:, None], target, self.signed)
-            for _ in range(_HALVINGS):
-                elastic_depth, stiffness = self._elastic(responses @ new + bend)
-                rest = self.depth - elastic_depth - self.signed @ new_shift
-                if rest @ rest <= residual @ residual:
-                    break
-                new, new_shift = 0.5 * (new + amounts), 0.5 * (new_shift + shift)
-            else:
+            target = responses @ unknowns[:count] / stiffness + self.depth - elastic_depth
+            aim = np.concatenate(non_negative(responses / stiffness[:, None], target, self.signed))
+            step = damped_step(evaluate, unknowns, aim, squares, _HALVINGS)
+            if step is None:
                 break
-            change = np.abs(rest - residual).max()
-            amounts, shift, residual = new, new_shift, rest
-            if change <= _CLOSE * np.abs(self.depth).max():
+            last = residual
+            unknowns, squares, (elastic_depth, stiffness, residual) = step
+            if np.abs(residual - last).max() <= _CLOSE * np.abs(self.depth).max():
                 break
-        return amounts, shift
+        return unknowns[:count], unknowns[count:]
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
         """Return depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
@@ -208,7 +215,7 @@ class _Record:
         return self.depth - self._elastic(creep)[0] - self.signed @ self.shift(creep)
 
 
-class Spectrum:
+class _Spectrum:
     """The medium of springs and dashpots that fits a record best; its amounts are J₀, φ and J_j of the times θ_j."""
 
     def __init__(self, record: _Record, load: Load, place: Integers, lags: Array) -> None:
@@ -219,7 +226,7 @@ class Spectrum:
 
     def _fit(self, record: _Record, load: Load, place: Integers, times: Array) -> None:
         responses = _spectral_responses(load, place, times)
-        self.times, (self.amounts, self.shift) = times, record.fit(responses)
+        self.times, (self.amounts, _) = times, record.fit(responses)
         self.creep = responses @ self.amounts
 
     def compliance(self, time: Array) -> Array:

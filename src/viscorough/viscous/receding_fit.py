@@ -12,7 +12,7 @@ from viscorough import units
 from viscorough.argument_names import argument
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
-from viscorough.viscous.creep_fit import knots_of, prony_series, spectrum_of_growth
+from viscorough.viscous.creep_fit import first_lag, knots_of, prony_series, spectrum_of_growth
 from viscorough.viscous.kinetics import kinetics
 from viscorough.viscous.load import Load
 from viscorough.viscous.media import CreepTable, Prony, Springpot
@@ -23,8 +23,10 @@ from viscorough.viscous.record_fit import (
     ROUNDING,
     RecordFit,
     Shift,
+    damped_step,
     distance_of,
     finer_times,
+    limit_early_times,
     no_prony_series,
     scatter_of,
     spread_times,
@@ -81,8 +83,7 @@ def fit_receding_depth(
     if not np.isnan(scatter):
         target = depth - predicted + columns @ amounts
         low, high = extremes(columns, target, values, distance_of(np.hypot(scatter, resolution), freedom), signed)
-        before = np.flatnonzero(time < (0.0 if lags[0] == 0 < load.values[0] else lags[lags > 0][0]))
-        low[before], high[before] = 0.0, high[before.size]
+        limit_early_times(low, high, time, first_lag(load, lags))
     compliance = values @ amounts
     medium: CreepTable | Prony | Springpot = CreepTable(time, compliance)
     if kind == "prony":
@@ -124,25 +125,28 @@ class _RecedingRecord:
                 "record: in the medium that the rows before the decrease of the force show, the contact grows beyond "
                 f"the curve's last level; allowed: curves of larger contacts, with {argument('until_fraction', 1)}"
             )
-        for _ in range(_ITERATIONS):
-            columns = self._derivatives(amounts, predicted)
-            target = self.depth - predicted + columns @ amounts
-            step, new_shift = non_negative(columns, target, self.signed)
-            squares = self._squares(predicted, shift)
-            for _ in range(_HALVINGS):
-                new = self._predicted(step)
-                if not np.isnan(new).any() and self._squares(new, new_shift) <= squares:
-                    break
-                step, new_shift = 0.5 * (step + amounts), 0.5 * (new_shift + shift)
-            else:
-                break
-            amounts, shift, predicted = step, new_shift, new
-            if self._squares(predicted, shift) > (1 - _STALLED) * squares:
-                break
-        return amounts, shift, predicted, self._derivatives(amounts, predicted)
+        count = amounts.size
 
-    def _squares(self, predicted: Array, shift: Array) -> float:
-        return float(((self.depth - predicted - self.signed @ shift) ** 2).sum())
+        def evaluate(unknowns: Array) -> tuple[float, Array]:
+            """The sum of squares is nan, which fits worse than any number, where the contact leaves the curve."""
+            predicted = self._predicted(unknowns[:count])
+            return float(((self.depth - predicted - self.signed @ unknowns[count:]) ** 2).sum()), predicted
+
+        unknowns = np.append(amounts, shift)
+        squares, predicted = evaluate(unknowns)
+        columns = self._derivatives(amounts, predicted)
+        for _ in range(_ITERATIONS):
+            target = self.depth - predicted + columns @ unknowns[:count]
+            aim = np.concatenate(non_negative(columns, target, self.signed))
+            step = damped_step(evaluate, unknowns, aim, squares, _HALVINGS)
+            if step is None:
+                break
+            last = squares
+            unknowns, squares, predicted = step
+            columns = self._derivatives(unknowns[:count], predicted)
+            if squares > (1 - _STALLED) * last:
+                break
+        return unknowns[:count], unknowns[count:], predicted, columns
 
     def _predicted(self, amounts: Array) -> Array:
         """Return the depth at the rows; nan where the contact grows beyond the curve."""

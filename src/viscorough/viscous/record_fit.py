@@ -7,7 +7,8 @@ The measured depth may have a wrong zero and may drift. It is then the depth plu
 with t₀ the start of the load. Both are unknowns of any sign in a least-squares fit.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.special import fdtri
@@ -100,6 +101,30 @@ def distance_of(scatter: float, freedom: float, unknowns: int = 1) -> float:
     unknowns : number of unknowns whose joint region gives the interval
     """
     return scatter * np.sqrt(unknowns * fdtri(unknowns, min(freedom, _MANY), _LEVEL))
+
+
+def damped_step(
+    evaluate: Callable[[Array], tuple[float, Any]], last: Array, aim: Array, squares: float, halvings: int
+) -> tuple[Array, float, Any] | None:
+    """Return the first unknowns on the way back from `aim` to `last` that fit as well as `last`; None if none does.
+
+    evaluate : function of the unknowns that returns the sum of squared residuals and a state. Both are returned with
+        the unknowns.
+    squares : sum of squared residuals at `last`
+    halvings : largest number of unknowns that are tried
+    """
+    for _ in range(halvings):
+        new, state = evaluate(aim)
+        if new <= squares:
+            return aim, new, state
+        aim = 0.5 * (aim + last)
+    return None
+
+
+def limit_early_times(low: Array, high: Array, time: Array, first: float) -> None:
+    """Change intervals of J before the time `first`, in place: there the record shows only that J does not decrease."""
+    before = np.flatnonzero(time < first)
+    low[before], high[before] = 0.0, high[before.size]
 
 
 def spread_times(first: float, last: float) -> Array:

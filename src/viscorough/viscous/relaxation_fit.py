@@ -36,6 +36,7 @@ from viscorough.viscous.record_fit import (
     RESOLUTION,
     RecordFit,
     Shift,
+    damped_step,
     distance_of,
     finer_times,
     scatter_of,
@@ -242,19 +243,21 @@ class _ForceRecord:
         if self.grows and not drift.size:
             return _Fit(times, amounts, offset, drift, columns @ amounts, columns, np.empty((self.force.size, 0)))
         fit = self._linearised(times, amounts, offset, drift)
+        count = amounts.size
+
+        def evaluate(unknowns: Array) -> tuple[float, _Fit]:
+            new = self._linearised(times, unknowns[:count], offset, unknowns[count:])
+            return self.squares(new), new
+
         for _ in range(_ITERATIONS):
             target = self.force - fit.force + fit.columns @ fit.amounts + fit.signed @ fit.drift
-            amounts, drift = non_negative(fit.columns, target, fit.signed)
-            new = self._linearised(times, amounts, offset, drift)
-            for _ in range(_HALVINGS):
-                if self.squares(new) <= self.squares(fit):
-                    break
-                amounts, drift = 0.5 * (amounts + fit.amounts), 0.5 * (drift + fit.drift)
-                new = self._linearised(times, amounts, offset, drift)
-            else:
+            aim = np.concatenate(non_negative(fit.columns, target, fit.signed))
+            last = np.append(fit.amounts, fit.drift)
+            step = damped_step(evaluate, last, aim, self.squares(fit), _HALVINGS)
+            if step is None:
                 return fit
-            stalled = self.squares(new) > (1 - _STALLED) * self.squares(fit)
-            fit = new
+            stalled = step[1] > (1 - _STALLED) * self.squares(fit)
+            *_, fit = step
             if stalled or self.squares(fit) < self.force.size * (_EXACT * np.abs(self.force).max()) ** 2:
                 break
         return fit

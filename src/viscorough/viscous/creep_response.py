@@ -91,7 +91,8 @@ def by_sums(medium: Medium, load: Load) -> tuple[Array, Terms]:
         falling, rising = sums(interval, offset, partial(medium.creep_rate, left=left), medium.creep_increment)
         present = slopes[interval] * medium.creep_compliance(offset)
         size = falling - rising + abs(present)
-        return rising + np.maximum(present, 0), falling + np.minimum(present, 0), size
+        with np.errstate(invalid="ignore"):  # the rate of a springpot at a step is infinite
+            return rising + np.maximum(present, 0), falling + np.minimum(present, 0), size
 
     sample, offset = np.arange(load.time.size), np.zeros(load.time.size)
     return np.add(*sums(sample, offset, medium.creep_compliance, medium.creep_integral)), terms

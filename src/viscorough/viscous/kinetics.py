@@ -37,7 +37,7 @@ from viscorough.viscous.medium import Medium
 from viscorough.viscous.motion import Motion
 from viscorough.viscous.spectra import power_law_spectrum, relaxation_spectrum, zero_of_increasing
 from viscorough.viscous.springs import ROUNDING, RowOfSprings, row_of_springs
-from viscorough.viscous.unilateral import BEYOND, INFINITE, RowMotion, law_of, move_row
+from viscorough.viscous.unilateral import BEYOND, INFINITE, RESTLESS, RowMotion, law_of, move_row
 from viscorough.viscous.unilateral_sums import move_row_by_sums
 
 _LATEST = 1e300  # later than the end of any creep that ends
@@ -158,6 +158,8 @@ def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) 
         law = law_of(*spectra)
         row_and_law = row.gap, row.stiffness, row.limit, law
         moved, ended, until = move_row(*row_and_law, load.time, load.values, by_depth=load.by_depth)
+    if ended == RESTLESS and np.isfinite(moved.depth[~np.isnan(moved.depth)]).all():
+        raise ConvergenceError(f"kinetics: the contact does not settle at time {until:g}; other samples may help")
     if ended not in (BEYOND, INFINITE):
         _check_overflow(load, moved.depth[last] + moved.force[last])
     if np.isnan(moved.depth[last]):
@@ -321,8 +323,6 @@ def _refuse(curve: LoadingCurve, row: RowOfSprings, medium: Medium, load: Load, 
             f"{_load_name('depth')}: steps into the surface at time {until:g}, which takes an infinite force here; "
             "allowed: ramps"
         )
-    if ended != BEYOND:
-        raise ConvergenceError(f"kinetics: the contact does not settle at time {until:g}")
     if not load.by_depth:
         _check_creep(curve, row, load.time, creep_response(medium, load).creep)
     raise ValueError(

@@ -26,6 +26,24 @@ def test_slurm_profile_gives_timed_jobs_a_node(tmp_path, finished_once):
     assert plan(folder, *TEST, "--profile", "local", "--", "all") == jobs((finished_once / "run.log").read_text())
 
 
+def test_rules_scripts_logs_and_benchmarks_share_their_names():
+    """Rules of loops, for figures and for further tables, have common scripts."""
+    found = {}
+    for path in sorted((ROOT / "workflow/rules").glob("*.smk")):
+        parts = re.split(r"^(?:rule|use rule (\w+) as) (\w+)", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        for base, name, text in zip(parts[1::3], parts[2::3], parts[3::3], strict=True):
+            script = re.search(r'"\.\./scripts/(\w+)\.py"', text)
+            if script or base:
+                found[name] = script and script[1]
+                assert script is None or script[1] == name
+                assert f'"results/logs/{name}' in text, name
+                assert f'"results/benchmarks/{name}' in text, name
+    scripts = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "workflow/scripts").glob("*.py")}
+    assert set(filter(None, found.values())) == set(scripts) - {"plot", "tabulate"}
+    assert max(text.count("\n") for text in scripts.values()) <= 40
+    assert {name for name, rule in RESULTS["tables"].items() if "function" not in rule} <= set(scripts)
+
+
 def test_lock_files_agree_with_each_other():
     """All are installed into one environment, so no package may be in two files. No file may hold an address."""
     texts = {path.name: path.read_text() for path in ROOT.glob("requirements*.lock")}

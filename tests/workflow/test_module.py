@@ -101,7 +101,7 @@ def test_study_comes_from_the_checkout_of_the_workflow(tmp_path):
     (tmp_path / "site").mkdir()
     (tmp_path / "site/viscorough").symlink_to(ROOT / "src/viscorough")
     (tmp_path / "Snakefile").write_text(
-        f'include: "{ROOT}/workflow/rules/common.smk"\nimport viscorough\n'
+        f'include: "{ROOT}/workflow/rules/start.smk"\ninclude: "{ROOT}/workflow/rules/common.smk"\nimport viscorough\n'
         'print(os.environ["PYTHONPATH"], viscorough.__file__, cases.__file__, sep="\\n")\n'
         "rule all:\n    shell: 'true'\n"
     )

@@ -57,7 +57,7 @@ FEW_STEPS |= {"methods": {"levels": 3, "scenes": {"elements": 31}}, "validation"
 FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
 OF_FEW_STEPS = {"compute_media", "measure_plateaus", "judge_claims", "fit_interface", "measure_methods", "validate"}
 OF_FEW_STEPS |= {"compare_level_placement", "map_failures", "vary_settings", "compare_direct", "compare_histories"}
-FITS = {"match_lines", "compare_zeta_laws", "judge_claims"}
+FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
 OF_CONVENTIONS = FITS | {
     "tabulate_calibration",
     "tabulate_literature",
@@ -72,7 +72,7 @@ OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_
     ("changed", "directly"),
     [
         (FEW_STEPS, OF_FEW_STEPS),
-        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_scaling", "fit_sizes", "measure_plateaus"}),
+        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_sizes", "measure_plateaus"}),
         ({"figures": {"average": "arithmetic"}}, OF_CONVENTIONS),
         ({"ensemble": {"per_decade": 25}}, {"aggregate_curves"}),
         ({"surface": {"period": 1.5}}, {"generate_discs", "generate_examples"}),

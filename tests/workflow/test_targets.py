@@ -15,7 +15,7 @@ def test_every_scale_has_a_plan(unmade, name, indent_surfaces, reduce_lines):
     assert planned.pop("generate_discs") == indent_surfaces
     assert planned.pop("aggregate_curves") == 4
     assert set(planned.values()) == {1}
-    assert {"check_validation", "fit_scaling", "judge_claims", "make_page"} < set(planned)
+    assert {"check_validation", "fit_power_laws", "judge_claims", "make_page"} < set(planned)
     assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (110 if name == "config" else 300)
 
 

@@ -6,10 +6,10 @@ FIGURE_PARAMS = {
     "conventions": config["figures"],
     "fraction_min": config["scaling"]["fraction_min"],
     "hurst_range": paper("laws")["beta"]["hurst_range"],
-    "other_solvers": read_records("resources/published/other_solvers.csv"),
+    "other_solvers": read_records(PROJECT / "resources/published/other_solvers.csv"),
 }
 
-for name, figure in FIGURES.items():
+for name, figure in REGISTRY.figures.items():
 
     rule:
         name:
@@ -24,12 +24,18 @@ for name, figure in FIGURES.items():
                 labels={"result": figure["label"], "kind": "figure"},
             ),
             pdf=f"results/figures/{figure['file']}.pdf",
+        log:
+            f"results/logs/plot_{name}.log",
+        benchmark:
+            f"results/benchmarks/plot_{name}.tsv"
         localrule: True
+        conda:
+            "../envs/viscorough.yaml"
         resources:
             mem_mb=1000,
         params:
             **{param: FIGURE_PARAMS[param] for param in figure["params"]},
-            functions=figure_functions(figure),
+            functions=REGISTRY.figure_functions(name),
         message:
             f"Figure: {figure['label']}"
         script:

@@ -8,7 +8,13 @@ rule indent_surfaces:
         surfaces="results/surfaces/{kind}/{case}/{batch}.nc",
     output:
         curves="results/curves/{kind}/{case}/{batch}.nc",
+    log:
+        "results/logs/indent_surfaces/{kind}/{case}/{batch}.log",
+    benchmark:
+        "results/benchmarks/indent_surfaces/{kind}/{case}/{batch}.tsv"
     priority: 1  # frees the disk of surfaces
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=indentation_memory,
     params:
@@ -23,6 +29,12 @@ rule indent_surfaces:
 rule reduce_lines:
     output:
         curves="results/curves/lines/{line}/{batch}.nc",
+    log:
+        "results/logs/reduce_lines/{line}/{batch}.log",
+    benchmark:
+        "results/benchmarks/reduce_lines/{line}/{batch}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=lambda wildcards: cases.line_memory(LINES[wildcards.line]),
     params:

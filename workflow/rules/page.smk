@@ -3,7 +3,7 @@
 # Figures on the page, with their captions in the report.
 PAGE_FIGURES = {
     figure["file"]: figure["alternative"]
-    for figure in FIGURES.values()
+    for figure in REGISTRY.figures.values()
     if "alternative" in figure and (MEASURED or figure["target"] != "measured")
 }
 PAGE_TEXTS = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
@@ -35,7 +35,13 @@ rule make_page:
             category=chapter("summary"),
             labels={"result": "questions and answers", "kind": "page"},
         ),
+    log:
+        "results/logs/make_page.log",
+    benchmark:
+        "results/benchmarks/make_page.tsv"
     localrule: True
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=1000,
     params:
@@ -71,7 +77,13 @@ rule make_article:
         figures=expand("results/figures/{file}.pdf", file=ARTICLE_FIGURES),
     output:
         pdf="results/article.pdf",
+    log:
+        "results/logs/make_article.log",
+    benchmark:
+        "results/benchmarks/make_article.tsv"
     localrule: True
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=1000,
     params:

@@ -14,7 +14,13 @@ rule tabulate_rule_costs:
     output:
         csv="results/tables/rule_costs.csv",
         nc="results/tables/rule_costs.nc",
+    log:
+        "results/logs/tabulate_rule_costs.log",
+    benchmark:
+        "results/benchmarks/tabulate_rule_costs.tsv"
     localrule: True
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=500,
     params:

@@ -6,6 +6,12 @@
 rule generate_discs:
     output:
         surfaces=temp("results/surfaces/discs/{case}/{batch}.nc"),
+    log:
+        "results/logs/generate_discs/{case}/{batch}.log",
+    benchmark:
+        "results/benchmarks/generate_discs/{case}/{batch}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=lambda wildcards: cases.generation_memory(DISCS[wildcards.case]["ensembles"]),
     params:
@@ -20,6 +26,12 @@ rule generate_discs:
 use rule generate_discs as generate_examples with:
     output:
         surfaces="results/surfaces/examples.nc",
+    log:
+        "results/logs/generate_examples.log",
+    benchmark:
+        "results/benchmarks/generate_examples.tsv"
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=cases.generation_memory(cases.example_discs(config)),
     params:
@@ -34,6 +46,12 @@ rule prepare_measured:
         heights=ancient(scan_value("file")),  # the digest of its content counts
     output:
         surfaces=temp("results/surfaces/measured/{scan}/0000-0000.nc"),
+    log:
+        "results/logs/prepare_measured/{scan}.log",
+    benchmark:
+        "results/benchmarks/prepare_measured/{scan}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=lambda wildcards: cases.measured_memory(MEASURED[wildcards.scan]),
     params:

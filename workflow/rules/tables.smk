@@ -1,9 +1,10 @@
-# The tables of workflow/results.yaml that functions make: one rule for each function, and one script.
+# The tables of workflow/results.yaml that functions make: one rule for each function, and one script, for the many tables
+# beside the main chain.
 
 # {name of an input: files}
 TABLE_INPUTS = {
-    "curves_of_combinations": curves_of_combinations(),
-    "measured_curves": curves_of_pool("measured"),
+    "curves_of_combinations": cases.combination_curves(DISCS),
+    "measured_curves": cases.pool_curves(CASES, "measured"),
 }
 SEED = {"seed": config["seed"]}
 BETA_HURST_MIN = paper("numbers")["agreement"]["beta_hurst_min"]["value"]
@@ -12,15 +13,9 @@ CONTROLS = (case["name"] for case in config["variants"]["cases"] if case.get("ro
 PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces", "young_modulus", "poisson_ratio")
 # {rule: further arguments of its function}
 TABLE_PARAMS = {
-    "fit_scaling": config["scaling"] | SEED,
     "tabulate_calibration": {"conventions": config["figures"], "across": config["discs"]["elements"]},
-    "fit_interface": {
-        "fit": config["interface"] | chosen("scaling", "fraction_min", "resamples") | SEED,
-        **chosen("figures", "rms_convention"),
-    },
     "compare_periodic": without("periodic", "hurst") | {"hursts": config["periodic"]["hurst"]} | SEED,
     "validate": config["validation"],
-    "match_lines": {"fit": config["scaling"], "conventions": chosen("figures", "rms_convention", "average")} | SEED,
     "compare_reduction": config["reduction"]
     | chosen("discs", "elements", "realizations", "tolerance")
     | {"hursts": config["discs"]["hurst"]}
@@ -86,7 +81,7 @@ TABLE_PARAMS = {
     },
 }
 
-for name, made in TABULATIONS.items():
+for name, made in REGISTRY.table_rules.items():
     if "function" not in made:
         continue
 
@@ -98,12 +93,18 @@ for name, made in TABULATIONS.items():
         output:
             csv=expand("results/tables/{table}.csv", table=made["tables"]),
             nc=expand("results/tables/{table}.nc", table=made["tables"]),
+        log:
+            f"results/logs/{name}.log",
+        benchmark:
+            f"results/benchmarks/{name}.tsv"
         localrule: not made["queued"]
+        conda:
+            "../envs/viscorough.yaml"
         threads: ALL_CORES if made["alone"] else 1
         resources:
             mem_mb=made["memory"],
         params:
-            functions=table_functions(made),
+            functions=REGISTRY.table_functions(name),
             tables=made["tables"],
             arguments=TABLE_PARAMS.get(name, {}),
         message:

@@ -2,7 +2,10 @@
 
 # {target: its description, and what it makes}
 TARGETS = {
-    "curves": ("The loading curves of all surfaces.", [*curves_of_pool("discs"), *curves_of_pool("lines")]),
+    "curves": (
+        "The loading curves of all surfaces.",
+        [*cases.pool_curves(CASES, "discs"), *cases.pool_curves(CASES, "lines")],
+    ),
     "figures": ("All figures.", figure_files("all")),
     "tables": ("All tables.", table_files("all")),
     "validation": ("The comparison with exact solutions.", rules.check_validation.output),

@@ -6,7 +6,13 @@ rule check_validation:
         table="results/tables/validation.csv",
     output:
         passed="results/tables/validation_passed.txt",
+    log:
+        "results/logs/check_validation.log",
+    benchmark:
+        "results/benchmarks/check_validation.tsv"
     localrule: True
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=500,
     params:
@@ -30,7 +36,13 @@ rule judge_claims:
         csv="results/tables/claims.csv",
         nc="results/tables/claims.nc",
         verdicts="results/tables/claims.md",
+    log:
+        "results/logs/judge_claims.log",
+    benchmark:
+        "results/benchmarks/judge_claims.tsv"
     localrule: True
+    conda:
+        "../envs/viscorough.yaml"
     resources:
         mem_mb=2000,
     params:

@@ -21,6 +21,14 @@ POOLS = {
     "size_lines": ("line",),
     "measured": ("disc",),
 }
+# {pool: kind of its surfaces}, the folder of their curves
+POOL_KINDS = {
+    "discs": "discs",
+    "lines": "lines",
+    "size_discs": "discs",
+    "size_lines": "lines",
+    "measured": "measured",
+}
 SURFACE_CONVENTIONS = {"period", "corners", "amplitudes"}  # settings of surfaces that the paper leaves open
 UNIT_DISC = {"rms": 1.0, "diameter": 1.0, "length_unit": "1"}
 UNIT_LINE = {"rms": 1.0, "length": 1.0}
@@ -185,9 +193,36 @@ def _in_batch(ensemble, numbers):
     return {name: ensemble[name] for name in kept if name in ensemble} | {"numbers": numbers}
 
 
-def pool_batches(cases, pool):
-    """Return [(case, batch)] of all cases of a pool, in the order of the table."""
+def pool_batches(tables, pool):
+    """Return [(case, batch)] of all cases of a pool, in the order of the table; tables : {kind: {case: description}}"""
+    cases = tables[POOL_KINDS[pool]]
     return [(name, batch) for name, case in cases.items() if case["pool"] == pool for batch in batches(case)]
+
+
+def pool_curves(tables, pool):
+    """Return the files of all loading curves of a pool; tables : {kind: {case: description}}"""
+    return [f"results/curves/{POOL_KINDS[pool]}/{case}/{batch}.nc" for case, batch in pool_batches(tables, pool)]
+
+
+def pool_groups(tables, pool):
+    """Return the group of each batch of a pool; tables : {kind: {case: description}}"""
+    return [tables[POOL_KINDS[pool]][case]["group"] for case, _ in pool_batches(tables, pool)]
+
+
+def pool_jobs(tables):
+    """Return {wildcard: value} for every batch of every pool; tables : {kind: {case: description}}"""
+    names = {"discs": ["case"], "lines": ["line"], "measured": ["case", "scan"]}  # wildcards for a case, by kind
+    return [
+        dict.fromkeys(names[kind], case) | {"batch": batch, "kind": kind, "pool": pool}
+        for pool, kind in POOL_KINDS.items()
+        for case, batch in pool_batches(tables, pool)
+    ]
+
+
+def combination_curves(discs):
+    """Return the files of the loading curves of all combinations; discs : {case: description}"""
+    bases = {name: case for name, case in discs.items() if case["group"] == "base"}
+    return [f"results/curves/discs/{name}/{batch}.nc" for name, case in bases.items() for batch in batches(case)]
 
 
 # ---- memory of jobs [MB]
@@ -216,9 +251,13 @@ def line_memory(case):
     return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case["ensembles"]) / 1e6)
 
 
-def pool_memory(cases, pool, ensemble):
-    """Return memory for all realizations of a pool on common abscissae, twice; ensemble : setting of that name"""
-    members = [member for case in cases.values() if case["pool"] == pool for member in case.get("ensembles", [case])]
+def pool_memory(tables, pool, ensemble):
+    """Return memory for all realizations of a pool on common abscissae, twice.
+
+    tables : {kind: {case: description}}; ensemble : setting of that name
+    """
+    cases = [case for case in tables[POOL_KINDS[pool]].values() if case["pool"] == pool]
+    members = [member for case in cases for member in case.get("ensembles", [case])]
     realizations = sum(member["realizations"] for member in members)
     abscissae = 1 + ensemble["per_decade"] * math.log10(ensemble["x_high"] / ensemble["x_low"])
     variables = 2 * len(POOLS[pool])

@@ -5,6 +5,16 @@
 Processes that compile at the same time repeat the work.
 """
 
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from viscorough.io.atomic import atomic_write
+
+KERNELS_BENCHMARK = "results/benchmarks/compile_kernels.tsv"  # in the form of the benchmarks of jobs
+_STAMP = ".snakemake/kernels"
+
 
 def compile_kernels():
     """Compile all functions of the loading path, of the lines and of the direct integration, by running them.
@@ -22,6 +32,25 @@ def compile_kernels():
     for dtype in ("f4", "f8"):
         lines = SelfAffineLines(0.6, 256, dtype=dtype)
         reduce_heights(lines.heights_in_any_order(0), lines.spacing)
+
+
+def compile_once(digest):
+    """Compile all functions in another process, unless the run in this folder has done so with this digest of them.
+
+    This is no rule of the workflow: an output that many jobs need would rerun them all when it is remade, and as an
+    `ancient` input it hides changes of their parameters from Snakemake.
+    """
+    stamp = Path(_STAMP)
+    if stamp.is_file() and stamp.read_text() == digest:
+        return
+    print("Compiling the solvers, once: about 20 seconds", file=sys.stderr, flush=True)
+    start = time.monotonic()
+    subprocess.run([sys.executable, "-m", "viscorough_study.run.kernels"], check=True)
+    cost = Path(KERNELS_BENCHMARK)
+    cost.parent.mkdir(parents=True, exist_ok=True)
+    with atomic_write(cost) as temporary:
+        temporary.write_text(f"s\tmax_rss\n{time.monotonic() - start:.2f}\t\n")  # the memory is not measured
+    stamp.write_text(digest)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
-"""Read laws, numbers, claims and sentences of the paper, which are data in resources/paper of the project."""
+"""Read data in resources/ of the project: laws, numbers, claims and sentences of the paper, and published tables."""
 
+import csv
 from pathlib import Path
 
 import yaml
@@ -8,3 +9,9 @@ import yaml
 def read_paper(folder, name):
     """Return the content of one of the files `laws`, `numbers`, `claims` and `sentences` in the folder."""
     return yaml.load((Path(folder) / f"{name}.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader)
+
+
+def read_records(path):
+    """Return the rows of a CSV file as [{column: number or text}]."""
+    with Path(path).open(newline="", encoding="utf-8") as file:
+        return [{name: yaml.safe_load(value) for name, value in row.items()} for row in csv.DictReader(file)]

@@ -10,11 +10,41 @@ import functools
 import math
 import operator
 from itertools import chain
+from pathlib import Path
 
 import jsonschema
 
+from viscorough_study.run.settings_files import read_settings_file
+
 # Schema keywords that an error message quotes.
 _LIMITS = ("type", "enum", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems", "decimals")
+
+
+def complete_settings(defaults, schema, given, files, options):
+    """Return the settings of a run, default settings where no others are given, and the sources of `check_settings`.
+
+    defaults : file of the default settings; schema : as in `check_settings`
+    given : all settings given by files, by the command line, or by a workflow that uses this workflow as a module
+    files : files of settings; options : settings of the command line
+    Raises ValueError, one line with a file, for the first file that cannot be read, or for the first wrong setting.
+    """
+    sources = {_shown(defaults): read_settings_file(defaults), "the settings of the module": given}
+    sources |= {_shown(path): read_settings_file(path) for path in files} | {"--config": options}
+    completed = _merged(sources[_shown(defaults)], given)
+    check_settings(completed, schema, sources)
+    return completed, sources
+
+
+def _merged(base, changes):
+    """Return settings with changes: mappings are merged at any depth, everything else is replaced."""
+    if not (isinstance(base, dict) and isinstance(changes, dict)):
+        return changes
+    return base | {key: _merged(base.get(key), value) for key, value in changes.items()}
+
+
+def _shown(path):
+    """Return a path from the folder of the run, if it is in there."""
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 def check_settings(settings, schema, sources=None):

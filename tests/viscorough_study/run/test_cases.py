@@ -27,12 +27,22 @@ def test_spawn_keys_do_not_depend_on_order(settings):
 
 
 def test_every_case_is_in_one_pool(settings):
-    discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
-    for table, pools in ((discs, ("discs", "size_discs")), (lines, ("lines", "size_lines"))):
-        assert {case for pool in pools for case, _ in cases.pool_batches(table, pool)} == set(table)
-    assert cases.pool_batches(discs, "discs")[:2] == [("h01000", "0000-0039"), ("h01000", "0040-0079")]
-    assert len(cases.pool_batches(discs, "discs")) == 4 * (2 + 1)
-    assert cases.pool_batches(lines, "size_lines") == [("sizes", "0000-0239")]
+    tables = {"discs": cases.disc_cases(settings), "lines": cases.line_cases(settings), "measured": {}}
+    pooled = [(cases.POOL_KINDS[pool], case) for pool in cases.POOLS for case, _ in cases.pool_batches(tables, pool)]
+    assert set(pooled) == {(kind, case) for kind, table in tables.items() for case in table}
+    assert cases.pool_batches(tables, "discs")[:2] == [("h01000", "0000-0039"), ("h01000", "0040-0079")]
+    assert len(cases.pool_batches(tables, "discs")) == 4 * (2 + 1)
+    assert cases.pool_batches(tables, "size_lines") == [("sizes", "0000-0239")]
+
+
+def test_curves_of_a_pool_are_in_the_folder_of_their_kind(settings):
+    tables = {"discs": cases.disc_cases(settings), "lines": cases.line_cases(settings), "measured": {}}
+    assert cases.pool_curves(tables, "size_lines") == ["results/curves/lines/sizes/0000-0239.nc"]
+    assert cases.pool_groups(tables, "size_discs") == ["sizes"] * 2 + ["controls"]
+    combinations = cases.combination_curves(tables["discs"])
+    assert combinations[0] == "results/curves/discs/h01000/0000-0039.nc"
+    assert len(combinations) == 4 * 2
+    assert set(combinations) < set(cases.pool_curves(tables, "discs"))
 
 
 def test_batches_of_several_ensembles_hold_each_realization_once(settings):
@@ -82,7 +92,7 @@ def test_memory_of_every_job_is_below_two_gigabytes(settings, name):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     needed = [cases.disc_memory(case) for case in discs.values()] + [cases.line_memory(case) for case in lines.values()]
     needed += [cases.generation_memory(case["ensembles"]) for case in discs.values()]
-    for table, pools in ((discs, ("discs", "size_discs")), (lines, ("lines", "size_lines"))):
-        needed += [cases.pool_memory(table, pool, settings["ensemble"]) for pool in pools]
+    tables = {"discs": discs, "lines": lines, "measured": {}}
+    needed += [cases.pool_memory(tables, pool, settings["ensemble"]) for pool in cases.POOLS]
     assert min(needed) >= cases.BASE_MEMORY
     assert max(needed) < 2000

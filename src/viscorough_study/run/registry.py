@@ -1,0 +1,45 @@
+"""The registry of figures and tables, workflow/results.yaml, with the defaults of its entries."""
+
+_FIGURE = {"target": "all", "params": []}
+_RULE = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone": False}
+
+
+class Registry:
+    """Figures and tables of the workflow; the comments of the file explain the keys of an entry.
+
+    content : of the file, a mapping with chapters, figures and tables
+
+    Attributes
+    ----------
+    chapters : dict
+        {chapter: category of the report}.
+    figures : dict
+        {figure: its entry}.
+    table_rules : dict
+        {rule: its entry}, also of rules with a script of their own, which have no function.
+    """
+
+    def __init__(self, content):
+        self.chapters = content["chapters"]
+        named = {name: {"file": name, "module": name} | entry for name, entry in content["figures"].items()}
+        self.figures = {name: _FIGURE | entry for name, entry in named.items()}
+        self.table_rules = {name: _RULE | entry for name, entry in content["tables"].items()}
+
+    def tables(self, target):
+        """Return the names of the tables that a target makes, without the costs of the rules, which are made last."""
+        made = [entry["tables"] for entry in self.table_rules.values() if entry["target"] == target]
+        return [name for tables in made for name in tables if name != "rule_costs"]
+
+    def table_functions(self, rule):
+        """Return dotted names of the function of a rule, "tabulate", and of the columns of each of its tables."""
+        entry = self.table_rules[rule]
+        default = entry["function"].rpartition(".")[0] + ".COLUMNS"
+        columns = {name: table.get("columns", default) for name, table in entry["tables"].items()}
+        return {"tabulate": entry["function"]} | columns
+
+    def figure_functions(self, figure):
+        """Return dotted names of the function that draws a figure, "draw", and of readers of inputs without table."""
+        entry = self.figures[figure]
+        readers = [argument for argument, path in entry["input"].items() if not path.endswith(".csv")]
+        draw = {"draw": "viscorough_study.figures.{module}.plot_{module}".format(**entry)}
+        return draw | {argument: f"viscorough_study.figures.inputs.{argument}" for argument in readers}

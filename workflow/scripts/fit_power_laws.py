@@ -1,0 +1,20 @@
+"""Fit the power laws of region (b): exponent β and prefactor ζ of every ensemble, and λ of lines matched to discs."""
+
+from viscorough.io.datasets import read_dataset
+from viscorough_study.fits.fit_table import COLUMNS, scaling_table
+from viscorough_study.run.job_log import run_job
+from viscorough_study.run.tables import recorded, write_table
+
+
+def main(discs, lines, csv, nc, **fit):
+    """Fit every ensemble under every convention that the paper leaves open.
+
+    discs, lines : files of the pools
+    fit : limits of region (b), and resamples and seed of the bootstrap, as in `scaling_table`
+    """
+    table = scaling_table(read_dataset(discs), read_dataset(lines), **fit)
+    title, attributes = "Power laws in region (b)", recorded(settings=fit)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title=title, attributes=attributes)
+
+
+run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))

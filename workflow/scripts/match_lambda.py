@@ -1,0 +1,28 @@
+"""Match lines to discs: λ over the force, the residual error of a single λ, and exponents in equal windows."""
+
+from viscorough.io.datasets import read_dataset
+from viscorough_study.comparisons import mdr_equivalence
+from viscorough_study.run.job_log import run_job
+from viscorough_study.run.tables import recorded, write_table
+
+# {table: (dimension in the NetCDF file, title)}
+TABLES = {
+    "mdr_lambda": ("point", "MDR, lambda over the force"),
+    "mdr_summary": ("exponent", "MDR, residual error of a single lambda"),
+    "mdr_exponents": ("fit", "MDR, exponents in equal windows"),
+}
+
+
+def main(discs, lines, csv, nc, **settings):
+    """Match the lines of every Hurst exponent to its discs.
+
+    discs, lines : files of the pools; csv, nc : files of each table
+    settings : further arguments of `mdr_tables`
+    """
+    tables = mdr_equivalence.mdr_tables(read_dataset(discs), read_dataset(lines), **settings)
+    for (name, (dimension, title)), *paths in zip(TABLES.items(), csv, nc, strict=True):
+        described = {"columns": mdr_equivalence.TABLES[name], "dimension": dimension, "title": title}
+        write_table(tables[name], *paths, **described, attributes=recorded(settings=settings))
+
+
+run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))

@@ -88,7 +88,7 @@ def environment(folder, project=None):
 # process, which shows that the script works there.
 COPIES = multiprocessing.get_context("forkserver")
 PRELOADED = ["snakemake.cli", "snakemake.workflow", "snakemake.report.html_reporter", "smart_open", "nbformat"]
-PRELOADED += ["jsonschema", "netCDF4", "numba", "pandas", "xarray", "scipy.special", "scipy.optimize"]
+PRELOADED += ["netCDF4", "numba", "pandas", "pydantic", "xarray", "scipy.special", "scipy.optimize"]
 PRELOADED += ["matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "support.workflow"]
 COPIES.set_forkserver_preload(PRELOADED)
 

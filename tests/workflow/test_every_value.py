@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-import yaml
 
-from support.workflow import ROOT, TEST, merged, read_settings, settings_file, snakemake
+from support.workflow import TEST, merged, read_settings, settings_file, snakemake
 from viscorough.surfaces import self_affine_disc
-
-SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8"))
+from viscorough_study.run.settings import resolved, schema
 
 
 def scan(name, **preparation):
@@ -65,10 +63,6 @@ RUNS = {
 }
 
 
-def resolved(rule):
-    return SCHEMA["$defs"][rule["$ref"].split("/")[-1]] if "$ref" in rule else rule
-
-
 def values_allowed(rule, key=""):
     """Yield (key, value) for every allowed value of settings with a list of values, or with true and false."""
     rule = resolved(rule)
@@ -94,8 +88,8 @@ def values_used(rule, settings, key=""):
 def test_runs_use_every_value():
     small = merged(read_settings("config"), read_settings("test"))
     runs = [small, *(merged(small, changed) for changed in RUNS.values())]
-    assert set(values_allowed(SCHEMA)) == {value for run in runs for value in values_used(SCHEMA, run)}
-    assert len(set(values_allowed(SCHEMA))) > 35
+    assert set(values_allowed(schema())) == {value for run in runs for value in values_used(schema(), run)}
+    assert len(set(values_allowed(schema()))) > 35
 
 
 @pytest.mark.parametrize("name", RUNS)

@@ -78,7 +78,7 @@ def test_wrong_settings_are_one_line_that_names_the_file(unmade, tmp_path, conte
 
 def test_error_names_a_wrong_setting_on_the_command_line(unmade):
     output = snakemake(unmade, "--dry-run", "--config", "seed=-1", fails=True)
-    assert output.splitlines()[-1].startswith("Error in the settings: --config: seed is -1; allowed: type integer")
+    assert output.splitlines()[-1].startswith("Error in the settings: --config: seed is -1; allowed: integer, 0 to")
 
 
 def test_error_names_wrong_settings_of_a_module(tmp_path):

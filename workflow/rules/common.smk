@@ -30,9 +30,7 @@ def complete(given, files, options):
     """The settings of the run and the cases of its measured surfaces; ends with one line for a wrong setting."""
     try:
         defaults = PROJECT / "config" / "config.yaml"
-        completed, sources = complete_settings(
-            defaults, read_yaml("workflow/schemas/config.schema.yaml"), given, files, options
-        )
+        completed, sources = complete_settings(defaults, given, files, options)
         with path_named(source_of(["measured"], sources)):
             return completed, scans(completed["measured"], completed["indentation"])
     except ValueError as error:

@@ -16,7 +16,7 @@ class Registry:
     figures : dict
         {figure: its entry}.
     table_rules : dict
-        {rule: its entry}, also of rules with a script of their own, which have no function.
+        {rule: its entry}, also of rules with a separate script, which have no function.
     """
 
     def __init__(self, content):

@@ -5,6 +5,8 @@ import re
 from glob import glob
 from pathlib import Path
 
+from viscorough_study.run.settings_model import ScanGroup
+
 
 def scans(entries, indentation):
     """Return {scan: description of its case (run.cases), an ensemble of one realization} of all files.
@@ -17,8 +19,7 @@ def scans(entries, indentation):
     and file. Raises ValueError if a pattern matches no file, or two names agree.
     """
     shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": indentation | {"whole_curves": 1}}
-    shared |= {"spacing": [], "unit": None, "preparation": {}, "forces": []}
-    shared |= {"young_modulus": None, "poisson_ratio": 0.5}
+    shared |= {name: field.default for name, field in ScanGroup.model_fields.items() if not field.is_required()}
     result = {}
     for entry in entries:
         for pattern in entry["files"]:

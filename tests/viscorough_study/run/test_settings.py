@@ -1,16 +1,18 @@
 """The check of the settings, and the settings of every scale."""
 
+import copy
+import functools
+import operator
 import re
+from pathlib import Path
 
+import jsonschema
 import pytest
-import yaml
 
 from support.workflow import ROOT, merged, read_settings
 from viscorough_study.figures.conventions import CONVENTION_LABELS
 from viscorough_study.fits.conventions import VALUES
-from viscorough_study.run.settings import check_settings
-
-SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+from viscorough_study.run.settings import check_settings, complete_settings, resolved, schema
 
 COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
 SCAN = {"name": "scan", "files": ["z.npy"]}
@@ -19,29 +21,32 @@ WRONG = [
     ({"discs": {"elemnts": 33}}, "unknown key 'elemnts' in discs; did you mean elements?"),
     ({"colour": "blue"}, "unknown key 'colour' in settings; allowed: article, collapse, direct, discs"),
     ({"dis\ncs": 1}, r"unknown key 'dis\ncs' in settings; did you mean discs?"),
-    ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: type integer, minimum 9, maximum 4097"),
-    ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: type integer"),
-    ({"discs": {"realizations": True}}, "discs.realizations is True; allowed: type integer"),
-    ({"discs": {"hurst": [0.4, 1.2]}}, "discs.hurst[1] is 1.2; allowed: type number, minimum 0, maximum 1, decimals"),
-    ({"discs": {"hurst": []}}, "discs.hurst is []; allowed: type array, minItems 1"),
-    ({"discs": None}, "discs is empty; allowed: type object ("),
+    ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: integer, 9 to 4097 (elements across"),
+    ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: integer, 9 to"),
+    ({"discs": {"realizations": True}}, "discs.realizations is True; allowed: integer, 2 to"),
+    ({"discs": {"hurst": [0.4, 1.2]}}, "discs.hurst[1] is 1.2; allowed: 0 to 1, at most 4 decimals (Hurst"),
+    ({"discs": {"hurst": []}}, "discs.hurst is []; allowed: 1 to 101 values, each 0 to 1"),
+    ({"discs": None}, "discs is empty; allowed: a mapping (Discs of"),
     ({"indentation": {"tolerance": "1e-3"}}, "write numbers as 1.0e-3, with a point"),
-    ({"indentation": {"until_x": float("nan")}}, "indentation.until_x is nan; allowed: type number, minimum 1e-14"),
+    ({"indentation": {"until_x": float("nan")}}, "indentation.until_x is nan; allowed: 1e-14 to 10000 ("),
     ({"indentation": {"until_x": 1e-9}}, "ensemble.x_low and indentation.until_x: 1e-09 and 1e-09 are too close"),
-    ({"surface": {"amplitudes": "constant"}}, "surface.amplitudes is 'constant'; allowed: enum ['random', 'fixed'] ("),
-    ({"surface": {"corners": 1}}, "surface.corners is 1; allowed: type boolean ("),
-    ({"discs": {"combinations": [{"number": 1, "force": 1.0}]}}, "discs.combinations[0]: 'viscosity' is a required"),
+    ({"surface": {"amplitudes": "constant"}}, "surface.amplitudes is 'constant'; allowed: random, fixed ("),
+    ({"surface": {"corners": 1}}, "surface.corners is 1; allowed: true, false ("),
+    (
+        {"discs": {"combinations": [{"number": 1, "force": 1.0}]}},
+        "discs.combinations[0] lacks viscosity; needed:",
+    ),
     ({"discs": {"combinations": 2 * [COMBINATION]}}, "discs.combinations: number 1 occurs twice"),
     ({"discs": {"combinations": [COMBINATION | {"rms": 0.1}]}}, "rms 0.1 in combination 1 of discs.combinations is"),
     ({"discs": {"combinations": [COMBINATION | {"diameter": 10.0, "rms": 1e-12}]}}, "rms 1e-12 in combination 1"),
-    ({"variants": {"cases": [{"name": "nothing"}]}}, "variants.cases[0] is {'name': 'nothing'}; allowed: type"),
+    ({"variants": {"cases": [{"name": "nothing"}]}}, "variants.cases[0] changes nothing; allowed: a name and a key"),
     ({"variants": {"cases": [{"name": "sizes", "period": 2.0}]}}, "variants.cases[0].name is 'sizes'; allowed"),
     ({"variants": {"cases": [{"name": "wider\n", "period": 2.0}]}}, r"variants.cases[0].name is 'wider\n'; allowed"),
     ({"methods": {"tasks": []}}, "unknown key 'tasks' in methods; allowed: bodies, bodies_elements, elements"),
     ({"methods": {"elements": [33, 33]}}, "methods.elements: 33 occurs twice; allowed: once"),
     ({"media": {"cases": [FLUID | {"kind": "maxwell"}]}}, "fluid in media.cases: lacks shear_modulus; maxwell needs"),
     ({"media": {"cases": [FLUID | {"exponent": 0.5}]}}, "fluid in media.cases: unknown key 'exponent'; allowed for"),
-    ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst[1] is 0.40000000001; allowed: type number"),
+    ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst[1] is 0.40000000001; allowed: 0 to 1, at most"),
     ({"sizes": {"discs": [{"elements": 17, "realizations": 2}]}}, "roll_off_wavelength 0.125 of sizes.control is too"),
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"discs": {"short_until_x": 0.5}}, "discs.short_until_x: curves that end at X = 0.5 miss a part of verdicts"),
@@ -50,7 +55,7 @@ WRONG = [
     ({"verdicts": {"plateau_range": [1, 1e-3]}}, "verdicts.plateau_range: 1 and 0.001 are in the wrong order; allowed"),
     (
         {"verdicts": {"plateau_range": [1e-3, 100]}},
-        "verdicts.plateau_range[1] and ensemble.x_high: 100 and 30.0 are in",
+        "verdicts.plateau_range[1] and ensemble.x_high: 100 and 30 are in",
     ),
     ({"ensemble": {"x_low": 1e-2}}, "ensemble.x_low and verdicts.plateau_range[0]: 0.01 and 0.001 are in the wrong"),
     ({"periodic": {"x_low": 10, "x_high": 0.1}}, "periodic.x_low and x_high: 10 and 0.1 are in the wrong order"),
@@ -71,9 +76,34 @@ WRONG = [
 @pytest.mark.parametrize(("wrong", "message"), WRONG, ids=[message[:30] for _, message in WRONG])
 def test_wrong_settings_end_with_one_line(wrong, message):
     with pytest.raises(ValueError, match=re.escape(message)) as error:
-        check_settings(merged(read_settings("config"), wrong), SCHEMA)
+        check_settings(merged(read_settings("config"), wrong))
     assert "\n" not in str(error.value)
     assert len(str(error.value)) < 250
+
+
+def places(settings, path=()):
+    """Yield the paths of all settings; of long lists, those of the first item."""
+    if path:
+        yield path
+    for key in (
+        settings if isinstance(settings, dict) else range(min(len(settings), 1)) if isinstance(settings, list) else ()
+    ):
+        yield from places(settings[key], (*path, key))
+
+
+@pytest.mark.parametrize("odd", [object(), float("nan"), 10**400, {1: 2}, {"a\nb": 1}, [[None]], b"x"], ids=str)
+def test_odd_value_of_any_setting_is_reported_in_one_line_with_its_key(odd):
+    scan = SCAN | {"spacing": [1.0], "preparation": {"crop": [[0, 1], [0, 1]], "flip": True}, "poisson_ratio": 0.3}
+    settings = merged(read_settings("config"), {"measured": [scan]})
+    for *above, last in places(settings):
+        changed = copy.deepcopy(settings)
+        section = functools.reduce(operator.getitem, above, changed)
+        section[last] = odd
+        with pytest.raises(
+            ValueError, match=next(key for key in [last, *above[::-1]] if isinstance(key, str))
+        ) as error:
+            check_settings(changed)
+        assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize(
@@ -93,52 +123,64 @@ def test_file_of_a_wrong_setting_is_named(change, names):
     default, other = read_settings("config"), {"lines": {"hurst": [0.1, 0.4, 0.6, 0.9]}, "discs": {"elements": 65}}
     sources = {"config.yaml": default, "other.yaml": other, "mine.yaml": change}
     with pytest.raises(ValueError, match=f"^{names}: "):
-        check_settings(merged(merged(default, other), change), SCHEMA, sources)
+        check_settings(merged(merged(default, other), change), sources)
 
 
 @pytest.mark.parametrize("name", ["config", "paper", "sizes", "methods", "test"])
 def test_settings_of_every_scale_are_valid(name):
-    check_settings(merged(read_settings("config"), read_settings(name)), SCHEMA)
+    check_settings(merged(read_settings("config"), read_settings(name)))
+
+
+def test_settings_of_a_run_replace_lists_and_merge_mappings(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("mine.yaml").write_text("lines: {hurst: [0.1, 0.4, 0.6, 0.9]}\n")
+    given = {"lines": {"hurst": [0.1, 0.4, 0.6, 0.9]}, "seed": 5}
+    completed, sources = complete_settings(ROOT / "config/config.yaml", given, [Path("mine.yaml")], {"seed": 5})
+    assert completed == merged(read_settings("config"), given)
+    assert completed["lines"]["points"] == read_settings("config")["lines"]["points"]
+    assert list(sources) == [str(ROOT / "config/config.yaml"), "the settings of the module", "mine.yaml", "--config"]
+    with pytest.raises(ValueError, match=r"^--config: seed is -1; "):
+        complete_settings(ROOT / "config/config.yaml", given | {"seed": -1}, [], {"seed": -1})
 
 
 def test_settings_and_figures_have_the_same_conventions():
-    figures = SCHEMA["properties"]["figures"]["properties"]
+    figures = resolved(schema()["properties"]["figures"])["properties"]
     for name, values in VALUES.items():
         assert sorted(figures[name]["enum"]) == sorted(CONVENTION_LABELS[name]) == sorted(values)
 
 
-def leaves(rule, definitions, path=""):
-    """Yield (key, schema) of every setting; lists of mappings have the key `key[]`."""
-    if "$ref" in rule:
-        rule = definitions[rule["$ref"].split("/")[-1]]
-    if path:
-        yield path, rule
+def parts(rule, path=""):
+    """Yield (key, part of the schema) of every setting, at any depth."""
+    rule = resolved(rule)
+    yield path, rule
     for name, inner in rule.get("properties", {}).items():
-        yield from leaves(inner, definitions, f"{path}.{name}".lstrip("."))
-    if rule.get("items", {}).get("type") == "object":
-        yield from leaves(rule["items"], definitions, f"{path}[]")
+        yield from parts(inner, f"{path}.{name}")
+    if "items" in rule:
+        yield from parts(rule["items"], f"{path}[]")
 
 
-KEYS = dict(leaves(SCHEMA, SCHEMA["$defs"]))
-
-
-def test_schema_describes_every_key():
-    assert len(KEYS) > 50
-    for key, rule in KEYS.items():
-        assert rule["description"], key
-        if "properties" in rule:
+def test_every_setting_has_a_meaning_and_limits():
+    found = dict(parts(schema()))
+    assert len(found) > 150
+    for key, rule in found.items():
+        assert rule.get("description") or key.endswith("[]"), key
+        kinds = {*rule["type"]} if isinstance(rule["type"], list) else {rule["type"]}
+        if "object" in kinds:
             assert rule["additionalProperties"] is False, key
-        elif rule.get("type") == "array":
-            assert "maxItems" in rule, key
+        elif "array" in kinds:
+            assert {"minItems", "maxItems"} <= set(rule), key
+        elif {"integer", "number"} & kinds:
+            assert {"unit", "maximum"} <= set(rule), key
+            assert {"minimum", "exclusiveMinimum"} & set(rule), key
         else:
-            assert rule["unit"], key
-            limited = {"enum", "pattern"} & set(rule) or rule["type"] == "boolean"
-            assert limited or ({"maximum"} < {*rule} and {"minimum", "exclusiveMinimum"} & set(rule)), key
+            assert {"enum", "pattern"} & set(rule) or "boolean" in kinds, key
 
 
-def test_readme_explains_every_key():
-    text = (ROOT / "config/README.md").read_text().split("## Keys")[1]
-    explained = re.findall(r"^\| `(.+?)` \|", text, re.MULTILINE)
-    wanted = {key for key, rule in KEYS.items() if "properties" not in rule}
-    assert set(explained) == wanted
-    assert len(explained) == len(wanted)
+@pytest.mark.parametrize("name", ["config", "paper", "sizes", "methods", "test"])
+def test_schema_accepts_the_settings_of_every_scale(name):
+    """Editors use the schema; the workflow uses the model."""
+    settings = merged(read_settings("config"), read_settings(name))
+    jsonschema.Draft202012Validator.check_schema(schema())
+    jsonschema.validate(settings, schema())
+    with pytest.raises(jsonschema.ValidationError, match="elemnts"):
+        jsonschema.validate(merged(settings, {"discs": {"elemnts": 33}}), schema())

@@ -1,0 +1,541 @@
+"""The model of the settings: every key with its type, limits, unit and meaning.
+
+`python docs/write_settings.py` writes the JSON schema workflow/schemas/config.schema.yaml and the tables of
+config/README.md from it. Values are in config/config.yaml, the default settings; the model itself has values only for
+keys that may be omitted. Rules that involve several settings are in run.settings_rules.
+
+X is the dimensionless force F/(4GhL), κ the dimensionless stiffness k/(4GL), h the rms height, L the diameter of an
+indenter or the length of a line.
+"""
+
+from typing import Any, Literal
+
+from pydantic import ConfigDict, model_validator
+from pydantic_core import PydanticCustomError
+
+from viscorough_study.run.setting_types import Section, meaning, real, several, text, whole
+from viscorough_study.run.settings_rules import contradictions
+
+HURST = real(0, 1, decimals=4)
+HURST_EXPONENTS = several(HURST, 1, 101, once=True)
+FORCE = real(above=0, high=1e12, unit="N")
+NAME = text(r"^[a-z][a-z_]{2,30}$(?!\n)", "a-z and _, at least three")
+REALIZATIONS = whole(2, 10_000)
+BATCH = whole(1, 10_000)
+X = real(1e-15, 1e4)
+TEN_TIMES = "at least ten times"
+
+
+class Combination(Section):
+    """One combination of force, viscosity, diameter and rms height."""
+
+    number: whole(1, 99) = meaning(
+        "its number in file names and seeds; renumbering gives other surfaces, reordering does not"
+    )
+    force: real(1e-12, 1e9, unit="N") = meaning("constant force F; affects only the time axis in SI units")
+    viscosity: real(1e-9, 1e15, unit="Pa s") = meaning(
+        "shear viscosity η of the half-space; it, too, affects only the time axis in SI units"
+    )
+    diameter: real(1e-9, 1e3, unit="m") = meaning("diameter L of the indenter")
+    rms: real(1e-12, 10, unit="m") = meaning(
+        "nominal rms height h; small compared with L, because half-space theory requires small slopes",
+        also="1e-12 L to L/100",
+    )
+
+
+class Discs(Section):
+    """Discs of self-affine surfaces, by boundary elements, in real units."""
+
+    hurst: HURST_EXPONENTS = meaning("Hurst exponents H of the discs", also="in `lines.hurst`, since λ(H) needs both")
+    elements: whole(9, 4097) = meaning("elements across the diameter; the paper has 257")
+    tolerance: real(1e-8, 0.1) = meaning(
+        "relative accuracy of the curves of ensembles; it replaces `indentation.tolerance`, since a mean over many "
+        "curves needs less accuracy than a single curve "
+        "([Ensembles](../docs/verification.md#the-tolerance-of-ensembles))"
+    )
+    realizations: REALIZATIONS = meaning("surfaces per combination and Hurst exponent; the paper has at least 80")
+    whole_curves: whole(1, 10_000) = meaning(
+        "number of realizations, the first ones of every combination and variant, whose curves go on to "
+        "`indentation.until_x`; beyond `discs.short_until_x` means are over these"
+    )
+    short_until_x: real(above=0, high=1e4) = meaning(
+        "X at which the other curves end", also="at least `verdicts.plateau_range` and half a slope's width"
+    )
+    batch: BATCH = meaning(
+        "realizations of every combination in a job; at most these are lost when it is killed. A change alters no "
+        "result, but all of these curves are computed again"
+    )
+    combinations: several(Combination, 1, 99, once="number") = meaning(
+        "combinations of force, viscosity, diameter and rms height, as in the paper's Fig. 2; each has its own "
+        "surfaces. The nine values are ours, because the paper does not list its own"
+    )
+
+
+PERIOD = real(1, 16, unit="L")
+AMPLITUDES = Literal["random", "fixed"]
+RMS_OVER = Literal["disc", "square"]
+ROLL_OFF_WAVELENGTH = real(above=0, high=16, unit="L") | None
+ROLL_OFF_LEVEL = real(0, 1)
+FOUR_ELEMENTS = "at least four elements"
+
+
+class Surface(Section):
+    """Properties of the surfaces that the paper leaves open; defaults of every ensemble."""
+
+    period: PERIOD = meaning(
+        "period of the square that a disc is cut from; 1: the disc spans the period, 2: it is a part of a surface of "
+        "longer period"
+    )
+    corners: bool = meaning("whether the corners of the Fourier square, beyond the Nyquist circle, contain waves")
+    amplitudes: AMPLITUDES = meaning(
+        "amplitudes of the waves of discs and lines; random: complex Gaussian (a Gaussian process), fixed: the square "
+        "root of the spectrum, with random phases"
+    )
+    rms_over: RMS_OVER = meaning(
+        "elements over which the rms height of every realization is the nominal h; the rms heights by every "
+        "convention are stored and used in ensembles"
+    )
+    roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
+        "longest wavelength of the power law, of discs and lines; null: no roll-off", also=FOUR_ELEMENTS
+    )
+    roll_off_level: ROLL_OFF_LEVEL = meaning(
+        "spectral density of longer waves relative to that at the roll-off wavelength, of discs and lines; 0: none, "
+        "1: a plateau"
+    )
+
+
+class Variant(Section):
+    """A name, and the keys of `surface` that differ, at least one of them."""
+
+    model_config = ConfigDict(json_schema_extra={"minProperties": 2})
+
+    name: text(
+        r"^(?!(base|controls|lines|sizes)$)[a-z][a-z_]{2,30}$(?!\n)",
+        "a-z and _, at least three, not `base`, `controls`, `lines`, `sizes`",
+    ) = meaning("name in file names, tables and seeds")
+    period: PERIOD = meaning("replaces `surface.period`", None)
+    corners: bool = meaning("replaces `surface.corners`", None)
+    amplitudes: AMPLITUDES = meaning("replaces `surface.amplitudes`", None)
+    rms_over: RMS_OVER = meaning("replaces `surface.rms_over`", None)
+    roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
+        "replaces `surface.roll_off_wavelength`; with 0.125 and no longer waves the power law must disappear: a "
+        "control",
+        None,
+        also=FOUR_ELEMENTS,
+    )
+    roll_off_level: ROLL_OFF_LEVEL = meaning("replaces `surface.roll_off_level`", None)
+
+    @model_validator(mode="after")
+    def _changes_something(self):
+        if self.model_fields_set == {"name"}:
+            raise PydanticCustomError("changes nothing", "changes nothing; allowed: a name and a key of surface")
+        return self
+
+
+class Variants(Section):
+    """Further ensembles of discs (h = L = 1 m), each with some choices of `surface` changed."""
+
+    realizations: REALIZATIONS = meaning("surfaces per variant and Hurst exponent")
+    batch: BATCH = meaning("realizations per job")
+    cases: several(Variant, 0, 20, once="name") = meaning("the variants; each has a name and at least one further key")
+
+
+class Indentation(Section):
+    """The elastic loading path of the discs."""
+
+    tolerance: real(1e-8, 0.1) = meaning(
+        "relative accuracy of depth, force and stiffness of each level; and of the interpolation between levels"
+    )
+    until_fraction: real(1e-6, 1) = meaning("share of the elements in contact at which a curve ends")
+    until_x: real(1e-14, 1e4) = meaning(
+        "X = F/(4GhL) at which a curve ends if it is reached first; h is the larger of the two rms heights",
+        also=f"{TEN_TIMES} `ensemble.x_low`",
+    )
+
+
+class Lines(Section):
+    """Self-affine lines (h = L = 1 m), by the method of dimensionality reduction."""
+
+    hurst: HURST_EXPONENTS = meaning("Hurst exponents of the lines", also="all of `discs.hurst`")
+    points: whole(256, 2**26) = meaning(
+        "points of a line; the paper has 4 000 000. Lines are generated in the job that computes their curves, and "
+        "not stored"
+    )
+    realizations: REALIZATIONS = meaning("lines per Hurst exponent; the paper has 500")
+    batch: BATCH = meaning("lines per job")
+
+
+class Ensemble(Section):
+    """Common abscissae of all curves."""
+
+    x_low: X = meaning("lowest abscissa X = F/(4GhL) = Ft/(4ηhL)")
+    x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
+    per_decade: whole(2, 200) = meaning("abscissae per decade; their decimal logarithms are multiples of 1/per_decade")
+
+
+class Scaling(Section):
+    """Region (b) of a mean curve, in which the power law is fitted, and the bootstrap."""
+
+    elements_min: real(1, 1e6) = meaning(
+        "smallest number of elements in contact (median over realizations); below, the discretisation affects the curve"
+    )
+    stiffness_max: real(above=0, high=1) = meaning(
+        "highest κ = k/(4GL); above, the finite size of the indenter affects the curve"
+    )
+    slope_max: real(above=0, high=1) = meaning("largest local slope; it is 1 in the regions (a) and (c)")
+    slope_half_width: real(above=0, high=2, unit="decades") = meaning(
+        "half the width of the interval of X over which a local slope is fitted; in narrower ones the slope of some "
+        "tens of realizations is dominated by noise",
+        also="at least 1/`ensemble.per_decade`",
+    )
+    fraction_min: real(above=0, high=1) = meaning(
+        "smallest share of the realizations whose curve is defined at an abscissa; the mean over fewer is biased"
+    )
+    decades_min: real(above=0, high=10, unit="decades") = meaning(
+        "shortest window; over less than a factor of three in X any smooth curve looks like a power law"
+    )
+    stiffness_range: several(real(above=0, high=1), 2, 2) = meaning(
+        "lower and upper κ of the window `kappa`; the same state of contact on any grid", also="in this order"
+    )
+    resamples: whole(10, 1_000_000) = meaning("bootstrap samples of each fit")
+
+
+class Interface(Section):
+    """The rough interface, in series with the flat punch."""
+
+    plateau: real(above=0, high=0.5) = meaning(
+        "share of its maximum by which the contribution of the interface to vt/h is lower at the ends of the plateau"
+    )
+
+
+class RollOff(Section):
+    """The roll-off of the second spectrum."""
+
+    wavelength: real(above=0, high=1) = meaning(
+        "longest wavelength of the power law over the period; of the second spectrum"
+    )
+    level: real(0, 1) = meaning("spectral density of longer waves relative to that at the roll-off")
+
+
+class Periodic(Section):
+    """The control of two springs: contact of the same spectra on a periodic half-space."""
+
+    hurst: HURST_EXPONENTS = meaning("Hurst exponents")
+    points: whole(16, 4096) = meaning("elements along a side of the periodic square")
+    surfaces: whole(2, 100_000) = meaning("surfaces of each Hurst exponent and spectrum")
+    roll_off: RollOff
+    x_low: real(above=0, high=1000) = meaning("lowest X = (π/4) p L/(E* h) of the levels")
+    x_high: real(above=0, high=1000) = meaning("highest X of the levels", also=f"{TEN_TIMES} `x_low`")
+    per_decade: whole(1, 100) = meaning("levels per decade of X")
+
+
+class Verdicts(Section):
+    """Settings of verdicts, in addition to the tolerances of the claims."""
+
+    decades_min: real(above=0, high=10, unit="decades") = meaning(
+        "decades of X over which the local slope must be constant to count as a power law; two are the usual minimum "
+        "(Stumpf & Porter, Science 335, 665 (2012)), and every curve that bends upwards at both ends is straight over "
+        "more than one"
+    )
+    plateau_range: several(real(above=0, high=100), 2, 2) = meaning(
+        "lower and upper X between which these decades are sought",
+        also="within `ensemble.x_low` and `x_high`, at least a decade apart",
+    )
+    draws: whole(1, 100_000) = meaning(
+        "number of synthetic ensembles of each kind; they show how often the test accepts power laws, and other curves"
+    )
+    end_decades: real(above=0, high=2, unit="decades") = meaning(
+        "interval of X at the end of a curve over which the slope of region (c) is fitted"
+    )
+
+
+class Figures(Section):
+    """Conventions that the figures show, among those tabulated."""
+
+    average: Literal["arithmetic", "geometric"] = meaning("mean over the realizations at fixed X")
+    rms_convention: Literal["disc", "square", "ensemble"] = meaning(
+        "h in X and vt/h; the rms height of the disc, that of the square it was cut from, or the rms height that the "
+        "spectrum has on average, the same for all realizations"
+    )
+    window_rule: Literal["default", "lower_half", "upper_half", "kappa"] = meaning("window of the fit")
+    gamma: Literal["without", "with"] = meaning(
+        "law without or with the factor 1/Γ(2−α); without: Eqs. 1 and 3, exact; with: Eq. 9"
+    )
+
+
+class Article(Section):
+    """The article."""
+
+    repository: text(
+        r'^(https?://[^\s"\\]{1,200})?$(?!\n)', "an address that begins with https:// or http://, or empty"
+    ) = meaning("address of the code that the article (`make article`) states; none if empty")
+
+
+LIMIT = real(above=0, high=1)
+
+
+class Limits(Section):
+    """Largest relative error on the finest grid, by quantity."""
+
+    force: LIMIT = meaning("largest relative error of the force on sphere and cone")
+    depth: LIMIT = meaning("largest relative error of their depth; at given impulse or, by the MDR, at given force")
+    stiffness: LIMIT = meaning("largest relative error of their stiffness")
+    velocity: LIMIT = meaning("largest relative error of their velocity under constant and rising force")
+    area: LIMIT = meaning("largest relative error of their contact area")
+    punch_stiffness: LIMIT = meaning("largest relative error of the stiffness of a flat disc and a flat ellipse")
+    correspondence: LIMIT = meaning(
+        "largest relative error of the depth of a rough disc; the correspondence against direct integration in time, "
+        "contact event by event"
+    )
+
+
+class Validation(Section):
+    """Comparison with exact solutions."""
+
+    elements: several(whole(17, 1025), 1, 8, once=True) = meaning(
+        "elements across the body; three or more grids show the order of convergence"
+    )
+    order_margin: real(0, 2) = meaning("amount by which an observed order of convergence may be below the expected one")
+    limits: Limits
+
+
+class Direct(Section):
+    """Direct integration in time, against both readings of the law and against the row of springs."""
+
+    elements: whole(9, 257) = meaning("elements across the indenters whose motion is integrated directly in time")
+    impulses: whole(2, 10_000) = meaning("impulses ∫F dt/η at which depths are compared, for each indenter")
+
+
+class Times(Section):
+    """Times at which depth and velocity are tabulated, geometric."""
+
+    low: real(1e-30, 1e30, unit="s") = meaning("first time")
+    high: real(1e-30, 1e30, unit="s") = meaning("last time", also=f"{TEN_TIMES} `low`")
+    per_decade: whole(2, 200) = meaning("times per decade")
+
+
+POSITIVE = {"above": 0, "high": 1e30}
+
+
+class MediumCase(Section):
+    """A name, the kind of medium, and the keys of this kind."""
+
+    name: NAME = meaning("name in tables and figures")
+    kind: Literal["newtonian", "maxwell", "kelvin_voigt", "standard_linear_solid", "prony", "springpot"] = meaning(
+        "kind of medium"
+    )
+    viscosity: real(**POSITIVE, unit="Pa s") = meaning("viscosity of `newtonian`, `maxwell`, `kelvin_voigt`", None)
+    shear_modulus: real(**POSITIVE, unit="Pa") = meaning("shear modulus of `maxwell`, `kelvin_voigt`", None)
+    instantaneous_modulus: real(**POSITIVE, unit="Pa") = meaning(
+        "shear modulus of `standard_linear_solid` at t = 0", None
+    )
+    relaxed_modulus: real(0, 1e30, unit="Pa") = meaning(
+        "shear modulus of `standard_linear_solid` and `prony` at t → ∞", None
+    )
+    relaxation_time: real(**POSITIVE, unit="s") = meaning("relaxation time of `standard_linear_solid`", None)
+    moduli: several(real(**POSITIVE, unit="Pa"), 1, 100) = meaning("shear moduli of the branches of `prony`", None)
+    relaxation_times: several(real(**POSITIVE, unit="s"), 1, 100) = meaning(
+        "relaxation times of the branches of `prony`", None
+    )
+    modulus: real(**POSITIVE, unit="Pa sᵃ") = meaning("K of `springpot`, J = tᵃ/(K Γ(1 + a))", None)
+    exponent: real(above=0, high=1) = meaning("a of `springpot`", None)
+
+
+class Media(Section):
+    """Other media than the paper's, into which the discs of the first combination penetrate."""
+
+    force: FORCE = meaning("constant force F, from time 0 on")
+    times: Times
+    cases: several(MediumCase, 1, 6, once="name") = meaning("the media")
+
+
+class Preparation(Section):
+    """Preparation of heights, in this order."""
+
+    nodata: several(real(-1e300, 1e300, unit="unit of the heights"), 0, 10) = meaning(
+        "values that mark points that were not measured", None
+    )
+    crop: several(several(whole(0, 1_000_000), 2, 2), 2, 2) = meaning(
+        "first column and end, first row and end, from 0; ends are not included", None, also="ends above the first"
+    )
+    flip: bool = meaning("whether the sign is changed, for data in which larger is lower", None)
+    detrend: Literal["none", "mean", "plane", "sphere"] = meaning("surface that is fitted and subtracted", None)
+    fill: Literal["none", "harmonic"] = meaning("method that fills enclosed regions without heights", None)
+
+
+class ScanGroup(Section):
+    """A group of scans that are read and prepared alike."""
+
+    name: NAME = meaning("name of the group in tables and file names")
+    files: several(text(r"^[^\n]+$", "text without line breaks"), 1, 1000) = meaning(
+        "files or patterns of files; relative to the folder where the workflow runs"
+    )
+    spacing: several(real(above=0, high=1e12, unit="unit of the heights"), 0, 2) = meaning(
+        "distance between neighbouring columns and rows; one number for both, none if the file states it", []
+    )
+    unit: text(r"^[^\n]{1,20}$", "a unit of length") = meaning(
+        "unit of heights and spacing, if the file states none", None
+    )
+    preparation: Preparation = meaning("preparation of the heights, in this order", {})
+    forces: several(FORCE, 0, 20, once=True) = meaning("constant forces, from time 0 on, for the kinetics", [])
+    young_modulus: real(above=0, high=1e15, unit="Pa") = meaning(
+        "Young's modulus of an elastic half-space, for a table of contacts under the forces; without it there is none",
+        None,
+    )
+    poisson_ratio: real(above=-1, high=0.5) = meaning("Poisson ratio of this half-space", 0.5)
+
+
+class Reduction(Section):
+    """The method of dimensionality reduction against boundary elements, surface by surface."""
+
+    x_low: real(1e-15, 0.1) = meaning("lowest abscissa X at which a line is compared with its disc")
+    x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
+    per_decade: whole(2, 200) = meaning("abscissae per decade")
+
+
+ROUGH_GRIDS = several(whole(9, 1025), 1, 8, once=True)
+
+
+class Scenes(Section):
+    """Indenters for which the placement of levels is compared."""
+
+    elements: whole(9, 1025) = meaning("elements across the indenters for which the placement of levels is compared")
+    hurst: real(0, 1) = meaning("Hurst exponent of the rough disc among them")
+
+
+class OneSurface(Section):
+    """Surfaces on which every model of one surface is measured."""
+
+    hurst: several(real(0.1, 1), 2, 4, once=True) = meaning(
+        "Hurst exponents of the surfaces on which grids, requested errors, the MDR and the law are measured"
+    )
+    elements: whole(65, 2049) = meaning(
+        "elements across the full map, to which all are compared; the grids are every second to every sixteenth point "
+        "of it"
+    )
+    surfaces: whole(1, 1000) = meaning(
+        "surfaces of each of these Hurst exponents; errors are root mean squares over them"
+    )
+
+
+class Methods(Section):
+    """Speed against accuracy of every method."""
+
+    hurst: HURST_EXPONENTS = meaning("Hurst exponents of the rough discs")
+    elements: ROUGH_GRIDS = meaning(
+        "elements across the rough discs; slow methods are measured only up to limits from 65 to 257"
+    )
+    bodies: several(Literal["sphere", "cone"], 0, 2, once=True) = meaning(
+        "bodies of revolution in addition to the rough discs"
+    )
+    bodies_elements: ROUGH_GRIDS = meaning("elements across these bodies")
+    levels: whole(3, 1000) = meaning("depths at which velocities are compared")
+    repeats: whole(1, 100) = meaning("timed repeats, interleaved; their medians are taken")
+    longest: real(0.01, 3600, unit="s") = meaning(
+        "time from which on a method is neither repeated nor tried at finer values of its parameter"
+    )
+    scenes: Scenes
+    one_surface: OneSurface
+
+
+class Stability(Section):
+    """Failures of the methods."""
+
+    across: whole(9, 65) = meaning(
+        "elements across the indenters of all stress-test cases but those that vary the grid"
+    )
+    grids: several(whole(9, 2049), 1, 8, once=True) = meaning(
+        "elements across the discs of the stress-test cases that vary the grid"
+    )
+
+
+class DiscGrid(Section):
+    """A grid of discs."""
+
+    elements: whole(9, 4097) = meaning("elements across the discs of a grid")
+    realizations: REALIZATIONS = meaning(
+        "realizations of discs on this grid, for every Hurst exponent and for the control"
+    )
+
+
+class LineGrid(Section):
+    """A grid of lines."""
+
+    points: whole(16, 100_000_000) = meaning("points of the lines of a grid")
+    realizations: REALIZATIONS = meaning("realizations of lines on this grid, for every Hurst exponent")
+
+
+class Control(Section):
+    """Discs with a roll-off, which have no power law."""
+
+    hurst: HURST = meaning(
+        "Hurst exponent of the control, discs of the same sizes with a roll-off; they have no power law"
+    )
+    roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
+        "longest wavelength of the power law of the control", also="at least four elements of the coarsest grid"
+    )
+
+
+class Sizes(Section):
+    """Ensembles on grids from coarse to fine."""
+
+    hurst: HURST_EXPONENTS = meaning("Hurst exponents of discs and lines")
+    discs: several(DiscGrid, 1, 12, once="elements") = meaning("grids of the discs")
+    lines: several(LineGrid, 1, 24, once="points") = meaning("grids of the lines")
+    control: Control
+    windows: several(several(X, 2, 2), 0, 9, once=True) = meaning(
+        "first and last X of windows in which exponents on all grids are compared; in addition to the windows of "
+        "region (b), which move with the grid",
+        also="at least a decade",
+    )
+    until_x: real(1e-14, 1e6) = meaning("X = F/(4GhL) at which these curves end", also=f"{TEN_TIMES} `ensemble.x_low`")
+    batch: BATCH = meaning("realizations per job, of all grids and Hurst exponents one after the other")
+
+
+class Collapse(Section):
+    """Collapse of the curves of all grids, and one law fitted to all of them."""
+
+    elements_min: several(whole(1, 1_000_000), 1, 5, once=True) = meaning(
+        "median of the elements in contact from which curves are compared and fitted"
+    )
+    x_high: several(X, 1, 5, once=True) = meaning(
+        "X up to which curves are compared, and fitted by a power law", also=f"{TEN_TIMES} `ensemble.x_low`"
+    )
+    corrected_x_high: several(X, 1, 5, once=True) = meaning(
+        "X up to which a power law with a correction to scaling is fitted", also=f"{TEN_TIMES} `ensemble.x_low`"
+    )
+    resamples: whole(20, 100_000) = meaning("bootstrap resamples of every ensemble")
+
+
+class Settings(Section):
+    """Settings of the viscorough workflow."""
+
+    seed: whole(0, 2**64 - 1) = meaning("root seed of every random surface")
+    discs: Discs
+    surface: Surface
+    variants: Variants
+    indentation: Indentation
+    lines: Lines
+    ensemble: Ensemble
+    scaling: Scaling
+    interface: Interface
+    periodic: Periodic
+    verdicts: Verdicts
+    figures: Figures
+    article: Article
+    validation: Validation
+    direct: Direct
+    media: Media
+    measured: several(ScanGroup, 0, 20, once="name") = meaning("groups of scans that are read and prepared alike")
+    reduction: Reduction
+    methods: Methods
+    stability: Stability
+    sizes: Sizes
+    collapse: Collapse
+
+    @model_validator(mode="after")
+    def _agree(self) -> Any:
+        """Raise the first contradiction between settings that are valid separately."""
+        for paths, complaint in contradictions(self):
+            raise PydanticCustomError("contradiction", "{text}", {"text": complaint, "paths": paths})
+        return self

@@ -58,10 +58,10 @@ def installed(names):
     return {name: ADAPTERS[name] for name in names if name not in missing}
 
 
-def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, threads=1):
+def solve(solver, indenter, depths, forces, tolerance, *, time_limit, threads=1):
     """Solve the given levels with another solver, each level started from the level before.
 
-    name, command : name of the solver, and command that runs its adapter
+    solver : its name, and the command that runs its adapter
     depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver uses one or the other
     tolerance : as the solver defines it; time_limit : seconds after which the run is abandoned
 
@@ -71,6 +71,7 @@ def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, thr
         residual : largest |gap| in contact or overlap outside it, over the depth
     If the solver's process fails, warns with the last line of its standard error.
     """
+    name, command = solver
     gap = indenter.initial_gap / indenter.spacing
     request = {
         "gap": gap,

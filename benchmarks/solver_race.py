@@ -116,10 +116,11 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
         solution, memory = _with_memory(path)
         named = {"solver": "viscorough", "version": __version__, "threads": threads, "tolerance": task.residual}
         own_rows.append(_row(task, *task.outcome(solution), memory) | named)
-    for name, command in solvers.items():
+    for solver in solvers.items():
+        name, _ = solver
         click.echo(f"{task.name}, H = {task.hurst:g}: {name}")
         levels = task.indenter, task.depths, task.forces
-        ask = partial(other_solvers.solve, name, command, *levels, time_limit=time_limit)
+        ask = partial(other_solvers.solve, solver, *levels, time_limit=time_limit)
         tolerance, solution = _loosest_tolerance(ask, task.residual)
         if solution is None:
             continue

@@ -45,7 +45,7 @@ def aspher(tmp_path, monkeypatch):
 def test_adapter_solves_the_problem_of_the_request(mode, indenter):
     exact = indent(indenter, tolerance=1e-11, depths=[0.1, 0.2, 1.0])
     command = [sys.executable, "peers/aspher_adapter.py", mode]
-    levels = "aspher", command, indenter, exact.depth, exact.force
+    levels = ("aspher", command), indenter, exact.depth, exact.force
     fine, coarse = (other_solvers.solve(*levels, tolerance, time_limit=HANGS) for tolerance in (1e-12, 1e-3))
     assert fine.version == "4.5"
     np.testing.assert_allclose(fine.force, exact.force, rtol=1e-10)
@@ -64,7 +64,7 @@ def test_adapter_solves_the_problem_of_the_request(mode, indenter):
 def test_solver_beyond_the_time_limit_has_no_answer(indenter):
     command = [sys.executable, "peers/aspher_adapter.py", "levels"]
     depth, force = np.array([0.1]), np.array([0.1])
-    assert other_solvers.solve("aspher", command, indenter, depth, force, 1e-12, time_limit=1e-6) is None
+    assert other_solvers.solve(("aspher", command), indenter, depth, force, 1e-12, time_limit=1e-6) is None
 
 
 def test_pressure_outside_the_indenter_is_refused(indenter):

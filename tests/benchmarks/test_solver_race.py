@@ -26,7 +26,8 @@ def exact(disc):
 def stand_in(monkeypatch):
     """Make solvers whose residual is `least` plus 0.6 of their tolerance; `in_time` : False if they do not end."""
 
-    def solve(name, made, indenter, depths, forces, tolerance, *, time_limit, threads=1):
+    def solve(solver, indenter, depths, forces, tolerance, *, time_limit, threads=1):
+        _, made = solver
         residual, wall = np.full(len(depths), made["least"] + 0.6 * tolerance), made["seconds"] * threads
         times = {"iterations": -1, "wall_s": wall, "processor_s": 0.25, "memory": 3e6}
         return SimpleNamespace(version="1.2", force=forces, residual=residual, **times) if made["in_time"] else None

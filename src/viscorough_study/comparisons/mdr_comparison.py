@@ -40,16 +40,16 @@ COLUMNS = {
 FORCE_MARGIN = 1.01  # largest force of a disc's curve over the last compared force
 
 
-def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low, x_high, per_decade):
+def compare_reduction(*, hursts, elements, realizations, tolerance, seed, **abscissae):
     """Compare lines with discs of the same spectrum; return a pandas.DataFrame with the columns of `COLUMNS`.
 
     hursts : Hurst exponents; realizations : number of discs for each
     elements : across a disc of diameter and rms height 1, cut from a square of one period
     tolerance : tolerance of the loading curves of the discs; seed : root of the surfaces' seeds
-    x_low, x_high, per_decade : range and density of the abscissae X
+    abscissae : x_low, x_high and per_decade, the range and density of the abscissae X
     Abscissae beyond the end of any curve are omitted.
     """
-    x, tables = abscissa(x_low, x_high, per_decade), []
+    x, tables = abscissa(abscissae["x_low"], abscissae["x_high"], abscissae["per_decade"]), []
     force = 4 * x  # F/G = 4hLX with h = L = 1
     force_with_gap = np.where(is_power_of_ten(x), force, np.nan)
     for hurst in hursts:

@@ -63,27 +63,21 @@ def measured_contacts(scans):
     return pd.DataFrame(rows, columns=list(CONTACTS))
 
 
-def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
+def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):
     """Return {"measured_scans", "measured_fits", "measured_kinetics": table} of measured surfaces.
 
     Their columns are `COLUMNS`, fit_table.COLUMNS and `KINETICS`.
     pool : pool of all scans; curves, names, forces : for each scan the Content of its curve, its name and its forces
         [N]
-    media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
-    fit : settings in section `scaling`
-    Times at which a depth lies beyond the end of its curve are omitted.
+    fit : settings in section `scaling`; seed : of its bootstrap
+    loading : media and times, as in `measured_motions`
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
-    media, times = named_media(media), abscissa(**times)
     for name, batch, scan_forces in zip(names, curves, forces, strict=True):
         (curve,), (settings,) = unstack_curves(batch), json.loads(batch.attributes["settings"])["ensembles"]
         labels = {"scan": name, "group": settings["group"]}
         scans.append(labels | {"file": settings["file"]} | settings["lengths"])
-        for (medium_name, medium), force in product(media.items(), scan_forces):
-            if (reached := reached_times(curve.force[-1], force, medium, times)).size:
-                motion = kinetics(curve, force, medium, reached)
-                columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
-                motions.append(pd.DataFrame(labels | {"medium": medium_name, "force": force} | columns))
+        motions += [motion.assign(**labels) for motion in measured_motions(curve, scan_forces, **loading)]
     groups = ensembles(pool, "group").items()
     fits = [fit_rows(ensemble, source="measured", case_group=group, seed=seed, **fit) for group, ensemble in groups]
     return {
@@ -91,3 +85,19 @@ def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
         "measured_fits": pd.DataFrame(chain.from_iterable(fits)),
         "measured_kinetics": pd.concat(motions[1:] or motions, ignore_index=True)[list(KINETICS)],
     }
+
+
+def measured_motions(curve, forces, *, media, times):
+    """Return tables of time, depth and velocity of a measured surface, one for each medium and constant force.
+
+    curve : LoadingCurve of the surface; forces [N]
+    media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
+    Times at which a depth lies beyond the end of the curve are omitted, and tables without a time are left out.
+    """
+    tables = []
+    for (name, medium), force in product(named_media(media).items(), forces):
+        if (reached := reached_times(curve.force[-1], force, medium, abscissa(**times))).size:
+            motion = kinetics(curve, force, medium, reached)
+            columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
+            tables.append(pd.DataFrame({"medium": name, "force": force} | columns))
+    return tables

@@ -35,14 +35,15 @@ COLUMNS = {
 }
 
 
-def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_decade, seed):
+def periodic_control(*, hursts, points, surfaces, roll_off, seed, **levels):
     """Return g_per over X, with and without a roll-off, as a pandas.DataFrame with the columns of `COLUMNS`.
 
     points : points along a side of the square; surfaces : number for each Hurst exponent and spectrum
     roll_off : wavelength over the period, and level, as in self_affine_square
-    x_low, x_high, per_decade : range and density of the levels; g_per is taken between them
+    seed : root of the surfaces' seeds
+    levels : x_low, x_high and per_decade, the range and density of the levels X; g_per is taken between them
     """
-    x, tables = abscissa(x_low, x_high, per_decade), []
+    x, tables = abscissa(levels["x_low"], levels["x_high"], levels["per_decade"]), []
     rolled_off = {"roll_off_wavelength": points * roll_off["wavelength"], "roll_off_level": roll_off["level"]}
     for hurst, (wavelength, waves) in product(hursts, ((np.nan, {}), (roll_off["wavelength"], rolled_off))):
         seeds = [realization_seed(seed, *periodic_key(hurst, number)) for number in range(surfaces)]

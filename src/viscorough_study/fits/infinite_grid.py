@@ -112,11 +112,10 @@ def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
     discs, lines : pools of grids from coarse to fine; ranges : setting `collapse`; tolerance : tolerance of exponents
     conventions : conventions of the figures; options : fraction_min and seed, as in scaling_collapse.grids
     """
-    options |= {name: conventions[name] for name in ("average", "rms_convention")}
     options |= {"elements_min": min(ranges["elements_min"]), "resamples": ranges["resamples"]}
     ends = {"power": ranges["x_high"], "corrected": ranges["corrected_x_high"]}
     pools = {"discs": discs, "controls": discs, "lines": lines}
-    by_source = {source: grids(pool, source, **options) for source, pool in pools.items()}
+    by_source = {source: grids(pool, source, conventions=conventions, **options) for source, pool in pools.items()}
     curves = curve_table(by_source["discs"], CURVES_END)
     collapses = collapse_table(by_source, x_high=ranges["x_high"], tolerance=tolerance)
     del by_source["controls"]

@@ -13,6 +13,7 @@ the control that pass it, are estimated from synthetic ensembles with the scatte
 """
 
 import logging
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
@@ -118,41 +119,58 @@ def plateau_table(discs, *, control, rms_convention, region, seed, **options):
 
     discs : pool (viscorough_study.ensembles.pool); control : group without a power law, or None
     region : limits of region (b), arguments of viscorough_study.fits.power_law.find_region
-    options : further arguments of `plateau_row`
+    options : fields of `PlateauTest`
     """
+    test = PlateauTest(**options)
     pool = ensembles(discs, "group", "hurst", rms_convention=rms_convention)
     rows = []
     for group in ("base", control) if control else ("base",):
         for hurst, ensemble in sorted((h, ensemble) for (name, h), ensemble in pool.items() if name == group):
             logging.info("%s, H = %g", group, hurst)
             random = np.random.default_rng(realization_seed(seed, *plateau_key(hurst, group)))
-            row = plateau_row(ensemble, pool.get((control, hurst)), random=random, **options)
-            slopes = {"half_width": options["half_width"] * np.log(10), "resamples": options["resamples"]}
+            row = plateau_row(ensemble, pool.get((control, hurst)), test, random)
+            slopes = {"half_width": test.half_width * np.log(10), "resamples": test.resamples}
             row |= half_spread(ensemble, find_region(ensemble, **region), random=random, **slopes)
             rows.append({"case_group": group, **row})
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_min, resamples, draws, random):
+@dataclass(frozen=True)
+class PlateauTest:
+    """The test for a plateau of the local slope.
+
+    x_range : range of X of the plateau
+    half_width : half width of local slopes, in decades; they extend beyond x_range
+    tolerance : tolerance of the local slope; decades_min : length with which an ensemble passes
+    resamples : number of bootstrap resamples; draws : number of synthetic ensembles of each kind
+    """
+
+    x_range: tuple[float, float]
+    half_width: float
+    tolerance: float
+    decades_min: float
+    resamples: int
+    draws: int
+
+
+def plateau_row(ensemble, control, test, random):
     """Return the row of one ensemble, with the keys of `COLUMNS` except case_group, without undefined results.
 
     ensemble : ensemble dataset (viscorough_study.ensembles.averages) of one rms convention
     control : dataset of the control of the same Hurst exponent, or None
-    x_range : range of X of the plateau; half_width : half width of local slopes, in decades; they extend beyond x_range
-    tolerance : tolerance of the local slope; decades_min : length with which an ensemble passes; random :
-        numpy.random.Generator
+    test : PlateauTest; random : numpy.random.Generator
     The results are undefined if a realization does not reach all abscissae.
     """
-    x, margin = ensemble["x"].values, 10 ** (half_width * (1 + ROUNDING))
-    chosen = (x >= x_range[0] / margin) & (x <= x_range[1] * margin)
+    x, margin = ensemble["x"].values, 10 ** (test.half_width * (1 + ROUNDING))
+    chosen = (x >= test.x_range[0] / margin) & (x <= test.x_range[1] * margin)
     log_x, log_y = np.log(x[chosen]), np.log(ensemble["velocity"].values[:, chosen])
     row = {"hurst": ensemble["hurst"].item(), "realizations": len(log_y)}
     if not np.isfinite(log_y).all():
         return row
-    options = {"half_width": half_width * np.log(10), "tolerance": tolerance, "random": random}
-    row |= plateau(log_x, log_y, resamples=resamples, **options)
+    options = {"half_width": test.half_width * np.log(10), "tolerance": test.tolerance, "random": random}
+    row |= plateau(log_x, log_y, resamples=test.resamples, **options)
     residuals = log_y - log_y.mean(axis=0)
-    options |= {"draws": draws, "decades_min": decades_min, "resamples": RESAMPLES_OF_DRAWS}
+    options |= {"draws": test.draws, "decades_min": test.decades_min, "resamples": RESAMPLES_OF_DRAWS}
     passed, failed = shares(log_x, 0 * log_x, residuals, **options)  # of power laws: the slope has no effect
     row |= {"power_law_passes": passed, "power_law_fails": failed}
     if control is not None:

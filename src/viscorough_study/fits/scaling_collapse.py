@@ -124,22 +124,23 @@ def variance_share(hurst, number, source):
     return grid_sum / total
 
 
-def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, resamples, seed):
+def grids(pool, source, *, conventions, elements_min, fraction_min, resamples, seed):
     """Return {H: grids from coarse to fine} of a pool; source : discs, controls or lines
 
     Abscissae begin when the median number of elements in contact first reaches elements_min; at least the fraction
     fraction_min of the curves must be defined. Grids of fewer than three realizations are omitted.
+    conventions : average and rms_convention
     """
     group, grids_by_hurst = "controls" if source == "controls" else "sizes", {}
     generator = np.random.default_rng(seed)
-    on_grids = ensembles_on_grids(select(pool, group=group), source, rms_convention)
+    on_grids = ensembles_on_grids(select(pool, group=group), source, conventions["rms_convention"])
     for hurst, number, punch, ensemble in sorted(on_grids, key=lambda grid: grid[:2]):
         enough = np.logical_or.accumulate(ensemble["contact_count_median"].values >= elements_min)
         if ensemble.sizes["realization"] < FEWEST["realizations"] or not enough.any():
             continue
         kept = enough & (ensemble["fraction_defined"].values >= fraction_min)
         velocity = ensemble["velocity"].values[:, kept]
-        means = log_means(velocity, average, resamples, generator)
+        means = log_means(velocity, conventions["average"], resamples, generator)
         share = variance_share(hurst, number, source)
         x, count = (ensemble[name].values[kept] for name in ("x", "contact_count_median"))
         grids_by_hurst.setdefault(hurst, []).append(Grid(number, len(velocity), np.log(x), means, count, punch, share))

@@ -1,5 +1,6 @@
 """Hold the evidence for judging the paper's claims, and the outcome of one case of a claim."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -117,48 +118,81 @@ class Evidence:
         together = ndtri(1 - CONFIDENCE_TAIL / cases) / ndtri(1 - CONFIDENCE_TAIL)
         return False if equivalence(widened(values, factor * together), low, high) is False else None
 
-    def case(
-        self, name, values, expected, allowed, *, extremes=NO_INTERVAL, others=None, holds_in="", own="", **counted
-    ):
+    def case(self, name, values, expected, allowed, *, extremes=NO_INTERVAL, **counted):
         """Return the case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
 
-        counted : realizations and cases, as in `within`
-        others : value and interval in every combination of the conventions that the paper leaves open, shape
-            (combinations, 3); few realizations do not show which of them a claim holds in
-        holds_in : combination in words in which every case of the claim holds, "" if there is none
-        own : the combination of the case itself in words, by default the conventions of the figures
+        values : value and 95 % interval; extremes : least and largest value; counted : realizations and cases, as in
+            `within`
         """
-        met = self.within(values, *allowed, **counted)
-        if others is None or self.are_few(counted["realizations"]):
-            return judged(name, values, expected, met, extremes=extremes)
-        decided = [self.within(one, *allowed, **counted) for one in others]
+        return judged(name, values, expected, self.within(values, *allowed, **counted), extremes=extremes)
+
+    def case_in_combinations(self, name, values, expected, allowed, combinations, **counted):
+        """Return the case of a quantity that is also known in other conventions that the paper leaves open.
+
+        combinations : Combinations; few realizations do not show which of them a claim holds in
+        Other parameters as in `case`.
+        """
+        if self.are_few(counted["realizations"]):
+            return self.case(name, values, expected, allowed, **counted)
+        met, holds_in = self.within(values, *allowed, **counted), combinations.holds_in
+        decided = [self.within(combination, *allowed, **counted) for combination in combinations.values]
         counts = (len(decided), decided.count(True), decided.count(False))
         if met and counts[2]:
-            met, holds_in = False, own or as_text({one: self.conventions[one] for one in FITTED})
-        return judged(name, values, expected, met, holds_in, extremes=extremes, counts=counts)
+            met, holds_in = False, combinations.own or as_text({name: self.conventions[name] for name in FITTED})
+        return judged(name, values, expected, met, holds_in, counts=counts)
 
-    def cases_in_conventions(self, own, every, column, law, tolerance, *, names, compared=True, relative=False):
+    def cases_in_conventions(self, own, every, column, law, *, names, compared=True):
         """Yield cases of a quantity that must be near the law, one for each H, with its values in all conventions.
 
         own, every : rows by H in the conventions of the figures, and in every combination, with `hurst` and names
-        column : column of the quantity; law : function of H; relative : True if the tolerance applies to the ratio to
-            the law
+        column : column of the quantity; law : Law
         names : columns that name a combination; compared : mask of the rows with combinations that count for the claim
         """
         columns = [column, f"{column}_low", f"{column}_high"]
-        expected = law(every["hurst"])
-        deviation = every[columns[1:]].sub(expected, axis=0).abs().max(axis=1, skipna=False)
-        distance = deviation / (expected.abs() * tolerance if relative else tolerance)
+        deviation = every[columns[1:]].sub(law.value(every["hurst"]), axis=0).abs().max(axis=1, skipna=False)
+        distance = deviation / law.allowed_deviation(every["hurst"])
         mask, holds_in = compared & every["hurst"].isin(own.index), ""
         largest = distance.fillna(np.inf)[mask].groupby([every[name] for name in names], sort=False).max()
         if largest.min() <= 1:
             holds_in = as_text(dict(zip(names, largest.idxmin(), strict=True)))
         for hurst, row in own.iterrows():
             values = every.loc[every["hurst"] == hurst, columns].dropna().to_numpy()
-            more = {"realizations": row["realizations"], "cases": len(own), "others": values, "holds_in": holds_in}
-            half = law(hurst) * tolerance if relative else tolerance
-            ends = law(hurst) - half, law(hurst) + half
-            yield self.case(hurst_name(hurst), interval(row, column), law(hurst), ends, **more)
+            counted = {"realizations": row["realizations"], "cases": len(own)}
+            expected, half = law.value(hurst), law.allowed_deviation(hurst)
+            ends, combinations = (expected - half, expected + half), Combinations(values, holds_in)
+            yield self.case_in_combinations(
+                hurst_name(hurst), interval(row, column), expected, ends, combinations, **counted
+            )
+
+
+@dataclass(frozen=True)
+class Combinations:
+    """A quantity in every combination of the conventions that the paper leaves open.
+
+    values : value and 95 % interval, shape (combinations, 3)
+    holds_in : combination in words in which every case of the claim holds, "" if there is none
+    own : the combination of the case itself in words, by default the conventions of the figures
+    """
+
+    values: np.ndarray | list
+    holds_in: str = ""
+    own: str = ""
+
+
+@dataclass(frozen=True)
+class Law:
+    """A law of a quantity over the Hurst exponent, and the tolerance of a claim that the quantity follows it.
+
+    value : function of H; relative : True if the tolerance applies to the ratio to the law
+    """
+
+    value: Callable
+    tolerance: float
+    relative: bool = False
+
+    def allowed_deviation(self, hurst):
+        """Return the largest deviation from the law with which a claim holds."""
+        return abs(self.value(hurst)) * self.tolerance if self.relative else self.tolerance
 
 
 def widened(values, factor):

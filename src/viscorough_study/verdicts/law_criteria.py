@@ -10,7 +10,7 @@ from viscorough import reference
 from viscorough_study.fits.conventions import FITTED, select, source_values
 from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, with_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
-from viscorough_study.verdicts.evidence import hurst_name, judged
+from viscorough_study.verdicts.evidence import Law, hurst_name, judged
 from viscorough_study.verdicts.region_criteria import combinations_case
 
 SHARE_OF_SQUARE = 0.75  # lower bound of the share of a square's elements in its disc
@@ -24,7 +24,7 @@ def beta(evidence, tolerance, source="discs"):
     fits, every = evidence.fits(source), evidence.every_fit(source)
     fits = fits[fits.index > evidence.paper_value("agreement", "beta_hurst_min")]
     named = {"names": list(FITTED), "compared": every["case_group"] == "base"}
-    return evidence.cases_in_conventions(fits, every, "beta", reference.exponent_beta, tolerance, **named)
+    return evidence.cases_in_conventions(fits, every, "beta", Law(reference.exponent_beta, tolerance), **named)
 
 
 def beta_lines(evidence, tolerance):
@@ -55,7 +55,7 @@ def coincide(evidence, tolerance):
     both = both.assign(**dict(zip(columns, difference(interval(both, "beta"), of_lines), strict=True)))
     both["realizations"] = both[["realizations", "realizations_of_lines"]].min(axis=1)
     own = select(both, evidence.conventions).set_index("hurst")
-    return evidence.cases_in_conventions(own, both, "difference", lambda h: 0.0 * h, tolerance, names=list(FITTED))
+    return evidence.cases_in_conventions(own, both, "difference", Law(lambda h: 0.0 * h, tolerance), names=list(FITTED))
 
 
 def hurst_only(evidence, tolerance):

@@ -10,6 +10,7 @@ import numpy as np
 from viscorough import reference
 from viscorough_study.fits.conventions import VALUES, in_reading
 from viscorough_study.fits.zeta_laws import difference, measure_value
+from viscorough_study.verdicts.evidence import Combinations, Law
 
 # Measures by which one law fits better than another (fits.zeta_laws): the measure of the criterion, and others.
 MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), ("zeta", "spread"))
@@ -28,8 +29,8 @@ def zeta_viscous(evidence, tolerance):
 def _absolute(evidence, tolerance, law, gamma):
     """Return cases of ζ against a law, a function of H, one for each Hurst exponent."""
     every = in_reading(evidence.every_fit("discs"), gamma).rename(columns={"case_group": "surfaces"})
-    own, named = evidence.fits("discs", gamma=gamma), {"names": [*VALUES, "surfaces"], "relative": True}
-    return evidence.cases_in_conventions(own, every, "zeta", law, tolerance, **named)
+    own, law = evidence.fits("discs", gamma=gamma), Law(law, tolerance, relative=True)
+    return evidence.cases_in_conventions(own, every, "zeta", law, names=[*VALUES, "surfaces"])
 
 
 def zeta_elastic_shape(evidence, tolerance):
@@ -69,5 +70,6 @@ def zeta_better(evidence, tolerance):
     context = {"realizations": table["realizations"].min(), "cases": len(readings)}
     for law, reading in readings.items():
         values, *others = (measure_value(table, quantity, difference(law), measure) for quantity, measure in MEASURES)
-        context |= {"others": [values, *others], "own": "deviation of the curves"}
-        yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **context)
+        combinations = Combinations([values, *others], own="deviation of the curves")
+        allowed = (tolerance, np.inf)
+        yield evidence.case_in_combinations(f"all H, {reading}", values, np.nan, allowed, combinations, **context)

@@ -6,6 +6,7 @@ import pytest
 from support.study import ensemble_of
 from viscorough_study.fits.plateau import (
     COLUMNS,
+    PlateauTest,
     half_spread,
     inner_slopes,
     longest_plateau,
@@ -67,7 +68,7 @@ def row(mean):
         ensemble_of(X, X * np.exp(-scattered(curve, number, 0.1, seed)), elements=10**9).isel(rms_convention=0)
         for curve, number, seed in ((mean, 200, 0), (control(X), 20, 1))
     )
-    return plateau_row(curve, none, resamples=100, draws=10, random=np.random.default_rng(4), **OPTIONS)
+    return plateau_row(curve, none, PlateauTest(**OPTIONS, resamples=100, draws=10), np.random.default_rng(4))
 
 
 def test_row_distinguishes_a_power_law_from_a_control():
@@ -86,7 +87,7 @@ def test_curves_that_do_not_reach_all_abscissae_are_undecided():
     curves = np.exp(-scattered(0.3 * np.log(X) - 3, 20, 0.1)) * X
     curves[0, -40:] = np.nan
     short = ensemble_of(X, curves).isel(rms_convention=0)
-    columns = plateau_row(short, None, resamples=20, draws=2, random=np.random.default_rng(1), **OPTIONS)
+    columns = plateau_row(short, None, PlateauTest(**OPTIONS, resamples=20, draws=2), np.random.default_rng(1))
     assert columns == {"hurst": 0.7, "realizations": 20}
 
 

@@ -113,7 +113,8 @@ def pool(*realizations, scatter=0.0):
     return pool_of(members, "sizes")
 
 
-OF_POOL = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95, "seed": 1}
+CONVENTIONS = {"average": "geometric", "rms_convention": "disc"}
+OF_POOL = {"conventions": CONVENTIONS, "elements_min": 10, "fraction_min": 0.95, "seed": 1}
 
 
 def test_realizations_of_each_grid_are_drawn_independently():

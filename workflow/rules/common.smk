@@ -125,11 +125,11 @@ def own_rules():
 
 def benchmark_files(counted):
     """{rule: benchmark files of its jobs} of rules, with the jobs of these settings."""
-    files = {}
+    jobs, files = cases.pool_jobs(CASES), {}
     for member in counted:
         if pattern := member.benchmark:
-            jobs = [job for job in cases.pool_jobs(CASES) if get_wildcard_names(pattern) <= job.keys()]
-            files[member.name] = sorted({apply_wildcards(pattern, job) for job in jobs})
+            described = [job for job in jobs if get_wildcard_names(pattern) <= job.keys()]
+            files[member.name] = sorted({apply_wildcards(pattern, job) for job in described})
     return files
 
 

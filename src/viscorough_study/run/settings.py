@@ -136,14 +136,22 @@ def allowed(rule):
     return ", ".join(filter(None, parts))
 
 
+# {type of the items of a list: noun, and what connects it with the values allowed for an item}
+_ITEMS = {
+    "integer": ("integers", ", each"),
+    "number": ("numbers", ", each"),
+    "string": ("texts", ", each"),
+    "array": ("lists", " of"),
+}
+
+
 def _allowed_items(rule):
     least, most, items = rule["minItems"], rule["maxItems"], resolved(rule["items"])
-    number = f"{least}" if least == most else f"{least} to {most}"
-    once = rule.get("eachOnce", False)
+    number, once = f"{least}" if least == most else f"{least} to {most}", rule.get("eachOnce")
     if items["type"] == "object":
-        return f"{number} mappings" + f", each {once} once" * bool(once)
-    noun = "lists" if items["type"] == "array" else "values"
-    return f"{number} {noun}, each {allowed(items)}" + ", none twice" * bool(once)
+        return f"{number} mappings" + (f", no `{once}` twice" if once else "")
+    noun, connection = ("values", " of") if "enum" in items else _ITEMS[items["type"]]
+    return f"{number} {noun}{connection} {allowed(items).removeprefix('integer, ')}" + ", none twice" * bool(once)
 
 
 def unit_of(rule):

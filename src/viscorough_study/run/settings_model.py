@@ -30,23 +30,25 @@ class Combination(Section):
     """One combination of force, viscosity, diameter and rms height."""
 
     number: whole(1, 99) = meaning(
-        "its number in file names and seeds; renumbering gives other surfaces, reordering does not"
+        "number of the combination in file names and seeds; renumbering gives other surfaces, reordering does not"
     )
     force: real(1e-12, 1e9, unit="N") = meaning("constant force F; affects only the time axis in SI units")
     viscosity: real(1e-9, 1e15, unit="Pa s") = meaning(
-        "shear viscosity η of the half-space; it, too, affects only the time axis in SI units"
+        "shear viscosity η of the half-space; affects only the time axis in SI units"
     )
     diameter: real(1e-9, 1e3, unit="m") = meaning("diameter L of the indenter")
     rms: real(1e-12, 10, unit="m") = meaning(
         "nominal rms height h; small compared with L, because half-space theory requires small slopes",
-        also="1e-12 L to L/100",
+        also="from 1e-12 L, below L/100",
     )
 
 
 class Discs(Section):
     """Discs of self-affine surfaces, by boundary elements, in real units."""
 
-    hurst: HURST_EXPONENTS = meaning("Hurst exponents H of the discs", also="in `lines.hurst`, since λ(H) needs both")
+    hurst: HURST_EXPONENTS = meaning(
+        "Hurst exponents H of the discs", also="each also in `lines.hurst`, since λ(H) needs both"
+    )
     elements: whole(9, 4097) = meaning("elements across the diameter; the paper has 257")
     tolerance: real(1e-8, 0.1) = meaning(
         "relative accuracy of the curves of ensembles; it replaces `indentation.tolerance`, since a mean over many "
@@ -59,7 +61,8 @@ class Discs(Section):
         "`indentation.until_x`; beyond `discs.short_until_x` means are over these"
     )
     short_until_x: real(above=0, high=1e4) = meaning(
-        "X at which the other curves end", also="at least `verdicts.plateau_range` and half a slope's width"
+        "X at which the curves of further realizations end",
+        also="at least `verdicts.plateau_range` and half a slope's width",
     )
     batch: BATCH = meaning(
         "realizations of every combination in a job; at most these are lost when it is killed. A change alters no "
@@ -156,7 +159,7 @@ class Indentation(Section):
 class Lines(Section):
     """Self-affine lines (h = L = 1 m), by the method of dimensionality reduction."""
 
-    hurst: HURST_EXPONENTS = meaning("Hurst exponents of the lines", also="all of `discs.hurst`")
+    hurst: HURST_EXPONENTS = meaning("Hurst exponents of the lines", also="with all of `discs.hurst`")
     points: whole(256, 2**26) = meaning(
         "points of a line; the paper has 4 000 000. Lines are generated in the job that computes their curves, and "
         "not stored"
@@ -195,7 +198,7 @@ class Scaling(Section):
         "shortest window; over less than a factor of three in X any smooth curve looks like a power law"
     )
     stiffness_range: several(real(above=0, high=1), 2, 2) = meaning(
-        "lower and upper κ of the window `kappa`; the same state of contact on any grid", also="in this order"
+        "lower and upper κ of the window `kappa`; the same state of contact on any grid", also="in ascending order"
     )
     resamples: whole(10, 1_000_000) = meaning("bootstrap samples of each fit")
 
@@ -278,10 +281,14 @@ class Limits(Section):
     """Largest relative error on the finest grid, by quantity."""
 
     force: LIMIT = meaning("largest relative error of the force on sphere and cone")
-    depth: LIMIT = meaning("largest relative error of their depth; at given impulse or, by the MDR, at given force")
-    stiffness: LIMIT = meaning("largest relative error of their stiffness")
-    velocity: LIMIT = meaning("largest relative error of their velocity under constant and rising force")
-    area: LIMIT = meaning("largest relative error of their contact area")
+    depth: LIMIT = meaning(
+        "largest relative error of the depth of sphere and cone; at given impulse or, by the MDR, at given force"
+    )
+    stiffness: LIMIT = meaning("largest relative error of the stiffness of sphere and cone")
+    velocity: LIMIT = meaning(
+        "largest relative error of the velocity of sphere and cone; under constant and rising force"
+    )
+    area: LIMIT = meaning("largest relative error of the contact area of sphere and cone")
     punch_stiffness: LIMIT = meaning("largest relative error of the stiffness of a flat disc and a flat ellipse")
     correspondence: LIMIT = meaning(
         "largest relative error of the depth of a rough disc; the correspondence against direct integration in time, "
@@ -337,8 +344,8 @@ class MediumCase(Section):
     relaxation_times: several(real(**POSITIVE, unit="s"), 1, 100) = meaning(
         "relaxation times of the branches of `prony`", None
     )
-    modulus: real(**POSITIVE, unit="Pa sᵃ") = meaning("K of `springpot`, J = tᵃ/(K Γ(1 + a))", None)
-    exponent: real(above=0, high=1) = meaning("a of `springpot`", None)
+    modulus: real(**POSITIVE, unit="Pa sᵃ") = meaning("coefficient K of `springpot`; J = tᵃ/(K Γ(1 + a))", None)
+    exponent: real(above=0, high=1) = meaning("exponent a of `springpot`", None)
 
 
 class Media(Section):
@@ -356,7 +363,9 @@ class Preparation(Section):
         "values that mark points that were not measured", None
     )
     crop: several(several(whole(0, 1_000_000), 2, 2), 2, 2) = meaning(
-        "first column and end, first row and end, from 0; ends are not included", None, also="ends above the first"
+        "first column and end, first row and end, from 0; ends are not included",
+        None,
+        also="each end above the first number",
     )
     flip: bool = meaning("whether the sign is changed, for data in which larger is lower", None)
     detrend: Literal["none", "mean", "plane", "sphere"] = meaning("surface that is fitted and subtracted", None)
@@ -367,7 +376,7 @@ class ScanGroup(Section):
     """A group of scans that are read and prepared alike."""
 
     name: NAME = meaning("name of the group in tables and file names")
-    files: several(text(r"^[^\n]+$", "text without line breaks"), 1, 1000) = meaning(
+    files: several(text(r"^[^\n]+$", "without line breaks"), 1, 1000) = meaning(
         "files or patterns of files; relative to the folder where the workflow runs"
     )
     spacing: several(real(above=0, high=1e12, unit="unit of the heights"), 0, 2) = meaning(
@@ -382,7 +391,7 @@ class ScanGroup(Section):
         "Young's modulus of an elastic half-space, for a table of contacts under the forces; without it there is none",
         None,
     )
-    poisson_ratio: real(above=-1, high=0.5) = meaning("Poisson ratio of this half-space", 0.5)
+    poisson_ratio: real(above=-1, high=0.5) = meaning("Poisson ratio of the elastic half-space", 0.5)
 
 
 class Reduction(Section):
@@ -400,7 +409,7 @@ class Scenes(Section):
     """Indenters for which the placement of levels is compared."""
 
     elements: whole(9, 1025) = meaning("elements across the indenters for which the placement of levels is compared")
-    hurst: real(0, 1) = meaning("Hurst exponent of the rough disc among them")
+    hurst: real(0, 1) = meaning("Hurst exponent of the rough disc among these indenters")
 
 
 class OneSurface(Section):
@@ -413,9 +422,7 @@ class OneSurface(Section):
         "elements across the full map, to which all are compared; the grids are every second to every sixteenth point "
         "of it"
     )
-    surfaces: whole(1, 1000) = meaning(
-        "surfaces of each of these Hurst exponents; errors are root mean squares over them"
-    )
+    surfaces: whole(1, 1000) = meaning("surfaces of each Hurst exponent; errors are root mean squares over them")
 
 
 class Methods(Section):
@@ -428,7 +435,7 @@ class Methods(Section):
     bodies: several(Literal["sphere", "cone"], 0, 2, once=True) = meaning(
         "bodies of revolution in addition to the rough discs"
     )
-    bodies_elements: ROUGH_GRIDS = meaning("elements across these bodies")
+    bodies_elements: ROUGH_GRIDS = meaning("elements across the bodies of revolution")
     levels: whole(3, 1000) = meaning("depths at which velocities are compared")
     repeats: whole(1, 100) = meaning("timed repeats, interleaved; their medians are taken")
     longest: real(0.01, 3600, unit="s") = meaning(
@@ -486,9 +493,11 @@ class Sizes(Section):
     windows: several(several(X, 2, 2), 0, 9, once=True) = meaning(
         "first and last X of windows in which exponents on all grids are compared; in addition to the windows of "
         "region (b), which move with the grid",
-        also="at least a decade",
+        also="each at least a decade wide",
     )
-    until_x: real(1e-14, 1e6) = meaning("X = F/(4GhL) at which these curves end", also=f"{TEN_TIMES} `ensemble.x_low`")
+    until_x: real(1e-14, 1e6) = meaning(
+        "X = F/(4GhL) at which the curves of all grids end", also=f"{TEN_TIMES} `ensemble.x_low`"
+    )
     batch: BATCH = meaning("realizations per job, of all grids and Hurst exponents one after the other")
 
 

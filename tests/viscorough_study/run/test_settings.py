@@ -25,7 +25,7 @@ WRONG = [
     ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: integer, 9 to"),
     ({"discs": {"realizations": True}}, "discs.realizations is True; allowed: integer, 2 to"),
     ({"discs": {"hurst": [0.4, 1.2]}}, "discs.hurst[1] is 1.2; allowed: 0 to 1, at most 4 decimals (Hurst"),
-    ({"discs": {"hurst": []}}, "discs.hurst is []; allowed: 1 to 101 values, each 0 to 1"),
+    ({"discs": {"hurst": []}}, "discs.hurst is []; allowed: 1 to 101 numbers, each 0 to 1"),
     ({"discs": None}, "discs is empty; allowed: a mapping (Discs of"),
     ({"indentation": {"tolerance": "1e-3"}}, "write numbers as 1.0e-3, with a point"),
     ({"indentation": {"until_x": float("nan")}}, "indentation.until_x is nan; allowed: 1e-14 to 10000 ("),

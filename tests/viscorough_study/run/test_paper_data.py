@@ -3,7 +3,7 @@
 import yaml
 
 from support.study import CLAIMS, NUMBERS, ROOT
-from viscorough_study.run.paper_data import read_paper
+from viscorough_study.run.paper_data import read_paper, read_records
 
 
 def test_every_number_states_its_place_in_the_paper():
@@ -38,3 +38,12 @@ def test_settings_of_the_paper_agree_with_its_numbers():
     assert paper["discs"]["realizations"] >= numbers["realizations_min"]
     assert paper["lines"]["points"] == NUMBERS["reduction"]["points"]["value"]
     assert len(paper["lines"]["hurst"]) == NUMBERS["reduction"]["hurst_count"]["value"]
+
+
+def test_records_of_a_table_have_numbers_and_texts(tmp_path):
+    (tmp_path / "table.csv").write_text(
+        "solver,version,levels,seconds\nown,1.0.0,3,1.0e-3\nother,,4,\n", encoding="utf-8"
+    )
+    own, other = read_records(tmp_path / "table.csv")
+    assert own == {"solver": "own", "version": "1.0.0", "levels": 3, "seconds": 1e-3}
+    assert other == {"solver": "other", "version": None, "levels": 4, "seconds": None}

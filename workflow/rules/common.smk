@@ -27,7 +27,10 @@ SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).pare
 
 
 def complete(given, files, options):
-    """The settings of the run and the cases of its measured surfaces; ends with one line for a wrong setting."""
+    """Return all settings and the cases of measured surfaces; end with one line for a wrong setting.
+
+    given, files, options : as in `complete_settings`
+    """
     try:
         defaults = PROJECT / "config" / "config.yaml"
         completed, sources = complete_settings(defaults, given, files, options)
@@ -38,12 +41,12 @@ def complete(given, files, options):
 
 
 def chosen(section, *names):
-    """{name: setting} of these settings of a section."""
+    """Return {name: setting} of these settings of a section."""
     return {name: config[section][name] for name in names}
 
 
 def without(section, *names):
-    """{name: setting} of a section without these settings."""
+    """Return {name: setting} of a section without these settings."""
     return {name: value for name, value in config[section].items() if name not in names}
 
 
@@ -52,12 +55,12 @@ def without(section, *names):
 
 @cache
 def paper(name):
-    """Content of a file in resources/paper."""
+    """Return the content of a file in resources/paper."""
     return read_paper(PROJECT / "resources" / "paper", name)
 
 
 def text_digests(paths):
-    """Digests of texts that are not results of the run; their paths depend on the location of the project."""
+    """Return digests of texts that are not results of the run; their paths depend on the location of the project."""
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in paths]
 
 
@@ -65,19 +68,19 @@ def text_digests(paths):
 
 
 def batch_ensembles(table, case, batch):
-    """Ensembles of a batch of a case; ends with one line if the settings do not have this batch."""
+    """Return the ensembles of a batch of a case; end with one line if the settings do not have this batch."""
     if batch not in (existing := cases.batches(table[case])):
         end_run(f"batch {batch} of {case} is not one of the settings; allowed: {', '.join(existing)}")
     return cases.batch_ensembles(table[case], batch)
 
 
 def scan_value(name):
-    """Input or params function: a value of the measured surface."""
+    """Return an input or params function, of a value of the measured surface."""
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
 
 def indentation_memory(wildcards):
-    """Memory of a job that indents [MB]."""
+    """Return the memory of a job that indents [MB]."""
     case = CASES[wildcards.kind][wildcards.case]
     return cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
 
@@ -86,7 +89,7 @@ def indentation_memory(wildcards):
 
 
 def chapter(name):
-    """Category of a result, as a function, which Snakemake calls only when it makes a report."""
+    """Return a function for the category of a result, which Snakemake calls only when it makes a report."""
 
     def category(wildcards):
         require_current()
@@ -105,13 +108,13 @@ def require_current():
 
 
 def figure_files(target):
-    """Files of the figures of a target, by their rules."""
+    """Return the files of the figures of a target, from their rules."""
     names = (name for name, figure in REGISTRY.figures.items() if figure["target"] == target)
     return [getattr(rules, f"plot_{name}").output for name in names]
 
 
 def table_files(target):
-    """Files of the tables of a target."""
+    """Return the files of the tables of a target."""
     return expand("results/tables/{table}.{kind}", table=REGISTRY.tables(target), kind=("csv", "nc"))
 
 
@@ -119,12 +122,12 @@ def table_files(target):
 
 
 def own_rules():
-    """The rules of this workflow, without those of one that uses it as a module."""
+    """Return the rules of this workflow, without the rules of a workflow that uses it as a module."""
     return [member for member in workflow.rules if path_of(member.basedir).is_relative_to(WORKFLOW)]
 
 
 def benchmark_files(counted):
-    """{rule: benchmark files of its jobs} of rules, with the jobs of these settings."""
+    """Return {rule: benchmark files of its jobs} of rules, with the jobs of these settings."""
     jobs, files = cases.pool_jobs(CASES), {}
     for member in counted:
         if pattern := member.benchmark:

@@ -1,4 +1,4 @@
-"""What comes before all rules: where the project is, whose packages it uses, and the surroundings of jobs."""
+"""Steps before all rules: find the project, check its packages and the folder, and set the environment of jobs."""
 
 import importlib.util
 import os
@@ -9,7 +9,7 @@ import yaml
 
 
 def path_of(source):
-    """Path of a file or folder as Snakemake knows it."""
+    """Return the path of a file or folder from Snakemake's description of it."""
     return Path(str(source.get_path_or_uri(secret_free=False)))
 
 
@@ -19,13 +19,13 @@ PROJECT = WORKFLOW.parent
 
 
 def read_yaml(path):
-    """Content of a file of the project."""
+    """Return the content of a file of the project."""
     return yaml.load((PROJECT / path).read_text(encoding="utf-8"), yaml.CSafeLoader)
 
 
-def end_run(message, where=""):
+def end_run(message, place=""):
     """End Snakemake with one line; a WorkflowError would show three more lines, about this file."""
-    raise SystemExit(f"{f'Error {where}'.strip()}: {message}")
+    raise SystemExit(f"{f'Error {place}'.strip()}: {message}")
 
 
 def use_packages_of_checkout():

@@ -1,5 +1,5 @@
-# The tables of workflow/results.yaml that functions make: one rule for each function, and one script, for the many tables
-# beside the main chain.
+# The tables of workflow/results.yaml that are not in the main chain (fits.smk, verdicts.smk): one rule for each function
+# that makes tables, and one script for all.
 
 # {name of an input: files}
 TABLE_INPUTS = {

@@ -1,4 +1,4 @@
-"""Fit the interface: what a rough interface in series with a flat punch adds to vt/h, and its plateau u₀/h."""
+"""Fit the contribution to vt/h of a rough interface in series with a flat punch, and its plateau u₀/h."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fits.interface import COLUMNS, CURVES, interface_tables

@@ -10,7 +10,7 @@ def main(discs, lines, csv, nc, **fit):
     """Fit every ensemble under every convention that the paper leaves open.
 
     discs, lines : files of the pools
-    fit : limits of region (b), and resamples and seed of the bootstrap, as in `scaling_table`
+    fit : arguments of `scaling_table`: limits of region (b), resamples and seed of the bootstrap
     """
     table = scaling_table(read_dataset(discs), read_dataset(lines), **fit)
     title, attributes = "Power laws in region (b)", recorded(settings=fit)

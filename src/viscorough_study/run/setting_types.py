@@ -5,7 +5,7 @@ becomes a part of the JSON schema, with keywords that the standard does not have
 
 - `unit` of a number, "1" without a unit,
 - `decimals`, the largest number of decimals, so that different Hurst exponents have different file names,
-- `eachOnce` of a list: true, or the key in which its mappings must differ,
+- `eachOnce` of a list: true, or the key whose values must differ between its mappings,
 - `allowed`, the pattern of a text in words,
 - `also`, a requirement in addition to the limits, such as an order of two settings.
 """
@@ -60,7 +60,7 @@ def text(pattern, allowed):
 def several(item, least, most, *, once=False):
     """Return the type of lists of `least` to `most` items.
 
-    once : whether items must differ, or the name of the key in which mappings must differ
+    once : whether items must differ, or the key whose values must differ between mappings
     """
     items = Annotated[list[item], Field(min_length=least, max_length=most)]
     if not once:

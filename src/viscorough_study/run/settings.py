@@ -136,7 +136,7 @@ def allowed(rule):
     return ", ".join(filter(None, parts))
 
 
-# {type of the items of a list: noun, and what connects it with the values allowed for an item}
+# {type of the items of a list: (noun, words before the values allowed for an item)}
 _ITEMS = {
     "integer": ("integers", ", each"),
     "number": ("numbers", ", each"),

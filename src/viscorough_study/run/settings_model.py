@@ -177,7 +177,7 @@ class Ensemble(Section):
 
 
 class Scaling(Section):
-    """Region (b) of a mean curve, in which the power law is fitted, and the bootstrap."""
+    """Region (b) of a mean curve, the window of the power law, and the bootstrap."""
 
     elements_min: real(1, 1e6) = meaning(
         "smallest number of elements in contact (median over realizations); below, the discretisation affects the curve"
@@ -314,7 +314,7 @@ class Direct(Section):
 
 
 class Times(Section):
-    """Times at which depth and velocity are tabulated, geometric."""
+    """Times of the tables of depth and velocity, in a geometric sequence."""
 
     low: real(1e-30, 1e30, unit="s") = meaning("first time")
     high: real(1e-30, 1e30, unit="s") = meaning("last time", also=f"{TEN_TIMES} `low`")
@@ -406,14 +406,14 @@ ROUGH_GRIDS = several(whole(9, 1025), 1, 8, once=True)
 
 
 class Scenes(Section):
-    """Indenters for which the placement of levels is compared."""
+    """Indenters of the comparison of placements of levels."""
 
     elements: whole(9, 1025) = meaning("elements across the indenters for which the placement of levels is compared")
     hurst: real(0, 1) = meaning("Hurst exponent of the rough disc among these indenters")
 
 
 class OneSurface(Section):
-    """Surfaces on which every model of one surface is measured."""
+    """Surfaces of the comparison of all models of one surface."""
 
     hurst: several(real(0.1, 1), 2, 4, once=True) = meaning(
         "Hurst exponents of the surfaces on which grids, requested errors, the MDR and the law are measured"

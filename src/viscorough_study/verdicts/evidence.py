@@ -121,16 +121,16 @@ class Evidence:
     def case(self, name, values, expected, allowed, *, extremes=NO_INTERVAL, **counted):
         """Return the case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
 
-        values : value and 95 % interval; extremes : least and largest value; counted : realizations and cases, as in
-            `within`
+        values : value and 95 % interval; extremes : least and largest value
+        counted : realizations and cases, for `within`
         """
         return judged(name, values, expected, self.within(values, *allowed, **counted), extremes=extremes)
 
     def case_in_combinations(self, name, values, expected, allowed, combinations, **counted):
         """Return the case of a quantity that is also known in other conventions that the paper leaves open.
 
-        combinations : Combinations; few realizations do not show which of them a claim holds in
-        Other parameters as in `case`.
+        combinations : Combinations; few realizations do not show which of them fulfil a claim
+        Further parameters are those of `case`.
         """
         if self.are_few(counted["realizations"]):
             return self.case(name, values, expected, allowed, **counted)
@@ -191,7 +191,7 @@ class Law:
     relative: bool = False
 
     def allowed_deviation(self, hurst):
-        """Return the largest deviation from the law with which a claim holds."""
+        """Return the largest deviation from the law that a claim allows."""
         return abs(self.value(hurst)) * self.tolerance if self.relative else self.tolerance
 
 

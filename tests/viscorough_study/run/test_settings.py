@@ -82,7 +82,7 @@ def test_wrong_settings_end_with_one_line(wrong, message):
 
 
 def places(settings, path=()):
-    """Yield the paths of all settings; of long lists, those of the first item."""
+    """Yield the paths of all settings, with the first item of each list."""
     if path:
         yield path
     for key in (

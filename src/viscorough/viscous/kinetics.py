@@ -134,7 +134,7 @@ def kinetics(
     else:
         row, moved = row_motion(curve, medium, load, int(place[-1]))
     _warn_of_the_beginning(curve, row, load, moved)
-    values = _without_discretisation(curve, row, load, moved, creep)
+    values = _without_discretisation(curve, medium, row, load, moved, creep)
     if medium.retardation is None and not medium.creep_compliance(0.0) > 0:
         _at_steps_of_soft_media(medium, load, *values)
     depths, forces, velocity, fraction = (each[place] for each in values)
@@ -351,14 +351,21 @@ def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> t
 
 
 def _without_discretisation(
-    curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion, creep: Any
+    curve: LoadingCurve, medium: Medium, row: RowOfSprings, load: Load, moved: RowMotion, creep: Any
 ) -> tuple[Array, Array, Array, Array]:
-    """Depth, force, velocity and contact fraction; those of the curve where the contact is as large as ever before."""
+    """Depth, force, velocity and contact fraction, from the curve if the contact is as large as ever before."""
     depth, force, velocity = moved.depth.copy(), moved.force.copy(), moved.velocity.copy()
     count = moved.in_contact
     front = np.where(count > 0, row.gap[np.maximum(count, 1) - 1], 0.0)
     if load.by_depth:
         front = np.where(moved.largest, depth, front)
+        viscosity = 0.0 if medium.relaxation is None else medium.relaxation.viscosity
+        if viscosity > 0:
+            # A dashpot resists with ηku'. The stiffness k of the curve does not jump where a spring touches.
+            sums = np.append(0.0, np.cumsum(row.stiffness))[count]
+            excess = viscosity * velocity * (curve.at_depth(np.maximum(depth, 0.0))[1] - sums)
+            corrected = moved.largest & (force > 0) & np.isfinite(excess)
+            force[corrected] = np.maximum(force + excess, 0.0)[corrected]
     else:
         elastic = np.maximum(moved.deflection, 0.0)
         if creep is not None:

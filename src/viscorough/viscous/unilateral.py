@@ -52,6 +52,9 @@ _HALVINGS, _NEWTON_STEPS = 64, 60
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
 # Events at one time, over the number of springs, that cannot happen: every spring can let go and touch once.
 _MOST_AT_ONCE = 4
+# Length of the first pause without events in an interval, over the time since the beginning, and largest number of
+# pauses. Their length doubles from the rounding of a time to 1e-9 of it.
+_PAUSE, _MOST_PAUSES = 5e-16, 21
 
 SETTLED, BEYOND, INFINITE, RESTLESS = 0, 1, 2, 3  # how a motion ended
 
@@ -554,7 +557,7 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 _remainders_in_contact(row, law, state, t, u, f, count, remainders)
         else:
             rate, f = (load[k] - before) / length, before
-            started, events, at = False, 0, t
+            started, events, at, pauses = False, 0, t, 0
             while True:
                 now, speed = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
                 touch = _next_touch(
@@ -566,9 +569,16 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     end = min(times[k] - t, touch)
                     release = _first_crossing(end, rounding, value, slope, 0.0, of_release, none, law.rates)
                 event = min(touch, release)
-                arrives = event > times[k] - t
-                s = times[k] - t if arrives else event
-                approaches = release < touch and not arrives and s * fastest > _FORGOTTEN and t + _APPROACH * s > t
+                if events > _MOST_AT_ONCE * springs + 8:
+                    # Equal contacts alternate within rounding, where a force vanishes: move on without an event.
+                    events, event, pauses = 0, np.inf, pauses + 1
+                    s = min(_PAUSE * times[k] * 2.0**pauses, times[k] - t)
+                    paused, arrives = True, s == times[k] - t
+                else:
+                    paused, arrives = False, event > times[k] - t
+                    s = times[k] - t if arrives else event
+                approaches = release < touch and not arrives and not paused
+                approaches = approaches and s * fastest > _FORGOTTEN and t + _APPROACH * s > t
                 if approaches:
                     s *= _APPROACH
                 if k and not started and t + s - last > _AT_ONCE * length:
@@ -581,13 +591,14 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 f = before + rate * (t - last) if abs(before) < abs(load[k]) else load[k] - rate * (times[k] - t)
                 if arrives:
                     break
-                if approaches:
+                if pauses > _MOST_PAUSES:
+                    ended = RESTLESS
+                    break
+                if approaches or paused:
                     continue
                 events = events + 1 if t == at else 1
                 at = t
-                if events > _MOST_AT_ONCE * springs + 8:
-                    ended = RESTLESS
-                elif release < touch:
+                if release < touch:
                     count = _let_go(row, law, state, t, u, count)
                     if count > 0 and not by_depth:
                         u = _balanced(row, law, state, t, u, f, count)

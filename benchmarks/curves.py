@@ -19,7 +19,7 @@ from ducc0 import fft
 from measuring import output_option, run_timed, save
 
 from viscorough import Indenter, contact_at, indent, self_affine_disc
-from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.halfspace.operator import Convolution, spectrum_of_grid
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
 from viscorough.surfaces import self_affine_square
@@ -29,13 +29,13 @@ ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
 POINTS = 4_000_000  # points of a line
 # {function: name of the part of the computation that it does}
 PARTS_OF_CURVE = {
-    "viscorough.contact.halfspace.operator.Halfspace.apply": "operator",
+    "viscorough.contact.halfspace.operator.Convolution.apply": "operator",
     "viscorough.contact.preconditioner.multilevel.Preconditioner.prepare": "preconditioner",
     "viscorough.contact.preconditioner.multilevel.Preconditioner.apply": "preconditioner",
     "viscorough.contact.dense.solve": "dense",
     "viscorough.contact.dense.follow_events": "dense",
     "viscorough.contact.grid.solver.GridSolver.__init__": "setup",
-    "viscorough.contact.solver.ContactSolver.__init__": "setup",
+    "viscorough.contact.prescribed_depth.ContactSolver.__init__": "setup",
 }
 
 
@@ -95,7 +95,8 @@ def columns(sizes, repeats):
     for elements, precision in itertools.product(sizes, ("single", "double")):
         dtype = {"single": np.float32, "double": np.float64}[precision]
         with patch("viscorough.contact.halfspace.operator._COMPILED_FROM", 0):
-            operators = {once: Halfspace(elements, elements, dtype, once=once) for once in (False, True)}
+            shape, spectrum = (elements, elements), spectrum_of_grid(elements, elements)
+            operators = {once: Convolution(shape, spectrum, dtype, once=once) for once in (False, True)}
         calls = {once: partial(repeated, operator.apply, 1 + 2000 // elements) for once, operator in operators.items()}
         measured = medians(calls, repeats)
         ratio = measured[True][1] / measured[False][1]

@@ -11,7 +11,7 @@ from random_heights import random_heights, with_random_aspect
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter

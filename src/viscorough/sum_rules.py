@@ -25,7 +25,7 @@ from viscorough.contact.complete_contact import joined_surface
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import require_threads
-from viscorough.contact.ranking import elements_of
+from viscorough.contact.ranking import all_elements
 from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter, check_indenter
@@ -230,7 +230,8 @@ def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact
         largest = gap.max()
         energy = _energy(stiffness / 2 * (gap / (largest or 1.0)).var(), largest)
         return CompleteContact(float(gap.mean()), energy, stiffness, float(largest), indenter.length_unit)
-    elements, units = elements_of(indenter, threads)
+    elements = all_elements(indenter, threads)
+    units = elements.units
     joined = joined_surface(elements, threads=threads)
     above_mean = elements.initial_gap - joined.mean_gap
     energy = _energy(float(units.stiffness / 2 * joined.load @ above_mean), units.length)

@@ -16,7 +16,8 @@ from random_curves import (
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
+from viscorough.contact.state import DenseContact
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.robustness.stress_solutions import GRID_ONLY
@@ -108,7 +109,15 @@ def altered_solver(pressure_sum=1.0, pressure=1.0):
             contact = super().advance(contact, depth)
             loads = contact.member_loads()
             loads = loads._replace(pressure=loads.pressure * pressure)
-            return replace(contact, pressure_sum=contact.pressure_sum * pressure_sum, loads=loads)
+            return DenseContact(
+                units=contact.units,
+                reduced_depth=contact.reduced_depth,
+                count=contact.count,
+                pressure_sum=contact.pressure_sum * pressure_sum,
+                tangent_sum=contact.tangent_sum,
+                residual=contact.residual,
+                loads=loads,
+            )
 
     return Altered
 

@@ -15,8 +15,8 @@ from support.command_line import python
 from viscorough import Indenter, indent, self_affine_disc, self_affine_line
 from viscorough.contact.complete_contact import joined_surface
 from viscorough.contact.grid.memory_demand import require_for_complete_contact
-from viscorough.contact.ranking import elements_of
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
+from viscorough.contact.ranking import all_elements
 from viscorough.viscous.integration.elements import elements_of_map
 
 # The memory that any contact requires.
@@ -69,7 +69,7 @@ def rough(present):
     ids=["square", "large square", "disc on a large map", "strip", "diagonal"],
 )
 def test_memory_required_for_complete_contact_follows_its_arrays(present, monkeypatch):
-    elements = elements_of(rough(present))[0]
+    elements = all_elements(rough(present))
     joined_surface(elements)  # compiles the kernels
     tracemalloc.start()
     joined_surface(elements)

@@ -15,7 +15,7 @@ import numpy as np
 
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
-from viscorough.contact.state import ContactState, Elements, MemberLoads, Units
+from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
 from viscorough.errors import ConvergenceError
 from viscorough.types import Array
 
@@ -48,14 +48,14 @@ class JoinedSurface(NamedTuple):
         """Mean ⟨g⟩_q of the initial gap with the weights q."""
         return float(self.load.sum() / self.tangent.sum())
 
-    def first_complete_contact(self, units: Units) -> ContactState:
+    def first_complete_contact(self, units: Units) -> DenseContact:
         """Return the contact at the depth from which it is complete."""
         depth, stiffness = self.depth, float(self.tangent.sum())
         # Rounding can make the pressure of the last element to touch negative.
         pressure = np.maximum(depth * self.tangent - self.load, 0.0)
         # The largest residual of an element does not exceed the norm of all residuals.
         size = depth * self.tangent.size**0.5 + float(np.linalg.norm(self.initial_gap))
-        return ContactState(
+        return DenseContact(
             units,
             depth,
             self.tangent.size,

@@ -11,7 +11,7 @@ import numpy as np
 from viscorough.compilation import njit
 from viscorough.contact.halfspace.growing_cholesky import append_element, solve_factored, solve_flat_punch
 from viscorough.contact.options import LATE
-from viscorough.contact.state import ContactState, Elements, MemberLoads, Units
+from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 from viscorough.types import Array, Integers
@@ -30,7 +30,7 @@ class ContactEvents(NamedTuple):
     depth, pressure_sum, tangent_sum : u, ΣP and Σq
     count : elements in contact just beyond the event
 
-    The fields are in the order of those of a ContactState.
+    The fields are in the order of those of a DenseContact.
     """
 
     depth: np.ndarray
@@ -54,7 +54,7 @@ def _influence_matrix(influence, row, column, members):
 @njit(fastmath=True)
 def _deflections(influence, row, column, members, pressure, tangent, targets):
     """Return Σ_j K_ij P_j and Σ_j K_ij q_j of the members' loads at the elements i of `targets`."""
-    of_pressure, of_tangent = np.empty(targets.size), np.empty(targets.size)
+    deflections, rates = np.empty(targets.size), np.empty(targets.size)
     member_row, member_column = row[members], column[members]
     for i in range(targets.size):
         r, c = row[targets[i]], column[targets[i]]
@@ -63,20 +63,20 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
             value = influence[abs(member_row[j] - r), abs(member_column[j] - c)]
             by_pressure += value * pressure[j]
             by_tangent += value * tangent[j]
-        of_pressure[i], of_tangent[i] = by_pressure, by_tangent
-    return of_pressure, of_tangent
+        deflections[i], rates[i] = by_pressure, by_tangent
+    return deflections, rates
 
 
-def of_highest_element(elements: Elements, units: Units, depth: float) -> ContactState:
-    """Return the contact of the highest element alone, as long as no other element touches."""
+def solve_highest_element(elements: Elements, depth: float) -> DenseContact:
+    """Solve the contact of the highest element alone, at a reduced depth at which no other element touches."""
     factor = 1 / np.sqrt(elements.influence[0, 0])
     pressure, tangent = (right * factor * factor for right in (np.array([depth]), np.ones(1)))  # as by Cholesky factors
-    return _exact_contact(units, depth, np.zeros(1, int), pressure, tangent)
+    return _exact_contact(elements.units, depth, np.zeros(1, int), pressure, tangent)
 
 
 def solve(
-    elements: Elements, contact: ContactState, depth: float, candidates: int, max_count: int
-) -> ContactState | None:
+    elements: Elements, contact: DenseContact, depth: float, candidates: int, max_count: int
+) -> DenseContact | None:
     """Solve the contact at a larger reduced depth by the primal-dual active set method; None above `max_count` members.
 
     Only the `candidates` elements of lowest rank have an initial gap below the depth. Gaps are convex functions of the
@@ -86,10 +86,10 @@ def solve(
     """
     if candidates > max_count and not 0 < contact.count < max_count:
         return None  # the contact only grows
-    loads, depth_step = contact.member_loads(), depth - contact.reduced_depth
+    loads, depth_step = contact.loads, depth - contact.reduced_depth
     others = _without(np.arange(candidates), loads.members)
-    of_elements = elements.influence, elements.row, elements.column
-    deflection, rate = _deflections(*of_elements, *loads, others)
+    table = elements.influence, elements.row, elements.column
+    deflection, rate = _deflections(*table, *loads, others)
     gap = deflection - contact.reduced_depth + elements.initial_gap[others]
     # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
     overlap = -ROUNDING * depth
@@ -101,7 +101,7 @@ def solve(
             return None
         pressure, tangent = _pressure_and_tangent(elements, members, depth)
         others = _without(possible, members)
-        deflection, _ = _deflections(*of_elements, members, pressure, tangent, others)
+        deflection, _ = _deflections(*table, members, pressure, tangent, others)
         joining = others[deflection - depth + elements.initial_gap[others] < overlap]
         staying = members[pressure >= -ROUNDING * pressure.max()]
         if joining.size == 0 and staying.size == members.size:
@@ -113,8 +113,8 @@ def solve(
 
 
 def follow_events(
-    elements: Elements, contact: ContactState, most: int, pressure_sum: float
-) -> tuple[ContactEvents, ContactState, bool]:
+    elements: Elements, contact: DenseContact, most: int, pressure_sum: float
+) -> tuple[ContactEvents, DenseContact, bool]:
     """Follow contact events after a contact: the depths at which the next elements touch, one after the other.
 
     Until the next element touches, pressures grow at the constant tangent q, so depths are exact. Every element that
@@ -124,17 +124,17 @@ def follow_events(
     most : number of elements in contact at which to stop
     pressure_sum : reduced ΣP at which to stop
 
-    Returns ContactEvents after the given contact, the ContactState at the last event, and True if ΣP reaches its limit
+    Returns ContactEvents after the given contact, the DenseContact at the last event, and True if ΣP reaches its limit
     before another element touches. Elements that touch at the same depth, to rounding, are one event.
     """
-    loads = contact.member_loads()
+    loads = contact.loads
     with uninterrupted():
         depth, total, stiffness, members, factor = _follow(
             elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
             loads.members, loads.pressure, min(most, elements.initial_gap.size), pressure_sum,
         )  # fmt: skip
     count = np.arange(contact.count, contact.count + depth.size)
-    # The first entry is the given contact. The last event is known to be complete only if no element is left.
+    # The first entry is the given contact. The last event is certain to be complete only if no element is left.
     complete = np.append(np.diff(depth) > ROUNDING * depth[1:], members.size == elements.count)
     complete[0] = False
     events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
@@ -169,11 +169,11 @@ def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -
     return solution[:, 0], solution[:, 1]
 
 
-def _exact_contact(units: Units, depth: float, members: Integers, pressure: Array, tangent: Array) -> ContactState:
-    """Return the ContactState of a dense solution."""
+def _exact_contact(units: Units, depth: float, members: Integers, pressure: Array, tangent: Array) -> DenseContact:
+    """Return the DenseContact of a dense solution."""
     pressure = np.maximum(pressure, 0.0)  # rounding can make pressures of elements that just touch negative
     loads = MemberLoads(members, pressure, tangent)
-    return ContactState(units, depth, members.size, pressure.sum(), tangent.sum(), loads=loads)
+    return DenseContact(units, depth, members.size, pressure.sum(), tangent.sum(), loads=loads)
 
 
 @njit(fastmath=True)

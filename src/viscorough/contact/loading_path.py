@@ -20,13 +20,14 @@ from numpy.typing import ArrayLike
 from viscorough import units
 from viscorough.argument_names import argument
 from viscorough.arrays import fraction, increasing, real_number
+from viscorough.contact.argument_checks import check_solvable, warn_beyond_theory
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.grid_error import every_nth_point, highest_missed, with_grid_errors
 from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.sampling import curve_within, part_of
-from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
-from viscorough.contact.state import ContactState
+from viscorough.contact.state import ContactState, DenseContact
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
 from viscorough.elasticity import shear_modulus_of
 from viscorough.indenter import Indenter
@@ -296,7 +297,7 @@ class _LoadingPath:
         contact, every = self._contact, self._solver.elements.count
         if contact.pressure_sum >= self._until_pressure_sum or contact is self._complete:
             return False
-        if contact.count < every or contact.fields is None:
+        if contact.count < every or isinstance(contact, DenseContact):
             return contact.count < self._until_count  # a dense solution is exact
         # On the grid the last elements may join too early, within the tolerance.
         return self._until_count > every - 1 and not self._solver.is_flat
@@ -344,7 +345,7 @@ class _LoadingPath:
     def _follow_events(self) -> None:
         """Add the contact events as levels while few elements are in contact; only a dense solution is exact enough."""
         contact = self._contact
-        if not self._is_unfinished() or contact.fields is not None or contact.count >= self._control.events:
+        if not self._is_unfinished() or not isinstance(contact, DenseContact) or contact.count >= self._control.events:
             return
         most = min(self._control.events, int(np.ceil(self._until_count)))
         events, self._contact, _ = self._solver.follow_events(contact, most, self._until_pressure_sum)

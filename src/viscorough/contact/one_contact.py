@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from typing import overload
 
 import numpy as np
@@ -11,17 +12,21 @@ from numpy.typing import ArrayLike
 from viscorough import units
 from viscorough.argument_names import argument, caller
 from viscorough.arrays import increasing
+from viscorough.contact.argument_checks import check_solvable, warn_beyond_theory
+from viscorough.contact.gap_map import gap_map
 from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
+from viscorough.contact.state import ContactState
 from viscorough.contact_maps import Contact
 from viscorough.elasticity import shear_modulus_of
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.summaries import with_unit
-from viscorough.types import Progress, Scalar, Several
+from viscorough.types import Array, Progress, Scalar, Several
 
-_SHARE_OF_APPROACH = 0.6  # of the time for a force, taken by the contacts up to it
+# Share of the contacts up to a force in the time for this force; contacts near it take the rest.
+_SHARE_OF_APPROACH = 0.6
 
 
 @overload
@@ -181,58 +186,78 @@ def contact_at(
         given = units.numbers(depth, unit, unit, argument("depth"))
     else:
         given = units.forces_over_modulus(force, modulus, unit, argument("force"))
-    values = increasing(
-        argument("depth" if by_depth else "force", of="contact_at"), np.atleast_1d(given), above_zero=True
-    )
+    name = argument("depth" if by_depth else "force", of="contact_at")
+    values = increasing(name, np.atleast_1d(given), above_zero=True)
     # Pressures that add up to the force exactly take the other half of the tolerance.
     largest_depth = float(values[-1]) if by_depth else np.inf
     solver = ContactSolver(indenter, tolerance / 2, options, threads, largest_depth=largest_depth, whole=False)
-    tell, search, last = progress or (lambda done: None), ForceSearch(solver), solver.unloaded_state()
-    contacts: list[Contact] = []
-
-    def report(share: float) -> None:
-        # The last contacts, near the force, take the rest of the time.
-        tell((len(contacts) + _SHARE_OF_APPROACH * share) / values.size)
-
-    for value in values:
-        if by_depth:
-            last = solver.advance(last, value)
-            state = solver.settled(last, last.reduced_depth, last.pressure_sum)
-        else:
-            state = search.contact_at(value, report)
-        if not np.isfinite(state.force):
-            raise ValueError(
-                f"{caller('contact_at')}the force is too large to represent; a larger unit of length is needed"
-            )
-        gap, loads = solver.gap_map(state), state.member_loads()
-        pressure = np.where(np.isnan(gap), np.nan, 0.0)
-        pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
-        contact = pressure > 0
-        for array in (pressure, gap, contact):
-            array.flags.writeable = False  # then they need not be copied
-        contacts.append(
-            Contact(
-                pressure=pressure,
-                gap=gap,
-                contact=contact,
-                # Keep the given value instead of its rounded value.
-                depth=float(value) if by_depth else state.depth,
-                force=state.force if by_depth else float(value),
-                stiffness=state.stiffness,
-                residual=state.residual,
-                tolerance=tolerance,
-                spacing=indenter.spacing,
-                row_spacing=indenter.row_spacing,
-                length_unit=unit,
-                shear_modulus=modulus,
-            )
-        )
-        tell(len(contacts) / values.size)
-    deepest = contacts[-1]
-    warn_beyond_theory("contact_at", indenter, deepest.depth)
-    if deepest.contact_count == deepest.elements and np.ptp(indenter.initial_gap[deepest.contact]) > 0:
-        depth = with_unit(deepest.depth, indenter.length_unit)
-        text = f"{caller('contact_at')}contact is complete, the contact fraction is 1 at the depth u, {depth}; from "
-        text += "there on the stiffness is that of a flat punch, whatever the heights"
+    states = (_states_at_depths if by_depth else _states_at_forces)(solver, values, progress or (lambda done: None))
+    contacts = []
+    for value, state in zip(values, states, strict=True):
+        # Keep the given value instead of its rounded value.
+        depth, force = (float(value), state.force) if by_depth else (state.depth, float(value))
+        contacts.append(_with_maps(solver, state, depth, force, tolerance, modulus))
+    warn_beyond_theory("contact_at", indenter, contacts[-1].depth)
+    if text := _completeness_warning(indenter, contacts[-1]):
         warnings.warn(text, AccuracyWarning, stacklevel=2)
     return contacts if np.ndim(given) else contacts[0]
+
+
+def _states_at_depths(solver: ContactSolver, depths: Array, progress: Progress) -> Iterator[ContactState]:
+    """Solve the contacts at depths [length], one from the other; pressures are rescaled to the sum ΣP."""
+    last: ContactState = solver.unloaded_state()
+    for number, depth in enumerate(depths, 1):
+        last = solver.advance(last, depth)
+        yield solver.settled(last, last.reduced_depth, last.pressure_sum)
+        progress(number / depths.size)
+
+
+def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) -> Iterator[ContactState]:
+    """Solve the contacts at F/G [length²], one from the other."""
+    search = ForceSearch(solver)
+    for number, force in enumerate(forces):
+        yield search.contact_at(force, _approach(progress, number, forces.size))
+        progress((number + 1) / forces.size)
+
+
+def _approach(progress: Progress, number: int, size: int) -> Progress:
+    """Return the progress of the approach to a force after `number` of `size` forces, for shares of the force."""
+    return lambda share: progress((number + _SHARE_OF_APPROACH * share) / size)
+
+
+def _with_maps(
+    solver: ContactSolver, state: ContactState, depth: float, force: float, tolerance: float, modulus: float | None
+) -> Contact:
+    """Return a contact with its maps of pressure and gap; arguments as in `contact_at`, as numbers."""
+    if not np.isfinite(state.force):
+        text = "the force is too large to represent; a larger unit of length is needed"
+        raise ValueError(f"{caller('contact_at')}{text}")
+    indenter, gap, loads = solver.indenter, gap_map(solver, state), state.member_loads()
+    pressure = np.where(np.isnan(gap), np.nan, 0.0)
+    pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
+    contact = pressure > 0
+    for array in (pressure, gap, contact):
+        array.flags.writeable = False  # then they need not be copied
+    return Contact(
+        pressure=pressure,
+        gap=gap,
+        contact=contact,
+        depth=depth,
+        force=force,
+        stiffness=state.stiffness,
+        residual=state.residual,
+        tolerance=tolerance,
+        spacing=indenter.spacing,
+        row_spacing=indenter.row_spacing,
+        length_unit=indenter.length_unit,
+        shear_modulus=modulus,
+    )
+
+
+def _completeness_warning(indenter: Indenter, contact: Contact) -> str:
+    """Return the text of a warning if all elements are in contact although their heights differ, otherwise nothing."""
+    if contact.contact_count < contact.elements or np.ptp(indenter.initial_gap[contact.contact]) == 0:
+        return ""
+    depth = with_unit(contact.depth, indenter.length_unit)
+    text = f"{caller('contact_at')}contact is complete, the contact fraction is 1 at the depth u, {depth}; from "
+    return text + "there on the stiffness is that of a flat punch, whatever the heights"

@@ -11,13 +11,14 @@ tangents. The last, small correction follows the tangent.
 
 from dataclasses import replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from viscorough.compilation import njit
 from viscorough.contact.dense import ROUNDING
-from viscorough.contact.solver import ContactSolver
-from viscorough.contact.state import ContactState, Elements, MemberLoads
+from viscorough.contact.prescribed_depth import ContactSolver
+from viscorough.contact.state import ContactState, DenseContact, Elements, MemberLoads, TargetForce
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
@@ -45,7 +46,7 @@ _EXCESS, _GROWTH_OF_EXCESS, _LEAST_EXCESS = (0.6, 1.2, 2.5), (0.8, 1.1, 1.6), 0.
 _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 
 
-def _highest_of_blocks(indenter: Indenter) -> Indenter:
+def _highest_in_blocks(indenter: Indenter) -> Indenter:
     """Return the indenter of the highest points of blocks of elements, which is nowhere lower."""
     heights = _largest_in_blocks(np.ascontiguousarray(indenter.heights))
     return Indenter(heights, _SIDE * indenter.spacing, _SIDE * indenter.row_spacing)
@@ -91,16 +92,45 @@ def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
     return MemberLoads(members[is_loaded], loads[is_loaded], np.zeros(np.count_nonzero(is_loaded)))
 
 
+class _Guess(NamedTuple):
+    """The contact to solve next in the search for a force.
+
+    depth : reduced depth, likely for the force
+    target : TargetForce with the largest likely depth; None solves the contact at `depth` exactly
+    loads : MemberLoads of the likely contact; None if only the contacts solved before are available
+    """
+
+    depth: float
+    target: TargetForce | None
+    loads: MemberLoads | None = None
+
+
+class _BlockDepth(NamedTuple):
+    """The depth of a contact of blocks at a force, from which the depth of the elements is estimated.
+
+    depth : in reduced units of the elements
+    share : number of blocks in contact to the power −1/2; the excess of the depth is proportional to it
+    """
+
+    depth: float
+    share: float
+
+
 class ForceSearch:
-    """Contacts of one ContactSolver at increasing forces; works in reduced units."""
+    """Contacts of one ContactSolver at increasing forces; works in reduced units.
+
+    Its contacts bracket the force: `_below` is the nearest contact solved at most at the force, or the unloaded one,
+    and `_above` holds contacts beyond the force.
+    """
 
     def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
-        self._below, self._above = solver.unloaded_state(), ContactsAhead()
+        self._below: ContactState = solver.unloaded_state()
+        self._above = ContactsAhead()
         # Follow contact events up to this number of elements; the event of the last element may lie beyond the force.
         dense = solver.options.dense_contacts, solver.options.dense_interactions
         self._events = int(min(_EVENTS, *dense, solver.elements.count - 1))
-        self._of_blocks: tuple[float, float] | None = None
+        self._block_depth: _BlockDepth | None = None  # of the last estimate
 
     @cached_property
     def _first(self) -> ContactState:
@@ -108,7 +138,7 @@ class ForceSearch:
         return self._solver.first_contact()
 
     def contact_at(self, force: float, progress: Progress = lambda share: None) -> ContactState:
-        """Solve the ContactState at F/G [length²], a larger force than at the last call.
+        """Solve the contact at F/G [length²], a larger force than at the last call.
 
         ΣP belongs to the force, and the pressures sum to it. At the depth, the tangent from the nearest solved contact
         reaches the force; over this distance the stiffness changes by less than the tolerance.
@@ -119,28 +149,17 @@ class ForceSearch:
         target = force / self._solver.units.force
         while self._above and self._above[-1].pressure_sum <= target:
             self._below = self._above.pop()
-        guess, sought = self._estimate(target)
+        guess = self._estimate(target)
         for attempt in range(_MAX_ATTEMPTS):
-            if guess:
-                depth = guess.reduced_depth
-            elif (attempt == 0 or not self._below.count) and (
-                target <= self._first.pressure_sum or self._solver.is_flat
-            ):
-                # Only the highest elements are in contact: the curve is straight.
-                depth = self._first.reduced_depth * (target / self._first.pressure_sum)
-                contact = self._solver.advance_reduced(self._solver.unloaded_state(), depth)
-                return self._solver.settled(contact, depth, target)
-            else:
-                if not (self._below.count and self._above) and (contact := self._follow_events(target)):
+            if guess is None:
+                if contact := self._exact_contact(target, attempt):
                     return contact
-                depth, sought = self._guess(target, attempt)
-            contact, guess = self._solver.advance_reduced(self._below, depth, sought, guess), None
+                guess = self._guess(target, attempt)
+            contact = self._solver.advance_reduced(self._below, guess.depth, guess.target, guess.loads)
+            guess = None
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
             other = self._above[-1] if self._above else self._below
-            if contact.pressure_sum <= target:
-                self._below = contact
-            else:
-                self._above.keep(contact)
+            self._tighten_bracket(contact, target)
             if self._is_near(contact, other, target):
                 depth = contact.reduced_depth + (target - contact.pressure_sum) / contact.tangent_sum
                 settled = self._solver.settled(contact, depth, target)
@@ -150,43 +169,64 @@ class ForceSearch:
             f"contact at F/G = {force:g}: the force is not met within {_MAX_ATTEMPTS} depths; choose a larger tolerance"
         )
 
-    def _estimate(self, target: float) -> tuple[ContactState | None, tuple[float, float] | None]:
-        """Guess the contact at a force, and return (force, likely largest depth), from a map of blocks, if that helps.
+    def _tighten_bracket(self, contact: ContactState, target: float) -> None:
+        """Let a contact replace the contact below the force, or add it to the contacts above."""
+        if contact.pressure_sum <= target:
+            self._below = contact
+        else:
+            self._above.keep(contact)
+
+    def _exact_contact(self, target: float, attempt: int) -> ContactState | None:
+        """Return the contact at a force if the straight start of the curve or the contact events lead to it."""
+        is_start = attempt == 0 or not self._below.count
+        if is_start and (target <= self._first.pressure_sum or self._solver.is_flat):
+            # Only the highest elements are in contact: the curve is straight.
+            depth = self._first.reduced_depth * (target / self._first.pressure_sum)
+            contact = self._solver.advance_reduced(self._solver.unloaded_state(), depth)
+            return self._solver.settled(contact, depth, target)
+        if self._below.count and self._above:
+            return None
+        return self._follow_events(target)
+
+    def _estimate(self, target: float) -> _Guess | None:
+        """Guess the contact at a force from a map of blocks, if that helps.
 
         An indenter that is nowhere lower carries the same force at a smaller depth. The map of blocks therefore
         estimates the depth from below.
         """
-        solver, below, nothing = self._solver, self._below, (None, None)
+        solver, below = self._solver, self._below
         is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
         if solver.elements.count <= _LARGE or is_near or solver.is_flat:
-            return nothing
-        blocks = _highest_of_blocks(solver.indenter)
+            return None
+        blocks = _highest_in_blocks(solver.indenter)
         coarse = ContactSolver(blocks, _COARSE_TOLERANCE, solver.options, solver.threads, whole=False)
         try:
             search = ForceSearch(coarse)
             contact = search.contact_at(target * solver.units.force)
         except (ConvergenceError, ValueError):  # the highest points may have one height to rounding
-            return nothing
+            return None
         unit = coarse.units.length / solver.units.length
-        depth, share = unit * contact.reduced_depth, contact.count**-0.5
-        least, likely, largest = (depth * (1 + c * share) for c in search.excess(contact))
+        measured = _BlockDepth(unit * contact.reduced_depth, contact.count**-0.5)
+        least, likely, largest = (measured.depth * (1 + c * measured.share) for c in search._excess_bounds(contact))
+        solver.ranking.rank_up_to(largest)  # the first contact then ranks no further elements
         if contact.count < _FEWEST_BLOCKS or least <= below.reduced_depth:
-            solver.candidates(largest, largest)  # the first contact then ranks no further elements
-            return nothing
-        of_blocks, pressure = contact.member_loads(), np.zeros(blocks.heights.shape)
-        pressure[coarse.elements.places_on_map(of_blocks.members)] = unit * of_blocks.pressure
-        largest = solver.depth_of_box(least, largest)  # ranks elements
-        likely = min(likely, largest)
+            return None
+        self._block_depth = measured
+        block_loads, pressure = contact.member_loads(), np.zeros(blocks.heights.shape)
+        pressure[coarse.elements.places_on_map(block_loads.members)] = unit * block_loads.pressure
+        largest = solver.depth_of_box(least, largest)
         loads = _loads_in_blocks(solver.elements, pressure)
-        self._of_blocks = depth, share
-        return ContactState(solver.units, likely, loads.members.size, target, 0.0, loads=loads), (target, largest)
+        return _Guess(min(likely, largest), TargetForce(target, largest), loads)
 
-    def excess(self, contact: ContactState) -> tuple[float, ...]:
-        """Return a small, likely and large c for the indenter of these blocks; contact : the contact found last"""
-        if self._of_blocks is None:
+    def _excess_bounds(self, contact: ContactState) -> tuple[float, ...]:
+        """Return a small, likely and large excess c for the indenter of which this search solves the blocks.
+
+        contact : contact that this search has found last
+        """
+        if self._block_depth is None:
             return _EXCESS
-        depth, share = self._of_blocks
-        excess = max((contact.reduced_depth / depth - 1) / share, _LEAST_EXCESS)
+        measured = (contact.reduced_depth / self._block_depth.depth - 1) / self._block_depth.share
+        excess = max(measured, _LEAST_EXCESS)
         return tuple(growth * excess for growth in _GROWTH_OF_EXCESS)
 
     def _follow_events(self, target: float) -> ContactState | None:
@@ -194,11 +234,11 @@ class ForceSearch:
 
         Returns the contact at the force if no further element touches before it: the pressures grow at their tangent.
         """
-        self._below = self._below if self._below.count else self._first
-        if self._below.fields or self._below.count >= self._events:
+        start = self._below = self._below if self._below.count else self._first
+        if not isinstance(start, DenseContact) or start.count >= self._events:
             return None
-        _, below, ends_at_force = self._solver.follow_events(self._below, self._events, target)
-        self._below, loads = below, below.member_loads()
+        _, below, ends_at_force = self._solver.follow_events(start, self._events, target)
+        self._below, loads = below, below.loads
         depth = below.reduced_depth + (target - below.pressure_sum) / below.tangent_sum
         if not ends_at_force or depth > self._solver.elements.ranked_depth:
             return None
@@ -206,13 +246,14 @@ class ForceSearch:
         pressure = np.maximum(loads.pressure + (depth - below.reduced_depth) * loads.tangent, 0.0)
         return replace(below, reduced_depth=depth, pressure_sum=target, loads=loads._replace(pressure=pressure))
 
-    def _guess(self, target: float, attempt: int) -> tuple[float, tuple[float, float] | None]:
-        """Return the depth to solve next; without a contact above, also (target force, largest likely depth)."""
+    def _guess(self, target: float, attempt: int) -> _Guess:
+        """Guess the contact at a force from the contacts solved; within a bracket, its depth is solved as it is."""
         depth = self._next_depth(target, attempt)
         if self._above:
-            return depth, None
+            return _Guess(depth, None)
         largest = depth * (depth / self._below.reduced_depth) ** _UNCERTAINTY
-        return depth, (target, self._solver.depth_of_box(depth, largest))
+        self._solver.ranking.rank_up_to(largest)
+        return _Guess(depth, TargetForce(target, self._solver.depth_of_box(depth, largest)))
 
     def _next_depth(self, target: float, attempt: int) -> float:
         """Return the depth to solve next, between the nearest contacts below and above the force."""
@@ -239,7 +280,7 @@ class ForceSearch:
         other : a second contact, which gives the change of the stiffness with depth
         """
         distance = abs(target - contact.pressure_sum) / contact.tangent_sum
-        if contact.fields is None:  # a dense solution is exact only at its own depth
+        if isinstance(contact, DenseContact):  # exact only at its own depth
             return distance <= ROUNDING * contact.reduced_depth
         width = max(abs(contact.reduced_depth - other.reduced_depth), _TINY)
         change = abs(contact.tangent_sum - other.tangent_sum) / width * distance

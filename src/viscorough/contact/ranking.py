@@ -5,10 +5,12 @@ and sorting all would take longer than the contact itself. The map is read a few
 up to a depth are sorted.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from viscorough.contact.parallel import BLOCK, run_blocks
-from viscorough.contact.state import Elements, Units
+from viscorough.contact.state import ElementGrid, Elements, Units
 from viscorough.indenter import Indenter
 from viscorough.types import Array, Integers
 
@@ -25,79 +27,87 @@ _SMALLEST_DEPTH = 1e-3
 
 
 class Ranking:
-    """Ranks the elements of an indenter from the highest one on.
+    """The elements of an indenter, ranked from the highest one on as far as they are needed.
 
-    units : Units in which initial gaps are expressed
+    elements : state.Elements ranked so far; only the methods of this class replace them, always by longer ones
     highest : the largest height
-    is_flat : whether all elements are of this height
+    is_flat : True if all elements are of this height
+
+    largest_depth : depth up to which elements are ranked first [length]. If it is infinite, all elements of a small map
+        are ranked, and none of a large map
+    whole : True if all elements will be needed
     """
 
-    def __init__(self, indenter: Indenter, threads: int = 1) -> None:
-        self._heights, self._threads, self._aspect = indenter.heights, threads, indenter.aspect
+    def __init__(
+        self, indenter: Indenter, threads: int = 1, *, largest_depth: float = np.inf, whole: bool = False
+    ) -> None:
+        self._heights, self._threads = indenter.heights, threads
         self.highest, lowest = np.fmax.reduce(self._heights, axis=None), np.fmin.reduce(self._heights, axis=None)
         span = float(np.subtract(self.highest, lowest, dtype=float))
         self.is_flat = span == 0
-        self.units = Units(span or indenter.element_side, indenter.element_side)
+        units = Units(span or indenter.element_side, indenter.element_side)
         inside = np.isfinite(self._heights)
-        self._count, (rows, columns) = int(np.count_nonzero(inside)), self._heights.shape
-        self._origin, self._shape = (0, 0), (rows, columns)
-        if self._count < inside.size:
+        count, (rows, columns), origin = int(np.count_nonzero(inside)), self._heights.shape, (0, 0)
+        if count < inside.size:
             bounds = [np.flatnonzero(inside.any(axis=axis))[[0, -1]] for axis in (1, 0)]
-            self._origin = int(bounds[0][0]), int(bounds[1][0])
+            origin = int(bounds[0][0]), int(bounds[1][0])
             rows, columns = (int(last - first) + 1 for first, last in bounds)
-            self._shape = rows, columns
+        grid, nothing = ElementGrid(origin, (rows, columns), indenter.aspect), np.empty(0, np.int32)
+        self.elements = Elements(nothing, nothing, np.empty(0), grid, units, unranked=count, ranked_depth=-1.0)
+        if count <= _LEAST_OF_CURVES if whole else count < _LEAST and np.isinf(largest_depth):
+            self.rank_up_to(np.inf)
+        elif np.isfinite(largest_depth):
+            self.rank_up_to(largest_depth / units.length)
 
-    def first(self, depth: float, whole: bool = False) -> Elements:
-        """Return the Elements up to a reduced depth; for an infinite depth all of a small map and none of a large map.
-
-        whole : True if all will be needed
-        """
-        nothing = np.empty(0, np.int32)
-        fixed = self._origin, self._shape, self._aspect
-        elements = Elements(nothing, nothing, np.empty(0), *fixed, unranked=self._count, ranked_depth=-1.0)
-        if self._count <= _LEAST_OF_CURVES if whole else self._count < _LEAST and np.isinf(depth):
-            return self.up_to(elements, np.inf)
-        return self.up_to(elements, depth) if np.isfinite(depth) else elements
-
-    def small_depth(self) -> float:
-        """Return the reduced depth that contains about _FIRST elements, which are ranked quickly."""
-        (rows, columns), share = self._heights.shape, min(_FIRST / self._count, _FIRST_SHARE)
+    def rank_highest(self) -> None:
+        """Rank about _FIRST elements, which takes little time, unless some elements are ranked already."""
+        if self.elements.initial_gap.size:
+            return
+        (rows, columns), share = self._heights.shape, min(_FIRST / self.elements.count, _FIRST_SHARE)
         # Sample the map evenly by a quasi-random sequence (R2, Roberts 2018).
         places = np.arange(min(_OF_SAMPLE / share, _LARGEST_SAMPLE))
         row, column = (places * 0.7548776662466927 % 1 * rows, places * 0.5698402909980532 % 1 * columns)
         sample = self._heights[row.astype(int), column.astype(int)]
-        gap = np.subtract(self.highest, sample[np.isfinite(sample)], dtype=float) / self.units.length
+        gap = np.subtract(self.highest, sample[np.isfinite(sample)], dtype=float) / self.elements.units.length
         rank = int(share * gap.size)
-        return float(np.partition(gap, rank)[rank]) if gap.size else np.inf
+        self.rank_up_to(float(np.partition(gap, rank)[rank]) if gap.size else np.inf)
 
-    def up_to(self, elements: Elements, depth: float) -> Elements:
-        """Return the Elements with all initial gaps up to a reduced depth, or a larger depth, ranked."""
+    def rank_up_to(self, depth: float) -> None:
+        """Rank all elements with initial gaps up to a reduced depth, or to a larger depth."""
+        elements = self.elements
         if depth <= elements.ranked_depth:
-            return elements
+            return
         while True:
             place, gap = self._between(elements.ranked_depth, depth)
             ranked = elements.initial_gap.size + gap.size
-            if ranked > _MOST_SHARE * self._count and ranked < self._count:
+            if ranked > _MOST_SHARE * elements.count and ranked < elements.count:
                 place, gap = self._between(elements.ranked_depth, depth := np.inf)
-                ranked = self._count
-            # The first elements of all, of the same height, have no depth: those beyond them tell it.
-            if ranked == self._count or max(gap.max(initial=0), elements.initial_gap.max(initial=0)) > 0:
+                ranked = elements.count
+            # If the highest elements have one height, their depth is 0. The depth to rank must be above it.
+            if ranked == elements.count or max(gap.max(initial=0), elements.initial_gap.max(initial=0)) > 0:
                 break
             depth = max(4 * depth, _SMALLEST_DEPTH)
         added = self._in_order(place, gap)
         before = elements.row, elements.column, elements.initial_gap
         row, column, in_order = (np.concatenate(parts) for parts in zip(before, added, strict=True))
-        unranked = self._count - ranked
-        longer = Elements(
-            row, column, in_order, self._origin, self._shape, self._aspect,
-            unranked=unranked, ranked_depth=depth if unranked else np.inf,
-        )  # fmt: skip
-        longer.__dict__.update({name: value for name, value in elements.__dict__.items() if name == "influence"})
-        return longer
+        unranked = elements.count - ranked
+        ranked_depth = depth if unranked else np.inf
+        self.elements = Elements(
+            row, column, in_order, elements.grid, elements.units, unranked=unranked, ranked_depth=ranked_depth
+        )
+
+    def require(self, depth: float, *, up_to: float) -> None:
+        """Rank all elements up to the reduced depth `up_to`, unless all up to a smaller depth are ranked already."""
+        if depth > self.elements.ranked_depth:
+            self.rank_up_to(up_to)
+
+    def free_influence(self) -> None:
+        """Free the memory of the influence coefficients; a later use computes them again."""
+        self.elements = replace(self.elements, grid=replace(self.elements.grid))
 
     def _between(self, above: float, up_to: float) -> tuple[Integers, Array]:
         """Return places on the map of the elements with reduced initial gaps between two depths, and these gaps."""
-        heights, length = self._heights.ravel(), self.units.length
+        heights, length = self._heights.ravel(), self.elements.units.length
 
         def find(i: int, j: int) -> tuple[Integers, Array]:
             gap = np.subtract(self.highest, heights[i:j], dtype=float)
@@ -112,21 +122,23 @@ class Ranking:
         """Return row, column and initial gap in increasing order of the gaps."""
         order = _increasing_order(gap, self._threads)
         row, column, in_order = (np.empty(gap.size, dtype) for dtype in (np.int32, np.int32, float))
+        top, left = self.elements.grid.origin
 
         def arrange(i: int, j: int) -> None:
             row[i:j], column[i:j] = np.divmod(place[order[i:j]], self._heights.shape[1])
-            row[i:j] -= self._origin[0]
-            column[i:j] -= self._origin[1]
+            row[i:j] -= top
+            column[i:j] -= left
             in_order[i:j] = gap[order[i:j]]
 
         run_blocks(arrange, gap.size, self._threads)
         return row, column, in_order
 
 
-def elements_of(indenter: Indenter, threads: int = 1) -> tuple[Elements, Units]:
-    """Return all Elements of an indenter, and the Units of their initial gaps."""
+def all_elements(indenter: Indenter, threads: int = 1) -> Elements:
+    """Return all Elements of an indenter."""
     ranking = Ranking(indenter, threads)
-    return ranking.first(1.0), ranking.units
+    ranking.rank_up_to(1.0)
+    return ranking.elements
 
 
 def _increasing_order(gap: Array, threads: int) -> Integers:

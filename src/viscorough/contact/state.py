@@ -52,26 +52,17 @@ class Units:
 
 
 @dataclass(frozen=True)
-class Elements:
-    """The elements of an indenter, ranked in the order of increasing initial gap; arrays of shape (ranked elements,).
+class ElementGrid:
+    """The smallest grid with all elements of an indenter.
 
-    row, column : positions on the grid, counted from the first row and column that have an element
-    initial_gap : g, reduced
     origin : first row and column of the indenter's heights that have an element
-    shape : rows and columns of the smallest grid with all elements
+    shape : rows and columns
     aspect : dy/dx of the elements
-    unranked : number of further elements, with larger initial gaps; ranked_depth : all elements up to this depth are
-        ranked
     """
 
-    row: np.ndarray
-    column: np.ndarray
-    initial_gap: np.ndarray
-    origin: tuple
-    shape: tuple
+    origin: tuple[int, int]
+    shape: tuple[int, int]
     aspect: float
-    unranked: int = field(default=0, kw_only=True)
-    ranked_depth: float = field(default=np.inf, kw_only=True)
 
     @cached_property
     def influence(self) -> Array:
@@ -79,14 +70,50 @@ class Elements:
         rows, columns = (np.arange(n, dtype=float) for n in self.shape)
         return influence_table(rows, columns, self.aspect)
 
-    def free_influence(self) -> None:
-        """Free the memory of `influence` until it is next used."""
-        self.__dict__.pop("influence", None)
+
+@dataclass(frozen=True)
+class Elements:
+    """The elements of an indenter, ranked in the order of increasing initial gap; arrays of shape (ranked elements,).
+
+    row, column : positions on the grid
+    initial_gap : g, reduced
+    grid : ElementGrid
+    units : Units of the reduced quantities
+    unranked : number of further elements, with larger initial gaps
+    ranked_depth : all elements up to this depth are ranked
+    """
+
+    row: Integers
+    column: Integers
+    initial_gap: Array
+    grid: ElementGrid
+    units: Units
+    unranked: int = field(default=0, kw_only=True)
+    ranked_depth: float = field(default=np.inf, kw_only=True)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Return rows and columns of the grid."""
+        return self.grid.shape
+
+    @property
+    def aspect(self) -> float:
+        """Return dy/dx of the elements."""
+        return self.grid.aspect
+
+    @property
+    def influence(self) -> Array:
+        """Return influence coefficients K by distance in rows and columns, for dense solutions."""
+        return self.grid.influence
 
     @property
     def count(self) -> int:
         """Return the number of elements."""
         return self.initial_gap.size + self.unranked
+
+    def count_below(self, depth: float) -> int:
+        """Return the number of ranked elements with initial gaps below a reduced depth: only these can touch at it."""
+        return int(np.searchsorted(self.initial_gap, depth))
 
     def next_gap(self, count: int) -> float:
         """Return a lower bound of the initial gaps after the `count` first elements; infinite if there are no more."""
@@ -94,7 +121,7 @@ class Elements:
 
     def places_on_map(self, ranks: Integers | slice = slice(None)) -> tuple[Integers, Integers]:
         """Return rows and columns in the indenter's heights of elements of given ranks, or of all ranked elements."""
-        return self.row[ranks] + self.origin[0], self.column[ranks] + self.origin[1]
+        return self.row[ranks] + self.grid.origin[0], self.column[ranks] + self.grid.origin[1]
 
 
 @dataclass
@@ -119,7 +146,7 @@ class ContactSet(NamedTuple):
 
 
 class MemberLoads(NamedTuple):
-    """A dense solution: loads of the elements in contact.
+    """Loads of the elements in contact, without the fields of a grid.
 
     members : elements in contact, as ranks, increasing, shape (count,)
     pressure, tangent : P and q = dP/du on the members, shape (count,)
@@ -163,9 +190,20 @@ class GridFields:
         return MemberLoads(members, self.pressure[place].astype(float), self.tangent[place].astype(float))
 
 
+class TargetForce(NamedTuple):
+    """A force at which a contact on a grid is solved.
+
+    pressure_sum : reduced ΣP to be met
+    largest_depth : reduced depth at which a smaller sum is accepted
+    """
+
+    pressure_sum: float
+    largest_depth: float
+
+
 @dataclass(frozen=True)
 class ContactState:
-    """The contact at one depth.
+    """The contact at one depth: the quantities that a dense contact and a contact on a grid have in common.
 
     units : Units of the reduced quantities
     reduced_depth : u
@@ -173,8 +211,6 @@ class ContactState:
     pressure_sum, tangent_sum : reduced ΣP, and Σq, corrected for the remaining residuals; both errors are then of
         second order in the residuals for the given contact set
     residual : largest |e| on the contact set or overlap outside it, rounding included, over the depth
-    loads : MemberLoads of a dense solution; None on the grid, because they would repeat the fields
-    fields : GridFields of this contact; None for a dense solution, as long as no grid is needed
     """
 
     units: Units
@@ -183,18 +219,10 @@ class ContactState:
     pressure_sum: float
     tangent_sum: float
     residual: float = 0.0
-    loads: MemberLoads | None = None
-    fields: GridFields | None = None
 
     def member_loads(self) -> MemberLoads:
-        """Return the MemberLoads; on the grid they are gathered at every call."""
-        return self.loads or self.grid_fields.member_loads()
-
-    @property
-    def grid_fields(self) -> GridFields:
-        """Return the fields of a contact on a grid."""
-        assert self.fields is not None
-        return self.fields
+        """Return the loads of the elements in contact."""
+        raise NotImplementedError
 
     @property
     def members(self) -> Integers:
@@ -215,3 +243,38 @@ class ContactState:
     def stiffness(self) -> float:
         """Return the tangent stiffness k/G = 4π d Σq [length]."""
         return self.tangent_sum * self.units.stiffness
+
+
+@dataclass(frozen=True)
+class DenseContact(ContactState):
+    """A contact from dense linear algebra, exact to rounding unless it has a residual.
+
+    loads : MemberLoads of the elements in contact
+    """
+
+    loads: MemberLoads = field(kw_only=True)
+
+    def member_loads(self) -> MemberLoads:
+        """Return the loads of the elements in contact."""
+        return self.loads
+
+
+@dataclass(frozen=True)
+class GridContact(ContactState):
+    """A contact on a grid, solved by iteration.
+
+    fields : GridFields of the contact
+    """
+
+    fields: GridFields = field(kw_only=True)
+
+    def member_loads(self) -> MemberLoads:
+        """Gather the loads of the elements in contact from the fields; they are not stored."""
+        return self.fields.member_loads()
+
+
+def unloaded_contact(units: Units) -> DenseContact:
+    """Return the contact at depth zero: no pressure, and no element in contact yet."""
+    nothing = np.empty(0)
+    loads = MemberLoads(nothing.astype(int), nothing, nothing)
+    return DenseContact(units, 0.0, 0, 0.0, 0.0, loads=loads)

@@ -12,7 +12,7 @@ import numpy as np
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
-from viscorough.contact.state import ContactState
+from viscorough.contact.state import ContactState, GridContact
 from viscorough.loading_curve import interpolate_between
 from viscorough.types import Array
 
@@ -165,7 +165,7 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
 
     Returns infinity if it cannot be predicted.
     """
-    if before.fields is None or after.fields is None:  # the contact after may have been solved from an earlier contact
+    if not isinstance(before, GridContact) or not isinstance(after, GridContact):  # either may be solved densely
         return np.inf
     loops = GridLoops(threads)
     place_after, place = loops.new_places(after.fields, before.fields)

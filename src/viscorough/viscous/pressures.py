@@ -18,10 +18,11 @@ import numpy as np
 
 from viscorough import units
 from viscorough.arrays import whole_number
+from viscorough.contact.argument_checks import check_solvable
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers

@@ -15,7 +15,7 @@ import numpy as np
 from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning
 from viscorough.mdr import reduce

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from viscorough import Indenter, SolverOptions, complete_contact, indent, self_affine_disc
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.reference import sphere
 from viscorough.surfaces import self_affine_square
 

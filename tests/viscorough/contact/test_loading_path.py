@@ -5,7 +5,7 @@ import pytest
 
 from support.contract import refused
 from viscorough import Indenter, SolverOptions, contact_at, indent, reference, self_affine_disc
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.viscous.integration.events import march_events
 

@@ -11,7 +11,7 @@ import pytest
 
 from viscorough import Indenter, contact_at, indent, self_affine_disc
 from viscorough.contact.parallel import Buffer, aligned_zeros, run_blocks
-from viscorough.contact.ranking import elements_of
+from viscorough.contact.ranking import all_elements
 
 DISC = self_affine_disc(0.8, 401, seed=1)  # a disc of several blocks
 
@@ -92,7 +92,7 @@ def test_elements_are_ranked_by_gap_and_ties_by_place(digits):
     )  # rounding to these digits gives maps with and without equal heights
     expected = np.argsort((heights.max() - heights).ravel(), kind="stable")
     for threads in (1, 3, 100):
-        elements, _ = elements_of(Indenter(heights, 1.0), threads)
+        elements = all_elements(Indenter(heights, 1.0), threads)
         np.testing.assert_array_equal(elements.row * 400 + elements.column, expected)
         assert np.all(np.diff(elements.initial_gap) >= 0)
 

@@ -5,8 +5,8 @@ import pytest
 
 from viscorough import ConvergenceError, Indenter, SolverOptions, contact_at, indent
 from viscorough.contact import prescribed_force
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.solver import ContactSolver
 from viscorough.surfaces import self_affine_disc, self_affine_square
 
 # From one element in contact to nearly all.
@@ -130,11 +130,12 @@ def test_coarse_map_bounds_the_depth_of_the_contact(hurst, large, monkeypatch):
     rough = Indenter(self_affine_square(hurst, 403, seed=5)[:, :390], 1.0, 1.3)
     for force in (200.0, 2e3, 2e4):
         contact = contact_at(rough, force=force)
-        least = contact_at(prescribed_force._highest_of_blocks(rough), force=force).depth
+        least = contact_at(prescribed_force._highest_in_blocks(rough), force=force).depth
         solver = ContactSolver(rough, 1e-3)
-        guess, (_, largest) = ForceSearch(solver)._estimate(force / solver.units.force)
-        assert 0.7 * contact.depth < least < contact.depth < largest * solver.units.length < 1.4 * contact.depth
-        loads = guess.member_loads()
+        guess = ForceSearch(solver)._estimate(force / solver.units.force)
+        largest = guess.target.largest_depth * solver.units.length
+        assert 0.7 * contact.depth < least < contact.depth < largest < 1.4 * contact.depth
+        loads = guess.loads
         guessed = loads.pressure * solver.units.pressure
         assert guessed.sum() * rough.spacing * rough.row_spacing == pytest.approx(force)
         exact = contact.pressure[solver.elements.places_on_map(loads.members)]
@@ -146,7 +147,7 @@ def test_blocks_have_the_height_of_their_highest_element():
     heights[:4, 4:9] = heights[8, :3] = np.nan  # one block has no element
     whole = np.pad(heights, ((0, 3), (0, 2)), constant_values=np.nan).reshape(3, 4, 4, 4)
     expected = np.fmax.reduce(whole, axis=(1, 3))
-    np.testing.assert_array_equal(prescribed_force._highest_of_blocks(Indenter(heights, 1.0)).heights, expected)
+    np.testing.assert_array_equal(prescribed_force._highest_in_blocks(Indenter(heights, 1.0)).heights, expected)
 
 
 def test_force_that_the_first_guess_meets_exactly_is_accepted():

@@ -22,7 +22,8 @@ from viscorough import (
     kinetics,
     self_affine_disc,
 )
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.gap_map import gap_map
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.viscous.integration.events import march_events
 
 TOLERANCE = 1e-9
@@ -83,7 +84,7 @@ def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
     contact, inside = solver.unloaded_state(), np.zeros(indenter.elements, dtype=bool)
     for i, depth in enumerate(depths):
         contact = solver.advance(contact, depth)
-        pressure, solver_gap = np.zeros(indenter.elements), solver.gap_map(contact)[place]
+        pressure, solver_gap = np.zeros(indenter.elements), gap_map(solver, contact)[place]
         members, reduced_pressure, _ = contact.member_loads()
         pressure[members] = reduced_pressure * solver.units.pressure
         gap = matrix @ pressure * indenter.element_side / (4 * np.pi) - depth + initial_gap

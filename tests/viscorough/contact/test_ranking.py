@@ -50,19 +50,20 @@ def few_ranked(monkeypatch):
 
 
 def test_ranking_step_by_step_equals_ranking_at_once(indenter, few_ranked):
-    steps = Ranking(indenter)
-    nothing = steps.first(np.inf)
-    assert nothing.initial_gap.size == 0
-    elements = steps.up_to(nothing, steps.small_depth())
-    everything = steps.up_to(elements, np.inf)
+    steps, at_once = Ranking(indenter), Ranking(indenter)
+    assert steps.elements.initial_gap.size == 0
+    steps.rank_highest()
+    at_once.rank_up_to(np.inf)
+    elements, everything = steps.elements, at_once.elements
     assert 0 < elements.initial_gap.size < everything.initial_gap.size == everything.count == indenter.elements
     assert everything.initial_gap[0] == 0 < elements.initial_gap[-1]
     assert np.all(np.diff(everything.initial_gap) >= 0)
     np.testing.assert_allclose(
-        everything.initial_gap * steps.units.length, indenter.initial_gap[everything.places_on_map()], rtol=1e-15
+        everything.initial_gap * everything.units.length, indenter.initial_gap[everything.places_on_map()], rtol=1e-15
     )
     for depth in (0.01, 0.1, 0.3):
-        elements = steps.up_to(elements, depth)
+        steps.rank_up_to(depth)
+        elements = steps.elements
         ranked = elements.initial_gap.size
         assert elements.next_gap(ranked) >= depth or not elements.unranked
         assert np.count_nonzero(everything.initial_gap <= depth) <= ranked
@@ -74,8 +75,8 @@ def test_ranking_step_by_step_equals_ranking_at_once(indenter, few_ranked):
 def test_number_of_elements_ranked_first_does_not_grow_with_the_map(across):
     x = np.linspace(-1, 1, across, dtype="f4")
     steps = Ranking(Indenter(-np.add.outer(x**2, x**2), 1.0))
-    ranked = steps.up_to(steps.first(np.inf), steps.small_depth())
-    assert ranking._FIRST / 2 < ranked.initial_gap.size < 2 * ranking._FIRST
+    steps.rank_highest()
+    assert ranking._FIRST / 2 < steps.elements.initial_gap.size < 2 * ranking._FIRST
 
 
 @pytest.mark.parametrize("given", [{"depth": [0.02, 0.3, 1.0]}, {"force": [0.01, 1.0, 30.0]}])

@@ -1,4 +1,8 @@
-"""Preconditioned conjugate gradients on the contact sets of a grid, one after the other."""
+"""Preconditioned conjugate gradients on the contact sets of a grid, one after the other.
+
+One iteration: `ConjugateGradients.precondition` makes a PreconditionedResidual from the gap, `next_direction` makes a
+Direction from it, and one of the two kinds of step of the Direction changes pressure and gap.
+"""
 
 from collections.abc import Callable
 from functools import partial
@@ -8,7 +12,7 @@ import numpy as np
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, joined
-from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.halfspace.operator import Convolution
 from viscorough.contact.halfspace.tiles import TiledHalfspace
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.multilevel import Preconditioner
@@ -19,75 +23,75 @@ from viscorough.types import Array, Integers
 _LARGEST_SHARE = 1.0
 
 
-class ConjugateGradients:
-    """Conjugate gradients for x with K x given on a contact set; x is P or q, the residual −e or −e_q.
+class PreconditionedResidual:
+    """The gap e on a contact set, or e_q, and z = M e with the preconditioner M.
 
-    halfspace : Halfspace; preconditioner : Preconditioner; contact_set : ContactSet; loops : GridLoops
+    gap, preconditioned : e and z on the set, flat fields that the next residual overwrites
+    contact_set : ContactSet
+    loops : GridLoops
+    """
 
-    The search direction d is the load array of the half-space operator itself: applying the operator gives K d without
-    a copy. Therefore only one search at a time can use a half-space.
+    def __init__(self, gap: Array, preconditioned: Array, contact_set: ContactSet, loops: GridLoops) -> None:
+        self.gap, self.preconditioned, self.contact_set, self._loops = gap, preconditioned, contact_set, loops
+
+    def total_preconditioned(self) -> float:
+        """Return Σz over the set."""
+        return self._loops.total(self.preconditioned, self.contact_set.places)
+
+    def energy(self) -> float:
+        """Return zᵀe, the square of the norm of the residual."""
+        return self._loops.inner_product(self.preconditioned, self.gap, self.contact_set.places)
+
+    def shift(self, depth_step: float, response: Array) -> None:
+        """Change e and z on the set, in place, for a step of the depth.
+
+        response : M 1, from `ConjugateGradients.uniform_response`
+        """
+        fixed = np.float32(depth_step), self.gap, self.preconditioned
+        self._loops.each(kernels.shift_on_set, fixed, self.contact_set.places, response)
+
+
+class Direction:
+    """A search direction d on a contact set, and the steps along it; take one of the two kinds of step.
+
+    d is the load array of the half-space operator itself: applying the operator gives K d without a copy. The next
+    direction overwrites d.
+
+    halfspace : Halfspace with d as its load
+    residual : PreconditionedResidual that d follows from
+    stencil : preconditioner.load_redistribution_stencil
+    loops : GridLoops
+
+    released : indices in d of the elements that a step has released
     """
 
     def __init__(
         self,
-        halfspace: Halfspace | TiledHalfspace,
-        preconditioner: Preconditioner,
-        contact_set: ContactSet,
+        halfspace: Convolution | TiledHalfspace,
+        residual: PreconditionedResidual,
+        stencil: Array,
         loops: GridLoops,
     ) -> None:
-        self._halfspace, self._preconditioner, self._loops = halfspace, preconditioner, loops
-        self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
-        loops.fill(self._direction, 0)
-        self._deflection: Array | None = None
-        self._limit, self._released = np.inf, np.empty(0, dtype=int)
-        self.change_set(contact_set)
+        self._halfspace, self._values, self._residual = halfspace, halfspace.load.ravel(), residual
+        self._stencil, self._loops = stencil, loops
+        self._deflection: Array | None = None  # K d of the last step, as a flat array
+        self._limit = np.inf
+        self.released: Integers = np.empty(0, dtype=int)
 
-    def change_set(self, contact_set: ContactSet) -> None:
-        """Continue with another contact set; the direction is zero on elements that have joined or left."""
-        self._direction[self._released] = 0
-        self._set, self._released = contact_set, self._released[:0]
-        self._preconditioner.prepare(contact_set.inside, contact_set.places.size)
-
-    def precondition(self, gap: Array) -> None:
-        """Compute the preconditioned gap z = M e on the set."""
-        self._preconditioned, self._gap = self._preconditioner.apply(gap), gap
-
-    def uniform_response(self, ones: Array) -> Array:
-        """Return M 1 on the set, in the order of its places; it approximates the tangent. Call it before
-        `precondition`.
-
-        ones : flat field
-        """
-        return self._preconditioner.apply(ones)[self._set.places]
-
-    def total_preconditioned(self) -> float:
-        """Return Σz over the set."""
-        return self._loops.total(self._preconditioned, self._set.places)
-
-    def shift(self, depth_step: float, response: Array) -> None:
-        """Change e and z = M e on the set, in place, for a step of the depth.
-
-        response : M 1, from `uniform_response`
-        """
-        fixed = np.float32(depth_step), self._gap, self._preconditioned
-        self._loops.each(kernels.shift_on_set, fixed, self._set.places, response)
-
-    def norm(self) -> float:
-        """Return zᵀe, the square of the norm of the residual."""
-        return self._loops.inner_product(self._preconditioned, self._gap, self._set.places)
-
-    def update_direction(self) -> None:
-        """Update the search direction from the preconditioned residual, conjugate to the last direction.
+    def conjugacy_factor(self, residual: PreconditionedResidual) -> float:
+        """Return the share of this direction in the next one, which makes them conjugate.
 
         A release step does not minimise the energy along its direction, so its conjugacy factor is corrected. The
         coming step is assumed to have length 1.
+
+        residual : PreconditionedResidual after the step
         """
-        factor = 0.0
-        if self._deflection is not None:
-            of_preconditioned, of_gap, of_direction = self._sums()
-            if of_direction > 0:
-                factor = max(-self._limit, min((of_preconditioned - of_gap) / of_direction, self._limit))
-        self._over_set(kernels.update_search_direction, self._direction, self._preconditioned, factor)
+        if self._deflection is None:
+            return 0.0
+        by_preconditioned, by_gap, by_direction = self._sums(residual)
+        if not by_direction > 0:
+            return 0.0
+        return max(-self._limit, min((by_preconditioned - by_gap) / by_direction, self._limit))
 
     def step(self, pressure: Array, gap: Array) -> bool:
         """Take a step of conjugate gradients, which changes pressure and gap in place.
@@ -97,30 +101,29 @@ class ConjugateGradients:
         Returns True if any pressure is negative.
         """
         deflection = self._deflect()
-        _, of_gap, of_direction = self._sums()
+        _, by_gap, by_direction = self._sums(self._residual)
         # Fields must keep their precision in the loops. If the guess was exact, there is no direction.
-        length = gap.dtype.type(-of_gap / of_direction if of_direction > 0 else 0.0)
+        length = gap.dtype.type(-by_gap / by_direction if by_direction > 0 else 0.0)
         self._loops.update_gap(length, deflection, gap)
-        self._limit = np.inf
-        return any(self._over_set(kernels.update_pressure, length, self._direction, pressure))
+        return any(self._over_set(kernels.update_pressure, length, self._values, pressure))
 
     def unloaded_under_tension(self, pressure: Array) -> Integers:
         """Return places of elements without pressure that a step along the direction would put under tension."""
-        return joined(self._over_set(kernels.unloaded_under_tension, self._direction, pressure))
+        return joined(self._over_set(kernels.unloaded_under_tension, self._values, pressure))
 
-    def step_causes_tension(self, length: float, pressure: Array) -> bool:
+    def causes_tension(self, length: float, pressure: Array) -> bool:
         """Return True if a step of that length along the direction puts any element under tension."""
-        return any(self._over_set(kernels.step_causes_tension, length, self._direction, pressure))
+        return any(self._over_set(kernels.step_causes_tension, length, self._values, pressure))
 
     def step_and_release(self, length: float, pressure: Array, width: int) -> None:
         """Take a step of given length, then remove elements under tension from the set; changes both in place.
 
         width : length of a row of flat fields
 
-        The direction becomes the change of pressure; the gap is changed by `update_gap`, or computed from the pressure.
+        The direction becomes the change of pressure. The gap is not changed: update or recompute it.
         """
-        direction, (inside, places, slots) = self._direction, self._set
-        neighbours = self._preconditioner.stencil, width, self._halfspace.load.shape[1]
+        direction, (inside, places, slots) = self._values, self._residual.contact_set
+        neighbours = self._stencil, width, self._halfspace.load.shape[1]
 
         def step(i: int, j: int) -> Integers:
             return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
@@ -131,14 +134,13 @@ class ConjugateGradients:
         band = max(BLOCK // width, 2) * width
         bands = np.split(released, np.searchsorted(places[released], np.arange(band, pressure.size, band)))
 
-        def release(of_bands: list[Integers], first: int, last: int) -> None:
-            for of_band in of_bands[first:last]:
-                kernels.release(direction, pressure, inside, places, slots, of_band, *neighbours)
+        def release(some_bands: list[Integers], first: int, last: int) -> None:
+            for members in some_bands[first:last]:
+                kernels.release(direction, pressure, inside, places, slots, members, *neighbours)
 
-        for of_bands in filter(None, (bands[::2], bands[1::2])):
-            run_blocks(partial(release, of_bands), len(of_bands), self._loops.threads, 1)
-        self._released = slots[released]
-        self._deflection, self._limit = None, _LARGEST_SHARE
+        for some_bands in filter(None, (bands[::2], bands[1::2])):
+            run_blocks(partial(release, some_bands), len(some_bands), self._loops.threads, 1)
+        self.released, self._limit = slots[released], _LARGEST_SHARE
 
     def update_gap(self, gap: Array) -> None:
         """Change the gap, e − g, by the deflection of the direction, in place."""
@@ -150,11 +152,68 @@ class ConjugateGradients:
         self._deflection = deflection.ravel()
         return deflection[:, : self._halfspace.shape[1]]
 
-    def _sums(self) -> Array:
-        """Return z·Kd, d·e and d·Kd over the set."""
-        fields = self._direction, self._deflection, self._preconditioned, self._gap
-        return sum(self._over_set(kernels.direction_sums, *fields))
+    def _sums(self, residual: PreconditionedResidual) -> Array:
+        """Return z·Kd, d·e and d·Kd over the set of a residual."""
+        fields = self._values, self._deflection, residual.preconditioned, residual.gap
+        members = residual.contact_set
+        return sum(self._loops.each(kernels.direction_sums, fields, members.places, members.slots))
 
     def _over_set(self, kernel: Callable[..., Any], *fixed: Any) -> Any:
         """Return results of kernel(*fixed, places, slots) for the blocks of the set."""
-        return self._loops.each(kernel, fixed, self._set.places, self._set.slots)
+        members = self._residual.contact_set
+        return self._loops.each(kernel, fixed, members.places, members.slots)
+
+
+class ConjugateGradients:
+    """Search directions for x with K x given on a contact set; x is P or q, the residual −e or −e_q.
+
+    halfspace : Halfspace or TiledHalfspace; its load is the current direction, so that it can serve one search only
+    preconditioner : Preconditioner
+    contact_set : ContactSet
+    loops : GridLoops
+    """
+
+    def __init__(
+        self,
+        halfspace: Convolution | TiledHalfspace,
+        preconditioner: Preconditioner,
+        contact_set: ContactSet,
+        loops: GridLoops,
+    ) -> None:
+        self._halfspace, self._preconditioner, self._loops = halfspace, preconditioner, loops
+        self._values = halfspace.load.ravel()  # a view: the direction is the operator's load
+        loops.fill(self._values, 0)
+        self._last: Direction | None = None
+        self.change_set(contact_set)
+
+    def change_set(self, contact_set: ContactSet) -> None:
+        """Continue with another contact set; the direction is zero on elements that have joined or left."""
+        if self._last:
+            self._values[self._last.released] = 0
+        self._set = contact_set
+        self._preconditioner.prepare(contact_set.inside, contact_set.places.size)
+
+    def uniform_response(self, ones: Array) -> Array:
+        """Return M 1 on the set, in the order of its places; it approximates the tangent.
+
+        ones : flat field
+        """
+        return self._preconditioner.apply(ones)[self._set.places]
+
+    def precondition(self, gap: Array) -> PreconditionedResidual:
+        """Compute z = M e on the set.
+
+        gap : e or e_q on the set, flat field
+        """
+        return PreconditionedResidual(gap, self._preconditioner.apply(gap), self._set, self._loops)
+
+    def next_direction(self, residual: PreconditionedResidual) -> Direction:
+        """Return the search direction that follows from a residual, conjugate to the last direction.
+
+        It overwrites the last direction.
+        """
+        factor = self._last.conjugacy_factor(residual) if self._last else 0.0
+        fixed = self._values, residual.preconditioned, factor
+        self._loops.each(kernels.update_search_direction, fixed, self._set.places, self._set.slots)
+        self._last = Direction(self._halfspace, residual, self._preconditioner.stencil, self._loops)
+        return self._last

@@ -7,9 +7,9 @@ together, so a contact at a force takes few more iterations than a contact at a 
 
 import numpy as np
 
-from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
+from viscorough.contact.grid.conjugate_gradients import ConjugateGradients, PreconditionedResidual
 from viscorough.contact.grid.loops import GridLoops
-from viscorough.contact.state import BoundedField
+from viscorough.contact.state import BoundedField, TargetForce
 from viscorough.types import Array, Integers
 
 # Largest ratio of depths in one iteration.
@@ -20,14 +20,15 @@ _ACCURACY = 0.2
 _LEAST_STIFFNESS = 0.28
 
 
-class PrescribedForce:
-    """ΣP to be reached at a reduced depth up to the largest; at the largest depth a smaller sum is accepted.
+class DepthAdjustment:
+    """Adjusts the depth of a contact to a TargetForce.
 
-    size : size of flat fields; loops : GridLoops
+    size : size of flat fields
+    loops : GridLoops
     """
 
-    def __init__(self, pressure_sum: float, largest_depth: float, size: int, loops: GridLoops) -> None:
-        self._pressure_sum, self._largest_depth, self._loops = pressure_sum, largest_depth, loops
+    def __init__(self, target: TargetForce, size: int, loops: GridLoops) -> None:
+        self._target, self._loops = target, loops
         self._ones = np.ones(size, np.float32)
         self._stiffness = _LEAST_STIFFNESS
 
@@ -44,18 +45,23 @@ class PrescribedForce:
 
         limit : largest residual
         """
-        missing = self._pressure_sum - self._loops.total(pressure, places)
-        return abs(missing) <= _ACCURACY * limit * self._stiffness or (missing > 0 and depth >= self._largest_depth)
+        missing = self._target.pressure_sum - self._loops.total(pressure, places)
+        return abs(missing) <= _ACCURACY * limit * self._stiffness or (
+            missing > 0 and depth >= self._target.largest_depth
+        )
 
-    def adjust_depth(self, search: ConjugateGradients, pressure: Array, change: BoundedField, depth: float) -> float:
-        """Change the depth, and the residuals in place; return the depth.
+    def adjust_depth(
+        self, residual: PreconditionedResidual, pressure: Array, change: BoundedField, depth: float
+    ) -> float:
+        """Change the depth, and the residual and e − g in place; return the depth.
 
-        search : ConjugateGradients, with the residual preconditioned; change : BoundedField of e − g
+        change : BoundedField of e − g
         """
-        predicted = self._loops.total(pressure, self._places) - search.total_preconditioned()
-        wanted = depth + (self._pressure_sum - predicted) / self._stiffness
-        wanted = min(max(wanted, depth / _LARGEST_RATIO), depth * _LARGEST_RATIO, self._largest_depth)
-        step = change.values.dtype.type(wanted - depth)
+        largest_depth = self._target.largest_depth
+        predicted = self._loops.total(pressure, self._places) - residual.total_preconditioned()
+        next_depth = depth + (self._target.pressure_sum - predicted) / self._stiffness
+        next_depth = min(max(next_depth, depth / _LARGEST_RATIO), depth * _LARGEST_RATIO, largest_depth)
+        step = change.values.dtype.type(next_depth - depth)
         change.values -= step
-        search.shift(step, self._response)
-        return min(depth + float(step), self._largest_depth)
+        residual.shift(step, self._response)
+        return min(depth + float(step), largest_depth)

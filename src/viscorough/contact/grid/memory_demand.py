@@ -41,13 +41,13 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
     inside = np.isfinite(heights)
     rows, columns = (int(np.ptp(np.flatnonzero(inside.any(axis=axis)))) + 1 for axis in (1, 0))
     needed = _PER_HEIGHT * heights.size + _PER_ELEMENT * np.count_nonzero(inside)
-    needed += _of_grid(rows, columns, exact=exact, threads=threads)
+    needed += _grid_bytes(rows, columns, exact=exact, threads=threads)
     memory.require(needed, f"contact of a map of {heights.shape} heights")
 
 
 def require_for_box(heights: Array, box: tuple[int, ...], *, exact: bool, threads: int = 1) -> None:
     """Check the same for the contact in a box (first row, first column, rows, columns); the elements exist already."""
-    memory.require(_of_grid(*box[2:], exact=exact, threads=threads), f"contact of a map of {heights.shape} heights")
+    memory.require(_grid_bytes(*box[2:], exact=exact, threads=threads), f"contact of a map of {heights.shape} heights")
 
 
 def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
@@ -55,19 +55,19 @@ def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
     rows, columns = elements.shape
     flat = (rows + 2 * REACH) * (columns + 2 * REACH)
     needed = _PER_JOINED_ELEMENT * elements.count + _PER_JOINED_PLACE * flat + _CONSTANT
-    needed += _of_operators(rows, columns, (8,), threads)
+    needed += _operator_bytes(rows, columns, (8,), threads)
     memory.require(needed, f"complete contact of a map of {elements.shape} heights")
 
 
-def _of_grid(rows: int, columns: int, *, exact: bool, threads: int) -> float:
+def _grid_bytes(rows: int, columns: int, *, exact: bool, threads: int) -> float:
     """Return bytes of a grid solver, its operators, and the contacts on its grid."""
     flat = (int(rows) + 2 * REACH) * (int(columns) + 2 * REACH)
     fields = 8 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS)
-    operators = _of_operators(rows, columns, (4, 8) if exact else (4,), threads)
+    operators = _operator_bytes(rows, columns, (4, 8) if exact else (4,), threads)
     return 8 * int(rows) * int(columns) + operators + (fields + _PER_PLACE) * flat + _CONSTANT
 
 
-def _of_operators(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], threads: int) -> float:
+def _operator_bytes(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], threads: int) -> float:
     """Return bytes of half-space operators on a grid, one for each precision, and of their common spectrum."""
     rows, columns = sorted((int(rows), int(columns)))
     along_columns, along_rows = convolution_lengths(rows, columns)

@@ -1,14 +1,15 @@
-"""Start the tangent of a new contact from the combination of known fields that is closest to it in energy.
+"""Start the tangent of a new contact from the combination of computed fields that is closest to it in energy.
 
-The deflections of both pressures of a step and of the last tangent are known, and the new tangent q is almost a
-combination of these fields.
+The deflections of both pressures of a step and of the last tangent have been computed, and the new tangent q is almost
+a combination of these three fields.
 """
 
 import numpy as np
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
-from viscorough.contact.state import BoundedField, ContactSet, ContactState
+from viscorough.contact.grid.pressure_iteration import TrialContact
+from viscorough.contact.state import BoundedField, ContactSet, GridContact
 from viscorough.types import Array
 
 # Eigenvalues of the energies of the loads, over the largest, that are zero but for rounding.
@@ -16,27 +17,28 @@ _DEPENDENT = 1e-10
 
 
 def initial_tangent(
-    now: tuple[Array, BoundedField, float], last: ContactState, contact_set: ContactSet, inner: slice, loops: GridLoops
+    trial: TrialContact, last: GridContact | None, contact_set: ContactSet, inner: slice, loops: GridLoops
 ) -> tuple[Array, BoundedField]:
     """Return the combination as initial q, and e_q = K q − 1 everywhere as a BoundedField.
 
-    now : P, flat field, e − g = w − u, a BoundedField, and the reduced depth u after the step
-    last : the ContactState before the step; without GridFields if there was no contact
+    trial : the contact after the step, solved
+    last : GridContact before the step; None if the solution started without it
     contact_set : the ContactSet after the step
     inner : slice of flat fields without the first and last rows of their border
     loops : GridLoops
     """
-    (pressure, change, depth), last_depth, before = now, last.reduced_depth, last.fields
-    known, last_rounding, tangent_rounding = 3 * (pressure, change.values), 0.0, 0.0
-    if before:
-        known = (
-            *known[:2], before.pressure, before.gap_change.values, before.tangent, before.tangent_gap.values,
-        )  # fmt: skip
+    pressure, change, depth = trial.pressure, trial.change, trial.depth
+    last_depth, last_rounding, tangent_rounding = 0.0, 0.0, 0.0
+    computed = 3 * (pressure, change.values)
+    if last:
+        before, last_depth = last.fields, last.reduced_depth
+        last_fields = before.pressure, before.gap_change.values, before.tangent, before.tangent_gap.values
+        computed = pressure, change.values, *last_fields
         last_rounding, tangent_rounding = before.gap_change.rounding, before.tangent_gap.rounding
     # An element that left the contact, within the tolerance, was loaded by fields that cannot be part of q.
-    only_now = before is None or loops.difference(before.inside, contact_set.inside).size > 0
+    only_now = last is None or loops.difference(last.fields.inside, contact_set.inside).size > 0
     combined = slice(1) if only_now else slice(3)
-    parts = loops.each(kernels.energies, ((depth, last_depth), *known), contact_set.places)
+    parts = loops.each(kernels.energies, ((depth, last_depth), *computed), contact_set.places)
     energy, sums = (sum(part) for part in zip(*parts, strict=True))
     energy, sums = energy[combined, combined], sums[combined]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
@@ -48,7 +50,7 @@ def initial_tangent(
     # q ≈ a P + b P' + c q', with P' and q' before the step.
     a, b, c = weights = *solution, *[0.0] * (3 - solution.size)
     tangent, tangent_gap = (field_to_fill(pressure.size, pressure.dtype, inner) for _ in range(2))
-    fields = (field[inner] for field in (tangent, tangent_gap, *known))
+    fields = (field[inner] for field in (tangent, tangent_gap, *computed))
     loops.each(kernels.combine, (weights, a * depth + b * last_depth + c - 1), *fields)
     # Bound on the rounding error of the combined e_q. Unless it was recomputed, the gap has the errors of the last gap
     # and tangent gap, which partly cancel here.

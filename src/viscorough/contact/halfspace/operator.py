@@ -34,9 +34,11 @@ def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
 
 
 def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: bool = True, threads: int = 1) -> Array:
-    """What a Halfspace multiplies transforms with, in double precision; its arguments are those of Halfspace."""
-    of_grid = convolution_lengths(rows, columns), None if padding else (rows, columns), aspect
-    return _kept_spectrum(*of_grid, 1) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
+    """Return the spectrum of the influence coefficients of a grid, in double precision; arguments as of Halfspace."""
+    lengths, period = convolution_lengths(rows, columns), None if padding else (rows, columns)
+    if rows * columns <= _KEPT:
+        return _kept_spectrum(lengths, period, aspect, 1)
+    return _spectrum(lengths, period, aspect, threads)
 
 
 def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float, threads: int) -> Array:
@@ -84,28 +86,24 @@ def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array]
     return spectrum
 
 
-class Halfspace:
-    """The half-space operator w = K P on a grid of rows × columns elements: w_i = Σ_j K(i − j) P_j.
-
-    With P = p d/(4πG) and d = √(dx dy) the result w is the deflection of the surface.
+class Convolution:
+    """The convolution w_i = Σ_j K(i − j) P_j on a grid, with an even kernel K given by its spectrum.
 
     K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
     nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
     along the rows are skipped (a quarter of the work of the padded transform), and they are stored only while the
     columns are convolved.
 
-    rows, columns : of the grid
+    shape : rows and columns of the grid
+    spectrum : spectrum of K from `spectrum_of_grid` or `spectrum_of_kernel`, for `convolution_lengths`
     precision : floating-point type of the computation
-    aspect : dy/dx of the elements
-    padding : whether the grid is padded; if not, periodic images of the grid act on it
-    threads : on which it is computed
-    spectrum : spectrum_of_grid of these arguments, where it is known from another precision
-    once : whether it is applied once, so that it takes less time without compiled convolutions of the columns
+    threads : number of threads
+    once : True if it is applied once, so that it takes less time without compiled convolutions of the columns
 
     load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
         and in the columns beyond the grid
     count : number of applications so far
-    accuracy : bound on the error beside rounding, over the largest deflection
+    accuracy : bound on the error in addition to rounding, over the largest deflection
 
     `apply()` returns w in an array of the layout of `load`, overwritten by the next call; its columns beyond the grid
     are undefined.
@@ -115,20 +113,16 @@ class Halfspace:
 
     def __init__(
         self,
-        rows: int,
-        columns: int,
+        shape: tuple[int, int],
+        spectrum: Array,
         precision: DTypeLike = np.float64,
         *,
-        aspect: float = 1.0,
-        padding: bool = True,
         threads: int = 1,
-        spectrum: Array | None = None,
         once: bool = False,
     ) -> None:
-        self.shape, self._threads = (rows, columns), threads
+        rows, columns = self.shape = shape
+        self._threads = threads
         self._length = length = convolution_lengths(rows, columns)[1]
-        if spectrum is None:
-            spectrum = spectrum_of_grid(rows, columns, aspect=aspect, padding=padding, threads=threads)
         # Rows that are many are transformed block by block, and padded only there.
         self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
         self._is_one = self._block >= rows
@@ -144,13 +138,13 @@ class Halfspace:
 
     def apply(self) -> Array:
         """Deflection w = K P of the pressure in `load`, in the same layout; valid until the next call."""
-        of_rows = len(self.load), self._threads, self._block, _ROWS_AT_ONCE
-        run_blocks(self._transform, *of_rows)
+        blocks = len(self.load), self._threads, self._block, _ROWS_AT_ONCE
+        run_blocks(self._transform, *blocks)
         if self._convolution:
             self._convolution.apply(self._transformed)
         else:  # a single row has nothing to convolve along its columns
             self._transformed *= self._spectrum
-        run_blocks(self._transform_back, *of_rows)
+        run_blocks(self._transform_back, *blocks)
         self.count += 1
         return self._deflection
 
@@ -171,3 +165,29 @@ class Halfspace:
         ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._length, out=out[:, : self._length])
         if not self._is_one:
             rows[:, :columns] = out[:, :columns]
+
+
+class Halfspace(Convolution):
+    """The half-space operator w = K P on a grid of rows × columns elements.
+
+    With P = p d/(4πG) and d = √(dx dy) the result w is the deflection of the surface.
+
+    rows, columns : size of the grid
+    precision : floating-point type of the computation
+    aspect : dy/dx of the elements
+    padding : True if the grid is padded; if not, periodic images of the grid act on it
+    threads : number of threads
+    """
+
+    def __init__(
+        self,
+        rows: int,
+        columns: int,
+        precision: DTypeLike = np.float64,
+        *,
+        aspect: float = 1.0,
+        padding: bool = True,
+        threads: int = 1,
+    ) -> None:
+        spectrum = spectrum_of_grid(rows, columns, aspect=aspect, padding=padding, threads=threads)
+        super().__init__((rows, columns), spectrum, precision, threads=threads)

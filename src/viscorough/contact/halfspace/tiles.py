@@ -15,7 +15,7 @@ from numpy.typing import DTypeLike
 
 from viscorough.compilation import njit
 from viscorough.contact.halfspace.influence import influence_table
-from viscorough.contact.halfspace.operator import Halfspace, convolution_lengths, spectrum_of_kernel
+from viscorough.contact.halfspace.operator import Convolution, convolution_lengths, spectrum_of_kernel
 from viscorough.contact.parallel import Buffer, run_blocks
 from viscorough.types import Array, Integers, Mask
 
@@ -68,7 +68,7 @@ def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:
 
 
 class TiledHalfspace:
-    """The half-space operator w = K P on tiles of a grid of rows × columns elements; see operator.Halfspace.
+    """The half-space operator w = K P on tiles of a grid of rows × columns elements; see operator.Convolution.
 
     rows, columns, precision, aspect, threads : as of Halfspace
     tiles : those that may have loads, as of `tiles_with`
@@ -100,7 +100,7 @@ class TiledHalfspace:
             return _smooth_kernel(_STRIDE * row, _STRIDE * column, *sides, sigma)
 
         spectrum = spectrum_of_kernel(convolution_lengths(points[0], points[1]), smooth, threads)
-        self._coarse = Halfspace(points[0], points[1], precision, threads=threads, spectrum=spectrum)
+        self._coarse = Convolution((points[0], points[1]), spectrum, precision, threads=threads)
         self._reach, lengths, self._spectrum = _short_range(sides, sigma, precision)
         self.load, self._deflection = np.zeros((2, rows, columns), precision)
         self._patch = Buffer(lengths, precision)
@@ -113,11 +113,11 @@ class TiledHalfspace:
         self.add_to(self._deflection, self._tiles)
         return self._deflection
 
-    def add_to(self, field: Array, wanted: Mask) -> None:
-        """Add the deflection to a field of shape (rows, columns), in place, in other tiles than those with loads."""
+    def add_to(self, field: Array, targets: Mask) -> None:
+        """Add the deflection to a field of shape (rows, columns), in place, in the target tiles."""
         self._coarse.load[:] = 0
         loaded: Mask = np.zeros(self._tiles.shape, bool)
-        tiles = np.argwhere(wanted)
+        tiles = np.argwhere(targets)
         for tile in np.argwhere(self._tiles):
             load = self.load[_part(tile)]
             if load.any():

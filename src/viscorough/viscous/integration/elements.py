@@ -7,7 +7,7 @@ import numpy as np
 
 from viscorough import memory
 from viscorough.contact.halfspace.operator import Halfspace
-from viscorough.contact.state import Elements, Units
+from viscorough.contact.state import ElementGrid, Elements, Units
 from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array, Integers
 
@@ -44,4 +44,5 @@ def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
     row, column = np.nonzero(np.isfinite(indenter.heights))
     gap = indenter.initial_gap[row, column]
     units = Units(1.0, indenter.element_side)
-    return MapElements(row, column, gap, (0, 0), indenter.heights.shape, indenter.aspect, units)
+    grid = ElementGrid((0, 0), indenter.heights.shape, indenter.aspect)
+    return MapElements(row, column, gap, grid, units)

@@ -15,9 +15,10 @@ from numpy.typing import ArrayLike
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, real_number
+from viscorough.contact.gap_map import gap_map
 from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.options import DEFAULT
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.summaries import unit_power
@@ -240,7 +241,7 @@ class _Implicit:
                 f"time steps: no depth found for an impulse of {impulse:g} in {_MAX_NEWTON_ITERATIONS} iterations"
             )
         self.depth += depth_step
-        self._gap = np.maximum(solver.gap_map(contact), 0.0)
+        self._gap = np.maximum(gap_map(solver, contact), 0.0)
         self.resistance, self.count = contact.tangent_sum, contact.count
         self.overlap = contact.residual * depth_step / self.depth
 

@@ -1,7 +1,5 @@
 """The grid solver: its solution, tangent, rounding bounds and box, against dense matrices."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -9,22 +7,22 @@ from support.influence import influence_matrix
 from viscorough import Indenter, indent, self_affine_disc
 from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.options import DEFAULT, SolverOptions
-from viscorough.contact.ranking import elements_of
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
+from viscorough.contact.ranking import all_elements
 
 DOUBLE = SolverOptions(precision="double", exact_gap_below=0.0)
 
 
 def whole_grid(indenter, tolerance, options=DEFAULT):
-    elements, units = elements_of(indenter)
+    elements = all_elements(indenter)
     box = 0, 0, *elements.shape
-    return elements, units, GridSolver(box, elements, tolerance, options)
+    return elements, GridSolver(box, elements, tolerance, options)
 
 
 def contact_on(grid, indenter, depth):
     """Solve the contact at a reduced depth, starting without load."""
     start = ContactSolver(indenter, 1e-6).unloaded_state()
-    return grid.solve(replace(start, fields=grid.fields(start)), depth)
+    return grid.solve(grid.transferred(start), depth)
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
@@ -32,7 +30,7 @@ def contact_on(grid, indenter, depth):
 def test_energy_error_of_the_tangent_is_within_the_limit(hurst, tolerance):
     """The energy norm of q − q* over q* is at most √tolerance and 0.01; its square is the relative error of k."""
     disc = self_affine_disc(hurst, 33, seed=5)
-    elements, _, grid = whole_grid(disc, tolerance)
+    elements, grid = whole_grid(disc, tolerance)
     allowed = min(1e-2, tolerance**0.5)
     for share in (0.02, 0.1, 0.4, 0.9):
         ranks = np.arange(round(share * elements.count))
@@ -65,7 +63,7 @@ ROUNDED = {
 @pytest.mark.parametrize("name", ROUNDED)
 def test_rounding_bounds_hold_from_level_to_level(name):
     indenter, depths, options = ROUNDED[name]
-    elements, _, grid = whole_grid(indenter, 1e-3, options)
+    elements, grid = whole_grid(indenter, 1e-3, options)
     matrix = influence_matrix(elements.row, elements.column)
     contact, bounds = contact_on(grid, indenter, depths[0]), []
     for depth in depths[1:]:
@@ -87,7 +85,7 @@ def test_rounding_bounds_hold_from_level_to_level(name):
 
 def test_double_precision_does_not_change_the_solution():
     disc = self_affine_disc(0.5, 33, seed=1)
-    grids = [whole_grid(disc, 1e-6, options)[2] for options in (DEFAULT, DOUBLE)]
+    grids = [whole_grid(disc, 1e-6, options)[1] for options in (DEFAULT, DOUBLE)]
     levels = [grid.solve(contact_on(grid, disc, 0.5), 0.6) for grid in grids]
     assert levels[0].pressure_sum == pytest.approx(levels[1].pressure_sum, rel=1e-7)
     assert levels[0].tangent_sum == pytest.approx(levels[1].tangent_sum, rel=1e-4)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from viscorough import ConvergenceError, Indenter, SolverOptions, indent, self_affine_disc
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.state import MemberLoads
 
 ROUTES = {"dense": SolverOptions(dense_contacts=10**9, dense_interactions=10**9),

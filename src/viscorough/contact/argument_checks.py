@@ -1,0 +1,48 @@
+"""Check the arguments that curves and single contacts have in common."""
+
+import sys
+import warnings
+
+from viscorough import units
+from viscorough.argument_names import argument, caller
+from viscorough.arrays import real_number
+from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.parallel import require_threads
+from viscorough.errors import AccuracyWarning
+from viscorough.indenter import Indenter, check_indenter
+from viscorough.summaries import with_unit
+
+
+def check_solvable(
+    name: str, indenter: Indenter, tolerance: float, threads: int = 1, options: SolverOptions = DEFAULT
+) -> float:
+    """Return the tolerance as a float.
+
+    Raises ValueError, which starts with the name, unless an indenter is a map, and tolerance and threads are in range,
+    and TypeError for other options than SolverOptions.
+    """
+    check_indenter(name, indenter, 2)
+    if indenter.spacing * indenter.row_spacing < sys.float_info.min:
+        text = f"a spacing of {indenter.spacing:g} is too small to represent areas"
+        raise ValueError(f"{caller(name)}{text}; a smaller unit of length is needed")
+    tolerance = real_number(argument("tolerance", of=name), tolerance)
+    if not 1e-12 <= tolerance <= 0.1:
+        raise ValueError(f"{argument('tolerance', of=name)} must be between 1e-12 and 0.1, not {tolerance!r}")
+    require_threads(name, threads)
+    if not isinstance(options, SolverOptions):
+        raise TypeError(f"{name}: options: {type(options).__name__}; viscorough.SolverOptions(...) is needed")
+    return tolerance
+
+
+def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:
+    """Give an AccuracyWarning, which starts with the name, for a depth larger than the map is wide.
+
+    No warning is given if the unit of length is unknown: the theory is linear in the heights, which may then be in any
+    unit.
+    """
+    rows, columns = indenter.heights.shape
+    extent = max(rows * indenter.row_spacing, columns * indenter.spacing)
+    if indenter.length_unit != units.UNKNOWN and depth > extent * (1 + 1e-9):
+        reached, width = (with_unit(length, indenter.length_unit) for length in (depth, extent))
+        text = f"{caller(name)}the depth u, {reached}, is larger than the map is wide, {width}"
+        warnings.warn(f"{text}; the theory ends far below: check the units of force and heights", AccuracyWarning, 3)

@@ -1,0 +1,83 @@
+"""Compute the map of the gap between the deformed surfaces, from a solved contact."""
+
+import numpy as np
+
+from viscorough.contact.halfspace import tiles
+from viscorough.contact.halfspace.operator import Convolution, spectrum_of_grid
+from viscorough.contact.parallel import BLOCK, run_blocks
+from viscorough.contact.prescribed_depth import ContactSolver
+from viscorough.contact.state import ContactState, DenseContact, GridContact
+from viscorough.errors import ConvergenceError
+from viscorough.types import Array
+
+
+def gap_map(solver: ContactSolver, contact: ContactState) -> Array:
+    """Return the gap e between the deformed surfaces [length], shape of the heights; nan outside the indenter.
+
+    The fields of a contact on the grid already have the gap in the box of this grid. Elsewhere the deflection by all
+    loads is computed.
+
+    solver : ContactSolver that has solved the contact
+
+    Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact.
+    """
+    gap = _undeformed_gap(solver, contact.depth)
+    (top, left), (rows, columns) = solver.elements.grid.origin, solver.elements.shape
+    on_grid = slice(top, top + rows), slice(left, left + columns)
+    part, box, box_gap = gap[on_grid], (0, 0, 0, 0), None
+    grid = solver.grid_of(contact)
+    # The operator of a restricted grid computes no deflection in the other tiles of the box.
+    if grid and isinstance(contact, GridContact) and not grid.is_restricted:
+        box, box_gap = grid.box, grid.in_box(contact.fields.gap_change.values)
+    if box != (0, 0, rows, columns):
+        _add_deflection(solver, contact, part, box)
+    if box_gap is not None:
+        row, column, rows, columns = box
+        in_box = slice(row, row + rows), slice(column, column + columns)
+        np.subtract(solver.ranking.highest, solver.indenter.heights[on_grid][in_box], out=part[in_box], dtype=float)
+        part[in_box] += box_gap * solver.units.length
+    overlap = -np.fmin.reduce(gap, axis=None) / contact.depth
+    if overlap > contact.residual + solver.tolerance:
+        raise ConvergenceError(
+            f"contact at depth {contact.depth:g}: elements overlap the surface by {overlap:.1e} of the depth"
+        )
+    return gap
+
+
+def _undeformed_gap(solver: ContactSolver, depth: float) -> Array:
+    """Return g − u of all heights [length], the gap without deflection of the surface."""
+    heights, highest = solver.indenter.heights, solver.ranking.highest
+    gap = np.empty(heights.shape)
+
+    def subtract(i: int, j: int) -> None:
+        np.subtract(highest, heights[i:j], out=gap[i:j], dtype=float)
+        gap[i:j] -= depth
+
+    run_blocks(subtract, len(gap), solver.threads, -(-BLOCK // heights.shape[1]))
+    return gap
+
+
+def _add_deflection(solver: ContactSolver, contact: ContactState, gap: Array, box: tuple[int, ...]) -> None:
+    """Add the deflection by the loads of a contact to a gap [length], in place.
+
+    gap : gap on the grid of the elements, shape (rows, columns)
+    box : (first row, first column, rows, columns) in which the gap may be left unchanged
+    """
+    loads, elements, options = contact.member_loads(), solver.elements, solver.options
+    rows, columns = elements.shape
+    place, load = (elements.row[loads.members], elements.column[loads.members]), loads.pressure
+    if options.padding and tiles.is_suitable(elements.shape, elements.aspect, solver.tolerance):
+        loaded = tiles.tiles_with(*place, elements.shape)
+        restricted = tiles.TiledHalfspace(rows, columns, loaded, aspect=elements.aspect, threads=solver.threads)
+        restricted.load[place] = load * solver.units.length
+        restricted.add_to(gap, tiles.tiles_beyond(box, elements.shape))
+    else:
+        # Dense solutions are exact to the rounding of double precision.
+        is_exact = isinstance(contact, DenseContact) or solver.tolerance < options.exact_gap_below
+        precision, threads = np.float64 if is_exact else np.float32, solver.threads
+        spectrum = spectrum_of_grid(rows, columns, aspect=elements.aspect, padding=options.padding, threads=threads)
+        halfspace = Convolution((rows, columns), spectrum, precision, threads=threads, once=True)
+        halfspace.load[place] = load * solver.units.length
+        gap += halfspace.apply()[:, :columns]
+    if isinstance(contact, DenseContact):
+        gap[place] = 0.0

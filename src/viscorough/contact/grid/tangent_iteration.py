@@ -1,0 +1,44 @@
+"""Iterate for the tangent q, the solution of K q = 1 on a contact set, by preconditioned conjugate gradients."""
+
+import numpy as np
+
+from viscorough.contact.grid import kernels
+from viscorough.contact.grid.workspace import GridWorkspace
+from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE
+from viscorough.contact.state import BoundedField, ContactSet
+from viscorough.types import Array
+
+# Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
+_TANGENT_TOLERANCE = 1e-2
+# Accepted rounding error of e_q = K q − 1, over the tolerance. The stiffness depends on its mean over the set, not on
+# its largest value, and therefore stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
+_TANGENT_ROUNDING = 5.0
+
+
+def solve_tangent(grid: GridWorkspace, contact_set: ContactSet, tangent: Array, tangent_gap: BoundedField) -> None:
+    """Solve K q = 1 on a set; changes q and e_q, with its rounding bound, in place.
+
+    grid : GridWorkspace; no other iteration may use it at the same time
+
+    Raises ConvergenceError if this takes more than max_iterations.
+    """
+    tolerance = min(_TANGENT_TOLERANCE, np.sqrt(grid.tolerance))
+    accepted = max(_TANGENT_ROUNDING * grid.tolerance, grid.exact_rounding + grid.field_rounding)
+    search = grid.conjugate_gradients(contact_set)
+    for _ in range(grid.options.max_iterations):
+        fields = tangent_gap.values, grid.residual
+        largest = max(grid.loops.each(kernels.gather_on_set, fields, contact_set.places))
+        residual = search.precondition(grid.residual)
+        # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
+        total = grid.loops.total(tangent, contact_set.places)
+        error = np.sqrt(residual.energy() / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
+        if error <= tolerance:
+            if tangent_gap.rounding <= accepted:
+                return
+            grid.recompute_gap(tangent, 1, tangent_gap)
+            search = grid.conjugate_gradients(contact_set)
+            continue
+        direction = search.next_direction(residual)
+        tangent_gap.rounding += grid.step_rounding * largest + grid.field_rounding
+        direction.step(tangent, tangent_gap.values)
+    raise grid.not_converged(contact_set, error, tolerance)

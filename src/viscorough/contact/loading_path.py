@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from itertools import accumulate, islice
 from typing import Any
 
@@ -155,40 +156,82 @@ def indent(
     )
     if depths is not None and forces is not None:
         raise ValueError("indent: depths and forces exclude each other; one of them is allowed")
+    start_fraction, until_fraction = _check_fractions(start_fraction, until_fraction)
+    unit = indenter.length_unit
+    modulus = shear_modulus_of(unit, shear_modulus, young_modulus, poisson)
+    request = _CurveRequest(
+        start_fraction=start_fraction,
+        until_fraction=until_fraction,
+        until_force=_check_until_force(until_force, modulus, unit),
+        depths=_check_depths(depths, unit),
+        forces=_check_forces(forces, modulus, unit),
+        threads=threads,
+        options=options,
+    )
+    progress = progress or (lambda done: None)
+    if error is not None:
+        curve = curve_within(error, indenter, functools.partial(_curve, request), progress)
+    elif estimate_grid_error:
+        curve = _curve_with_grid_errors(request, indenter, tolerance, progress)
+    else:
+        curve = _curve(request, indenter, tolerance, progress)
+    warn_beyond_theory("indent", indenter, curve.depth[-1])
+    return curve
+
+
+@dataclass(frozen=True)
+class _CurveRequest:
+    """What a curve has to cover, and how it is computed: the checked arguments of `indent`, as numbers.
+
+    depths, forces : levels [length] or F/G [length²]; at most one of them is given, and then the range is ignored
+    start_fraction, until_fraction : range of contact fractions
+    until_force : F/G at which to stop [length²]
+    threads : number of threads
+    options : SolverOptions
+    """
+
+    start_fraction: float
+    until_fraction: float
+    until_force: float
+    depths: Array | None
+    forces: Array | None
+    threads: int
+    options: SolverOptions
+
+
+def _check_fractions(start_fraction: float, until_fraction: float) -> tuple[float, float]:
+    """Return both contact fractions as floats. Raises ValueError for fractions out of range."""
     until_fraction = fraction("indent: until_fraction", until_fraction)
     start_fraction = real_number("indent: start_fraction", start_fraction)
     if not 0 <= start_fraction < until_fraction:
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
-    unit = indenter.length_unit
-    modulus = shear_modulus_of(unit, shear_modulus, young_modulus, poisson)
+    return start_fraction, until_fraction
+
+
+def _check_until_force(until_force: float | str, modulus: float | None, unit: str) -> float:
+    """Return the force at which to stop as F/G [length²]. Raises ValueError unless it is positive."""
     if not (isinstance(until_force, float | np.floating) and until_force == np.inf):
         until_force = units.forces_over_modulus(until_force, modulus, unit, argument("until_force"))
         until_force = real_number(argument("until_force"), until_force)
     if not until_force > 0:
         raise ValueError(f"{argument('until_force', of='indent')} must be positive, not {until_force!r}")
-    if depths is not None:
-        depths = np.atleast_1d(units.numbers(depths, unit, unit, argument("depths")))
-        depths = increasing(argument("depths", of="indent"), depths, above_zero=True)
-    if forces is not None:
-        forces = np.atleast_1d(units.forces_over_modulus(forces, modulus, unit, argument("forces")))
-        forces = increasing(argument("forces", of="indent"), forces, above_zero=True)
-    progress = progress or (lambda done: None)
-    of_path: dict[str, Any] = {"start_fraction": start_fraction, "threads": threads, "options": options}
-    until: dict[str, Any] = {"until_fraction": until_fraction, "until_force": until_force}
+    return until_force
 
-    if error is not None:
-        curve = curve_within(error, indenter, functools.partial(_curve, **until, **of_path), progress)
-    else:
-        first = part_of(progress, 0.0, _SHARE_OF_CURVE) if estimate_grid_error else progress
-        curve = _curve(indenter, tolerance, first, depths=depths, forces=forces, **until, **of_path)
-    if estimate_grid_error and error is None:
-        coarse = every_nth_point(indenter, 2)
-        until = {"until_fraction": 1.0, "until_force": curve.force[-1]}
-        rest = part_of(progress, _SHARE_OF_CURVE, 1.0)
-        second = _curve(coarse, tolerance, rest, **until, **of_path)
-        curve = with_grid_errors(curve, second, indenter, highest_missed(indenter, coarse))
-    warn_beyond_theory("indent", indenter, curve.depth[-1])
-    return curve
+
+def _check_depths(depths: ArrayLike | None, unit: str) -> Array | None:
+    """Return the depths of levels [length]. Raises ValueError unless they are positive and increase."""
+    if depths is None:
+        return None
+    numbers = np.atleast_1d(units.numbers(depths, unit, unit, argument("depths")))
+    return increasing(argument("depths", of="indent"), numbers, above_zero=True)
+
+
+def _check_forces(forces: ArrayLike | None, modulus: float | None, unit: str) -> Array | None:
+    """Return the forces of levels as F/G [length²]. Raises ValueError unless they are positive and increase."""
+    if forces is None:
+        return None
+    numbers = np.atleast_1d(units.forces_over_modulus(forces, modulus, unit, argument("forces")))
+    return increasing(argument("forces", of="indent"), numbers, above_zero=True)
 
 
 def _check_error(error: float | None, **others: Any) -> float | None:
@@ -209,20 +252,20 @@ def _check_error(error: float | None, **others: Any) -> float | None:
     return error
 
 
-def _curve(
-    indenter: Indenter,
-    tolerance: float,
-    progress: Progress,
-    *,
-    depths: Array | None = None,
-    forces: Array | None = None,
-    start_fraction: float,
-    until_fraction: float,
-    until_force: float,
-    threads: int,
-    options: SolverOptions,
+def _curve_with_grid_errors(
+    request: _CurveRequest, indenter: Indenter, tolerance: float, progress: Progress
 ) -> LoadingCurve:
-    """Compute the LoadingCurve of a map; arguments as in `indent`, as checked numbers."""
+    """Compute the LoadingCurve of a map, and estimate the errors of its grid from a curve on every second point."""
+    curve = _curve(request, indenter, tolerance, part_of(progress, 0.0, _SHARE_OF_CURVE))
+    coarse, rest = every_nth_point(indenter, 2), part_of(progress, _SHARE_OF_CURVE, 1.0)
+    whole = replace(request, depths=None, forces=None, until_fraction=1.0, until_force=curve.force[-1])
+    second = _curve(whole, coarse, tolerance, rest)
+    return with_grid_errors(curve, second, indenter, highest_missed(indenter, coarse))
+
+
+def _curve(request: _CurveRequest, indenter: Indenter, tolerance: float, progress: Progress) -> LoadingCurve:
+    """Compute the LoadingCurve of a map."""
+    depths, forces, options, threads = request.depths, request.forces, request.options, request.threads
     if depths is not None:
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1], whole=False)
         contacts = accumulate(depths, solver.advance, initial=solver.unloaded_state())
@@ -233,7 +276,8 @@ def _curve(
         levels = _levels(map(ForceSearch(solver).contact_at, forces), len(forces), progress)
     else:
         solver = ContactSolver(indenter, tolerance, options, threads)
-        levels = _LoadingPath(solver, until_fraction, until_force, progress).levels_from(start_fraction)
+        path = _LoadingPath(solver, request.until_fraction, request.until_force, progress)
+        levels = path.levels_from(request.start_fraction)
     depth = solver.units.length * np.array([level.depth for level in levels])
     force = solver.units.force * np.array([level.pressure_sum for level in levels])
     if not np.isfinite(force).all():

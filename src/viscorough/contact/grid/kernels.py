@@ -151,13 +151,13 @@ def update_search_direction(direction, preconditioned, factor, places, slots):
 @njit(fastmath=True)
 def direction_sums(direction, deflection, preconditioned, gap, places, slots):
     """z·Kd, d·e and d·Kd over the set, with d and K d laid out as the operator's load; z and e are flat fields."""
-    of_preconditioned = of_gap = of_direction = 0.0
+    by_preconditioned = by_gap = by_direction = 0.0
     for t in range(slots.size):
         change, by_change = np.float64(direction[slots[t]]), np.float64(deflection[slots[t]])
-        of_preconditioned += preconditioned[places[t]] * by_change
-        of_gap += change * gap[places[t]]
-        of_direction += change * by_change
-    return np.array([of_preconditioned, of_gap, of_direction])
+        by_preconditioned += preconditioned[places[t]] * by_change
+        by_gap += change * gap[places[t]]
+        by_direction += change * by_change
+    return np.array([by_preconditioned, by_gap, by_direction])
 
 
 @njit

@@ -230,17 +230,17 @@ def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, pad
         source = padded
         for inverse in range(2):
             for stage in range(last + 1):
-                radix, before, of_stage = stages[stage, 0], stages[stage, 1], factors[stages[stage, 2] :]
+                radix, before, stage_factors = stages[stage, 0], stages[stage, 1], factors[stages[stage, 2] :]
                 if stage == last and not inverse and radix == 8:
                     _last_stage_of_eight(x, source, y, spectra[block], frequency, width)
                 elif stage == last and not inverse:
                     _last_stage_of_four(x, source, y, spectra[block], frequency, width)
                 elif radix == 8:
-                    _stage_of_eight(x, source, y, before, of_stage, width)
+                    _stage_of_eight(x, source, y, before, stage_factors, width)
                 elif radix == 4:
-                    _stage_of_four(x, source, y, before, of_stage, width)
+                    _stage_of_four(x, source, y, before, stage_factors, width)
                 else:
-                    _stage_of_three(x, source, y, before, of_stage, width)
+                    _stage_of_three(x, source, y, before, stage_factors, width)
                 x, y, source = y, x, same
             source = place
         _store(x, place, data, first, width)
@@ -269,8 +269,8 @@ class ColumnConvolution:
             before, first, rest = before * radix, first + groups, groups
         edges = np.array([*range(0, max(columns - _REST, 1), _BLOCK), columns])
         spectra = aligned_zeros((edges.size - 1, length // 2 + 1, _PARTS), precision)
-        for block, of_block in enumerate(np.split(spectrum, edges[1:-1], axis=1)):
-            spectra[block, :, : of_block.shape[1]] = of_block
+        for block, values in enumerate(np.split(spectrum, edges[1:-1], axis=1)):
+            spectra[block, :, : values.shape[1]] = values
         spectral = np.result_type(precision, np.complex64)
         same = np.arange(length)
         self._plan = (

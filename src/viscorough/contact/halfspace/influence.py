@@ -95,7 +95,7 @@ def _mean_inverse_distance(x, y, length, width):
     # Mean and half the difference of the second and fourth powers of the sides: 1 and 0 for a square of side 1.
     second, second_difference = 0.5 * (length2 + width2), 0.5 * (length2 - width2)
     fourth, fourth_difference = 0.5 * (length2**2 + width2**2), 0.5 * (length2**2 - width2**2)
-    of_second = (second / 24) * inverse2 * inverse + second_difference * (x2 - y2) * (inverse5 / 8)
-    of_fourth = fourth * (33 * (x2 * x2 + y2 * y2) - 144 * x2 * y2) + fourth_difference * 15 * (x2 * x2 - y2 * y2)
+    second_term = (second / 24) * inverse2 * inverse + second_difference * (x2 - y2) * (inverse5 / 8)
+    fourth_term = fourth * (33 * (x2 * x2 + y2 * y2) - 144 * x2 * y2) + fourth_difference * 15 * (x2 * x2 - y2 * y2)
     mixed = length2 * width2 * (81 * x2 * y2 - 12 * (x2 * x2 + y2 * y2))
-    return inverse + of_second + (of_fourth / 1920 + mixed / 576) * inverse5 * inverse2 * inverse2
+    return inverse + second_term + (fourth_term / 1920 + mixed / 576) * inverse5 * inverse2 * inverse2

@@ -217,20 +217,20 @@ def _distribute(load, weights):
     """Loads of a tile distributed to the points of the coarse grid, first along the rows."""
     rows, columns = load.shape
     coarse = np.zeros(((rows - 1) // _STRIDE + _POINTS, (columns - 1) // _STRIDE + _POINTS), load.dtype)
-    of_row = np.empty(coarse.shape[1], load.dtype)
+    row_sums = np.empty(coarse.shape[1], load.dtype)
     for i in range(rows):
-        of_row[:], is_loaded = 0, False
+        row_sums[:], is_loaded = 0, False
         for j in range(columns):
             value = load[i, j]
             if value != 0:
                 is_loaded, first = True, j // _STRIDE
                 for m in range(_POINTS):
-                    of_row[first + m] += value * weights[j % _STRIDE, m]
+                    row_sums[first + m] += value * weights[j % _STRIDE, m]
         if is_loaded:
             for k in range(_POINTS):
                 target, weight = coarse[i // _STRIDE + k], weights[i % _STRIDE, k]
-                for m in range(of_row.size):
-                    target[m] += weight * of_row[m]
+                for m in range(row_sums.size):
+                    target[m] += weight * row_sums[m]
     return coarse
 
 

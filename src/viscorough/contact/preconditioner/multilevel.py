@@ -279,5 +279,5 @@ def _dense_coupling(sides: tuple[int, int], aspect: float, height: int, width: i
 def _coupling(sides: tuple[int, int], aspect: float, row: Integers, column: Integers) -> Array:
     """Return K between blocks at (row, column): the mean deflection of one by a unit load spread over the other."""
     row, column = (abs(position[:, None] - position).astype(float) for position in (row, column))
-    of_others = influence_coefficient(row, column, aspect * sides[0] / sides[1])
-    return np.where((row == 0) & (column == 0), _OWN, of_others) / np.sqrt(sides[0] * sides[1])
+    distant = influence_coefficient(row, column, aspect * sides[0] / sides[1])
+    return np.where((row == 0) & (column == 0), _OWN, distant) / np.sqrt(sides[0] * sides[1])

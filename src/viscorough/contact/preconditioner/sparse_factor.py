@@ -70,16 +70,16 @@ def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
     width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     for row in range(first_row * side + REACH, min(last_row * side, factor.shape[0] - 2 * REACH) + REACH):
         at = row * width + REACH
-        of_row, members = patterns[at : at + columns], inside[at : at + columns]
+        row_patterns, members = patterns[at : at + columns], inside[at : at + columns]
         far, near, same = inside[at - 2 * width - REACH :], inside[at - width - REACH :], inside[at - REACH :]
         for j in range(columns):
             pattern = far[j] | far[j + 1] << 1 | far[j + 2] << 2 | far[j + 3] << 3 | far[j + 4] << 4
             pattern |= near[j] << 5 | near[j + 1] << 6 | near[j + 2] << 7 | near[j + 3] << 8 | near[j + 4] << 9
-            of_row[j] = pattern | same[j] << 10 | same[j + 1] << 11
+            row_patterns[j] = pattern | same[j] << 10 | same[j + 1] << 11
         for s in range(factor.shape[1]):
-            of_neighbour, out = entries[s], factor[row, s, REACH : REACH + columns]
+            neighbour_entries, out = entries[s], factor[row, s, REACH : REACH + columns]
             for j in range(columns):
-                out[j] = of_neighbour[of_row[j]] * members[j]
+                out[j] = neighbour_entries[row_patterns[j]] * members[j]
 
 
 @njit(inner=True)
@@ -275,15 +275,15 @@ class SparseFactor:
 
         W is the matrix of the vectors of row sums in the blocks, not normalised.
         """
-        of_grid = self._height, self._sides, self.squares
-        self._over_rows(_restrict, self._factor, self._unit, residual, *of_grid, self._values, self._loads)
+        blocks = self._height, self._sides, self.squares
+        self._over_rows(_restrict, self._factor, self._unit, residual, *blocks, self._values, self._loads)
         return self._loads
 
     def prolong(self, loads: Array) -> Array:
         """Return Gᵀ (G r − W loads), a flat field defined on the contact set only; valid until the next call."""
-        of_grid = self._height, self._sides, self.squares
-        self._over_rows(_correct, self._factor, self._unit, loads, *of_grid, self._values)
-        self._over_rows(_prolong, self._factor, self._unit, self._values, *of_grid, self._result)
+        blocks = self._height, self._sides, self.squares
+        self._over_rows(_correct, self._factor, self._unit, loads, *blocks, self._values)
+        self._over_rows(_prolong, self._factor, self._unit, self._values, *blocks, self._result)
         return self._result
 
     def _over_rows(self, function: Callable[..., Any], *arguments: Any) -> None:

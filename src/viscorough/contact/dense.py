@@ -16,9 +16,10 @@ from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 from viscorough.types import Array, Integers
 
-# Allowed rounding errors: of a gap over the depth, of a pressure over the largest pressure, and of the depth of an
-# event.
+# Allowed rounding error of a gap over the depth, of a pressure over the largest pressure, and of the depth of an event
+# over this depth.
 ROUNDING = 1e-12
+# Largest number of contact sets tried; beyond it ConvergenceError is raised.
 _MAX_ITERATIONS = 100
 # Depth of an event that never happens; finite, because compiled loops may assume that numbers are finite.
 _NEVER = 1e300

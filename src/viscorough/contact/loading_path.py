@@ -35,13 +35,18 @@ from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Progress, Scalar
 
-# The approach to the start fraction takes steps of this ratio of depths up to this share of the fraction. Then steps
-# become shorter until their ratio is the last number.
-_APPROACH_DEPTH_RATIO, _APPROACH_SHARE, _APPROACH_MIN_RATIO = 4.0, 0.7, 1.02
+# Ratio of depths of the steps that approach the start fraction.
+_APPROACH_DEPTH_RATIO = 4.0
+# Approach the start fraction up to this share of it.
+_APPROACH_SHARE = 0.7
+# End the approach when its steps, which become shorter close to the start, reach this ratio of depths.
+_APPROACH_MIN_RATIO = 1.02
 # A curve up to this contact fraction does not need the depth of complete contact for its end.
 _FAR_FROM_COMPLETE = 0.95
-# Default tolerance; errors of the velocity that can be requested.
-_DEFAULT_TOLERANCE, _ERRORS = 1e-3, (1e-3, 0.5)
+# Tolerance of a curve unless one is given.
+_DEFAULT_TOLERANCE = 1e-3
+# Smallest and largest error of the velocity that can be requested.
+_ERRORS = 1e-3, 0.5
 # Share of a curve in the computation of a curve and its estimated grid error.
 _SHARE_OF_CURVE = 0.75
 # Exponent of the share of the contact, or of the force, in the estimated share of the computation.

@@ -36,9 +36,11 @@ from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 
 # Allow for this multiple of the requested depth when a new box is set up: a smaller margin means more boxes, each of
-# which costs two applications of the operator. Use the whole grid if the box would cover more than this share of it.
-_BOX_DEPTH_MARGIN, _LARGEST_BOX = 2.0, 0.8
-# Largest growth of the area of a box by this allowance.
+# which costs two applications of the operator.
+_BOX_DEPTH_MARGIN = 2.0
+# Use the whole grid if the box would cover more than this share of it.
+_LARGEST_BOX = 0.8
+# Largest growth of the area of a box by an allowance for a larger depth.
 _GROWTH_OF_BOX = 1.3
 # Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
 # multiple of the tolerance times the depth; a larger gap is an error.

@@ -26,22 +26,34 @@ from viscorough.types import Array, Progress
 
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0
+# Largest number of depths solved for a force; beyond it ConvergenceError is raised.
 _MAX_ATTEMPTS = 100
 # The depth guessed may be too small by the ratio to the last depth to this power; boxes of grids allow for no more.
 _UNCERTAINTY = 0.2
-# Largest number of elements in contact for contact events; from this number on the power law is trusted over larger
-# ratios.
-_EVENTS, _REPRESENTATIVE = 200, 100
+# Largest number of elements in contact up to which contact events are followed.
+_EVENTS = 200
+# From this number of elements in contact on, the power law is trusted over larger ratios of depths.
+_REPRESENTATIVE = 100
+# Avoids a division by zero for two contacts at one depth.
 _TINY = 1e-300
-# Estimate the depth on a map of blocks above this number of elements. Further numbers: side of a block in elements,
-# tolerance on the map of blocks, and smallest ratio of forces from the last contact.
-_LARGE, _SIDE, _COARSE_TOLERANCE, _FAR = 1 << 15, 4, 1e-2, 4.0
+# Estimate the depth on a map of blocks above this number of elements.
+_LARGE = 1 << 15
+# Side of a block in elements.
+_SIDE = 4
+# Tolerance on the map of blocks.
+_COARSE_TOLERANCE = 1e-2
+# Estimate the depth on a map of blocks only for at least this multiple of the last force.
+_FAR = 4.0
 # Smallest number of blocks in contact for an estimate.
 _FEWEST_BLOCKS = 20
 # The depth of the map exceeds the depth of the blocks by a share of c over the square root of the number of blocks in
-# contact: a small, likely and large c (self-affine maps had 0.6 to 3). If the excess c was measured on the next coarser
-# map, the bounds are these multiples of it (at least the last number; the c of the map was 0.9 to 1.6 times as large).
-_EXCESS, _GROWTH_OF_EXCESS, _LEAST_EXCESS = (0.6, 1.2, 2.5), (0.8, 1.1, 1.6), 0.3
+# contact. These are a small, likely and large excess c (self-affine maps had 0.6 to 3).
+_EXCESS = 0.6, 1.2, 2.5
+# If the excess c was measured on the next coarser map, the three values are these multiples of it (the c of the map was
+# 0.9 to 1.6 times as large).
+_GROWTH_OF_EXCESS = 0.8, 1.1, 1.6
+# Replace a measured excess below this value by it.
+_LEAST_EXCESS = 0.3
 # Deflection of the centre of a square under a uniform pressure, over P.
 _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 

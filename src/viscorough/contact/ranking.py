@@ -14,14 +14,24 @@ from viscorough.contact.state import ElementGrid, Elements, Units
 from viscorough.indenter import Indenter
 from viscorough.types import Array, Integers
 
-# Sample size for choosing sort ranges, and the largest number of ranges.
-_SAMPLE, _MOST_RANGES = 1000, 8
-# If no depth is known: rank all elements below the first count; rank all elements for curves, which will need them all,
-# below the second count; rank all elements if the share of the map exceeds the third number.
-_LEAST, _LEAST_OF_CURVES, _MOST_SHARE = 1 << 12, BLOCK, 0.5
-# If no depth is known, rank about this many elements first, and at most this share. A sample determines the depth:
-# number of these elements in the sample, and largest size of the sample.
-_FIRST, _FIRST_SHARE, _OF_SAMPLE, _LARGEST_SAMPLE = 1 << 12, 0.25, 64, 1 << 14
+# Sample size for choosing the ranges of a sort on several threads.
+_SAMPLE = 1000
+# Largest number of these ranges.
+_MOST_RANGES = 8
+# Rank all elements of a map below this count if no largest depth is given.
+_LEAST = 1 << 12
+# Rank all elements up to this count for curves, which need all of them.
+_LEAST_OF_CURVES = BLOCK
+# Rank all elements if more than this share of them is requested.
+_MOST_SHARE = 0.5
+# Rank about this many elements first if no largest depth is given.
+_FIRST = 1 << 12
+# Rank at most this share of the elements first.
+_FIRST_SHARE = 0.25
+# A sample of the map gives the depth of the elements ranked first. Expect this number of them in the sample.
+_FIRST_IN_SAMPLE = 64
+# Largest size of this sample.
+_LARGEST_SAMPLE = 1 << 14
 # If only elements of the largest height are ranked, rank next up to this depth over the largest initial gap.
 _SMALLEST_DEPTH = 1e-3
 
@@ -65,7 +75,7 @@ class Ranking:
             return
         (rows, columns), share = self._heights.shape, min(_FIRST / self.elements.count, _FIRST_SHARE)
         # Sample the map evenly by a quasi-random sequence (R2, Roberts 2018).
-        places = np.arange(min(_OF_SAMPLE / share, _LARGEST_SAMPLE))
+        places = np.arange(min(_FIRST_IN_SAMPLE / share, _LARGEST_SAMPLE))
         row, column = (places * 0.7548776662466927 % 1 * rows, places * 0.5698402909980532 % 1 * columns)
         sample = self._heights[row.astype(int), column.astype(int)]
         gap = np.subtract(self.highest, sample[np.isfinite(sample)], dtype=float) / self.elements.units.length

@@ -19,27 +19,46 @@ from viscorough.types import Array
 # Finest tolerance of interpolation: a smaller one would require every contact event as a level, as in direct
 # integration.
 FINEST_ACCURACY = 1e-5
-# Largest ratio of the depths of successive levels, and the first ratio if there are few contact events.
-_MAX_DEPTH_RATIO, _INITIAL_DEPTH_RATIO = 2.0, 1.15
-# An element that joins n others makes a kink of about 1/n in the stiffness: every event is a level up to a contact
-# count of the first number over the accuracy. At least the second number of events is followed, since so few cost less
-# than a single longer step, and at most the third.
-_EVENTS_PER_ACCURACY, _FEWEST_EVENTS, _MAX_EVENTS = 0.4, 40, 400
-# The next step aims at this share of the admissible bound, which is of second order in the logarithm of the depth
-# ratio. This logarithm changes by a factor between the last two numbers.
-_AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.8, 2, 0.3, 2.0
+# Largest ratio of the depths of successive levels.
+_MAX_DEPTH_RATIO = 2.0
+# Ratio of the depths of the first step if there are few contact events.
+_INITIAL_DEPTH_RATIO = 1.15
+# Every contact event is a level up to a contact count of this number over the accuracy: an element that joins n others
+# makes a kink of about 1/n in the stiffness.
+_EVENTS_PER_ACCURACY = 0.4
+# Follow at least this number of events, since so few cost less than a single longer step.
+_FEWEST_EVENTS = 40
+# Follow at most this number of events.
+_MAX_EVENTS = 400
+# The next step aims at this share of the admissible bound.
+_AIM = 0.8
+# Order of the bound in the logarithm of the depth ratio.
+_ORDER = 2
+# Least factor by which this logarithm changes from step to step.
+_LEAST_CHANGE = 0.3
+# Largest factor by which this logarithm changes from step to step.
+_LARGEST_CHANGE = 2.0
 # A step is divided within these shares of it.
 _DIVISION = 0.15, 0.85
-# Shares of an interval's force for evaluations of the bound, and the factor by which it may be larger in between.
-_POINTS, _BETWEEN_POINTS = np.linspace(0, 1, 18)[1:-1], 1.15
-# An interval is accepted up to this multiple of the bound if the predicted error is below this share of the accuracy.
-# The prediction needs so many elements, and must agree with the force to within these factors.
-_RELAXED_BOUND, _PREDICTED_ERROR, _PREDICTED_COUNT, _AGREEMENT = 3.3, 0.5, 10, (0.8, 1.25)
+# Shares of an interval's force for evaluations of the bound.
+_POINTS = np.linspace(0, 1, 18)[1:-1]
+# Factor by which the bound may be larger between these points.
+_BETWEEN_POINTS = 1.15
+# An interval is accepted up to this multiple of the bound if the predicted error is small enough.
+_RELAXED_BOUND = 3.3
+# Largest predicted error for a relaxed bound, over the accuracy.
+_PREDICTED_ERROR = 0.5
+# Smallest number of joining elements for a prediction.
+_PREDICTED_COUNT = 10
+# A prediction must agree with the force to within these factors.
+_AGREEMENT = 0.8, 1.25
 # Below this share of the accuracy the next step becomes as much longer as allowed, without a prediction.
 _NEGLIGIBLE_BOUND = 0.15
 # Smallest share of an interval's force for an evaluation of the bound: the logarithm of the force must not overflow.
 _SMALLEST_SHARE = 1e-3
+# Avoids a division by zero.
 _TINY = 1e-30
+# Largest number of contacts kept ahead, since each takes memory.
 _MOST_AHEAD = 2
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from viscorough.compilation import njit
 from viscorough.contact.preconditioner.multilevel import REACH
 
+# Avoids a division by zero.
 _TINY = 1e-30
 
 

@@ -9,20 +9,28 @@ from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import Elements
 from viscorough.types import Array
 
-# Bytes of the rank, place, gap and temporary arrays of an element, and of a map's entry while its elements are found.
-_PER_ELEMENT, _PER_HEIGHT = 60, 10
-# Numbers of flat fields: of contacts that a loading path holds (four fields each; at small tolerances of more contacts,
-# which are solved ahead), and of the grid solver and temporary arrays.
-_FIELDS_OF_CONTACTS, _FIELDS_OF_CONTACTS_IF_EXACT, _OTHER_FIELDS = 16, 24, 4
+# Bytes of the rank, place, gap and temporary arrays of an element.
+_PER_ELEMENT = 60
+# Bytes of an entry of a map while its elements are found.
+_PER_HEIGHT = 10
+# Number of flat fields of the contacts that a loading path holds: four contacts with four fields each.
+_CONTACT_FIELDS = 16
+# The same number at small tolerances, at which six contacts are held, since more are solved ahead.
+_CONTACT_FIELDS_IF_EXACT = 24
+# Number of flat fields of the grid solver and of temporary arrays.
+_OTHER_FIELDS = 4
 # Bytes of other arrays per place of the grid: contact sets, and the preconditioner with its fourteen entries.
 _PER_PLACE = 12 + 25
-# Bytes of the linear problems of complete contact. Per element: vectors of the iteration, and two indices. Per place of
-# the grid: contact set, residual and preconditioner.
-_PER_JOINED_ELEMENT, _PER_JOINED_PLACE = 104, 50
+# Bytes per element of the linear problems of complete contact: vectors of the iteration, and two indices.
+_PER_JOINED_ELEMENT = 104
+# Bytes per place of the grid of these problems: contact set, residual and preconditioner.
+_PER_JOINED_PLACE = 50
 # Double-precision arrays of the size of the spectrum of the half-space: kept, and during the set-up of the operator.
 _SPECTRA = 2
-# Numbers in a row of the two blocks of columns that each thread convolves, and columns of a block.
-_BLOCK_OF_COLUMNS, _COLUMNS_OF_BLOCK = 2 * 152, 64
+# Numbers in a row of the two blocks of columns that each thread convolves.
+_NUMBERS_PER_ROW = 2 * 152
+# Columns of such a block.
+_COLUMNS_PER_BLOCK = 64
 # For any size: tables, and dense solutions of hundreds of elements.
 _CONSTANT = 6e6
 
@@ -62,7 +70,7 @@ def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
 def _grid_bytes(rows: int, columns: int, *, exact: bool, threads: int) -> float:
     """Return bytes of a grid solver, its operators, and the contacts on its grid."""
     flat = (int(rows) + 2 * REACH) * (int(columns) + 2 * REACH)
-    fields = 8 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS)
+    fields = 8 * (_OTHER_FIELDS + _CONTACT_FIELDS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _CONTACT_FIELDS)
     operators = _operator_bytes(rows, columns, (4, 8) if exact else (4,), threads)
     return 8 * int(rows) * int(columns) + operators + (fields + _PER_PLACE) * flat + _CONSTANT
 
@@ -73,7 +81,7 @@ def _operator_bytes(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], 
     along_columns, along_rows = convolution_lengths(rows, columns)
     spectrum = (along_columns // 2 + 1) * (along_rows // 2 + 1)
     operators = 8 * _SPECTRA * spectrum
-    buffers = min(threads, -(-along_rows // (2 * _COLUMNS_OF_BLOCK))) * _BLOCK_OF_COLUMNS * along_columns
+    buffers = min(threads, -(-along_rows // (2 * _COLUMNS_PER_BLOCK))) * _NUMBERS_PER_ROW * along_columns
     if rows * columns > BLOCK:
         # Two blocks of rows; their number of rows is a multiple of 16.
         buffers += min(threads, -(-rows // 16)) * 2 * along_rows * (BLOCK // columns + 16)

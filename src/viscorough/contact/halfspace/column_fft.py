@@ -15,12 +15,17 @@ from viscorough.compilation import njit
 from viscorough.contact.parallel import BLOCK, Buffer, aligned_zeros, run_blocks
 from viscorough.types import Array, Complex
 
-# Columns of a block, which is small enough for the cache, and how many more columns the last block may have.
-_BLOCK, _REST = 64, 8
-# Distances in memory from real to imaginary parts and from row to row: no powers of two, multiples of which compete for
-# the same cache lines. They are constants so that the compiler can see which numbers do not overlap.
+# Columns of a block, which is small enough for the cache.
+_BLOCK = 64
+# Largest number of further columns in the last block.
+_REST = 8
+# The next two distances are no powers of two, multiples of which compete for the same cache lines. They are constants
+# so that the compiler can see which numbers do not overlap.
+# Distance in memory from real to imaginary parts.
 _PARTS = _BLOCK + _REST
+# Distance in memory from row to row.
 _ROW = 2 * _PARTS + 8
+# Largest factor of a length that one stage transforms.
 _LARGEST_RADIX = 8
 
 

@@ -21,18 +21,28 @@ from viscorough.types import Array, Integers, Mask
 
 # Elements along the side of a tile, a multiple of _STRIDE.
 SIDE = 120
-# Elements per point of the coarse grid, along rows and columns; points that an element is distributed to; parameter of
-# the Kaiser window of the sinc functions; σ over the distance of the coarse points; range of K − S over σ.
-_STRIDE, _POINTS, _WINDOW, _SMOOTHING, _RANGE = 4, 14, 16.5, 4.5, 3.8
+# Elements per point of the coarse grid, along rows and columns.
+_STRIDE = 4
+# Points along rows and columns that the load of an element is distributed to.
+_POINTS = 14
+# Parameter of the Kaiser window of the sinc functions.
+_WINDOW = 16.5
+# σ over the distance of the coarse points.
+_SMOOTHING = 4.5
+# Range of K − S over σ.
+_RANGE = 3.8
 # Distance over σ from which on erf is 1 to rounding.
 _FLAT = 7.0
 # Bound on the error, over the largest deflection (tests/viscorough/contact/halfspace/test_tiles.py).
 ACCURACY = 1e-7
 # Least ratio of a tolerance to this error: the rest is for the iterations.
 _MARGIN = 4
-# Number of elements of a grid, and share of its tiles, for which this takes less time than one transform of the whole
-# grid; largest ratio of the sides of elements.
-_LEAST, _LARGEST_SHARE, _LARGEST_ASPECT = 1 << 18, 0.5, 2.0
+# Largest number of elements of a grid for which one transform of the whole grid takes less time.
+_LEAST = 1 << 18
+# Largest share of the tiles for which their transforms take less time than the transform of the whole grid.
+_LARGEST_SHARE = 0.5
+# Largest ratio of the sides of elements for which the error of the coarse grid stays within ACCURACY.
+_LARGEST_ASPECT = 2.0
 
 
 def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float) -> bool:

@@ -36,16 +36,22 @@ from viscorough.types import Array, Integers, Mask
 
 # Lower bound of the eigenvalues of M K (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35
+# Elements across the neighbourhood of an element.
 _ACROSS = 2 * REACH + 1
 # The neighbours of a block of elements: the nearest ones only.
 _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
-# Elements across a block of square elements, blocks across a block of the next grid level, and blocks across a grid
-# level that is inverted densely. The number of iterations depends weakly on all three.
-_SIDE, _RATIO, _DENSE = 8, 4, 9
+# The number of iterations depends weakly on the next three numbers.
+# Elements across a block of square elements.
+_SIDE = 8
+# Blocks across a block of the next grid level.
+_RATIO = 4
+# Largest number of blocks across a grid level that is inverted densely.
+_DENSE = 9
 # Share of the elements that may join or leave the set before the coarse levels are prepared again.
 _OUTDATED = 0.02
 # Blocks that are factorised at a time by one thread.
 _FACTORISED_AT_ONCE = 1 << 13
+# Avoids a division by zero for blocks without contact.
 _TINY = np.finfo(float).tiny
 # Self-influence of a block, times its side: less than 2.97, the mean over a uniformly loaded square, because G already
 # accounts for near neighbours.

@@ -11,6 +11,7 @@ histories of force and depth in all kinds of media are checked by inequalities t
 stability` runs it. A failure is printed with the command that repeats it.
 """
 
+from dataclasses import replace
 from functools import partial
 from multiprocessing import Pool
 from pathlib import Path
@@ -32,19 +33,23 @@ from random_curves import (
 from random_motions import motion_failure, random_motion
 from tqdm import tqdm
 
-from viscorough.contact import prescribed_force, ranking
 from viscorough.contact.halfspace import tiles
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 
 def as_on_large_maps(case):
     """Check the curve of a case with tiled operators, estimates from blocks and few ranked elements."""
-    with (
-        patch.multiple(ranking, _LEAST=50, _LEAST_OF_CURVES=50, _FIRST=50),
-        patch.multiple(prescribed_force, _LARGE=1, _FEWEST_BLOCKS=1),
-        patch.multiple(tiles, _LEAST=0, _LARGEST_SHARE=1, SIDE=8),
-    ):
-        return curve_failure(case)
+    options = replace(
+        case.arguments["options"],
+        rank_first=50,
+        rank_all_for_curves=50,
+        blocks_from=1,
+        blocks_in_contact=1,
+        tiles_from=0,
+        tiles_share=1.0,
+    )
+    with patch.object(tiles, "SIDE", 8):
+        return curve_failure(replace(case, arguments=case.arguments | {"options": options}))
 
 
 # {family: (function that draws a case, function that checks it, fraction of the number of cases)}

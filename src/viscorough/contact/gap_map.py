@@ -66,7 +66,8 @@ def _add_deflection(solver: ContactSolver, contact: ContactState, gap: Array, bo
     loads, elements, options = contact.member_loads(), solver.elements, solver.options
     rows, columns = elements.shape
     place, load = (elements.row[loads.members], elements.column[loads.members]), loads.pressure
-    if options.padding and tiles.is_suitable(elements.shape, elements.aspect, solver.tolerance):
+    suits = tiles.is_suitable(elements.shape, elements.aspect, solver.tolerance, options)
+    if options.padding and suits:
         loaded = tiles.tiles_with(*place, elements.shape)
         restricted = tiles.TiledHalfspace(rows, columns, loaded, aspect=elements.aspect, threads=solver.threads)
         restricted.load[place] = load * solver.units.length

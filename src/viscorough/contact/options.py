@@ -34,11 +34,27 @@ class SolverOptions:
         number of elements in contact at the level before.
     padding : bool
         Pad the grid against periodic images; without padding the indenter repeats at its own period.
+    max_depths : int
+        Largest number of depths that are solved for a force; beyond it ConvergenceError is raised.
+    rank_first : int
+        Number of elements that are ranked before the first contact at a force; maps of fewer elements are ranked whole.
+    rank_all_for_curves : int
+        Largest number of elements that are all ranked before a curve.
+    rank_all_share : float
+        Share of the elements above which all are ranked as soon as a contact needs that many.
+    blocks_from : int
+        Number of elements above which the depth at a force is first estimated on a coarser map, of blocks of elements.
+    blocks_in_contact : int
+        Smallest number of blocks in contact for such an estimate.
+    tiles_from : int
+        Number of elements of a grid above which the operator may be restricted to tiles with elements in contact.
+    tiles_share : float
+        Largest share of these tiles in the grid for the restriction.
 
     Raises
     ------
     ValueError
-        For other texts, for negative numbers, and for max_iterations below 1.
+        For other texts, for negative numbers, and for max_iterations, max_depths or rank_first below 1.
 
     Examples
     --------
@@ -56,6 +72,14 @@ class SolverOptions:
     dense_contacts: int = 400
     dense_interactions: int = 1_000_000
     padding: bool = True
+    max_depths: int = 100
+    rank_first: int = 4096
+    rank_all_for_curves: int = 131_072
+    rank_all_share: float = 0.5
+    blocks_from: int = 32_768
+    blocks_in_contact: int = 20
+    tiles_from: int = 262_144
+    tiles_share: float = 0.5
 
     def __repr__(self) -> str:
         """Show the call that makes these options, without default values."""
@@ -66,13 +90,16 @@ class SolverOptions:
     def __post_init__(self) -> None:
         if not isinstance(self.precision, str) or self.precision not in ("single", "double"):
             raise ValueError(f"precision: must be one of single, double, not {shown(self.precision)}")
-        for name in ("exact_gap_below", "operator_rounding"):
+        for name in ("exact_gap_below", "operator_rounding", "rank_all_share", "tiles_share"):
             number = real_number(name, getattr(self, name))
             if not number >= 0:
                 raise ValueError(f"{name}: must not be negative, not {number!r}")
             object.__setattr__(self, name, number)
-        for name, least in (("max_iterations", 1), ("dense_contacts", 0), ("dense_interactions", 0)):
-            object.__setattr__(self, name, whole_number(name, getattr(self, name), least))
+        for name in ("max_iterations", "max_depths", "rank_first"):
+            object.__setattr__(self, name, whole_number(name, getattr(self, name), 1))
+        numbers = "dense_contacts", "dense_interactions", "rank_all_for_curves"
+        for name in (*numbers, "blocks_from", "blocks_in_contact", "tiles_from"):
+            object.__setattr__(self, name, whole_number(name, getattr(self, name), 0))
         if not isinstance(self.padding, bool):
             raise ValueError(f"padding: must be True or False, not {shown(self.padding)}")
 

@@ -88,7 +88,7 @@ class ContactSolver:
         if whole:
             require_for_contact(indenter.heights, **self._memory_options)
         self.indenter, self.tolerance, self.options, self.threads = indenter, tolerance, options, threads
-        self.ranking = Ranking(indenter, threads, largest_depth=largest_depth, whole=whole)
+        self.ranking = Ranking(indenter, threads, options, largest_depth=largest_depth, whole=whole)
         self.units: Units = self.ranking.elements.units
         self._largest_depth = largest_depth / self.units.length
         self._loops = GridLoops(threads)

@@ -26,8 +26,6 @@ from viscorough.types import Array, Progress
 
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0
-# Largest number of depths solved for a force; beyond it ConvergenceError is raised.
-_MAX_ATTEMPTS = 100
 # The depth guessed may be too small by the ratio to the last depth to this power; boxes of grids allow for no more.
 _UNCERTAINTY = 0.2
 # Largest number of elements in contact up to which contact events are followed.
@@ -36,16 +34,12 @@ _EVENTS = 200
 _REPRESENTATIVE = 100
 # Avoids a division by zero for two contacts at one depth.
 _TINY = 1e-300
-# Estimate the depth on a map of blocks above this number of elements.
-_LARGE = 1 << 15
 # Side of a block in elements.
 _SIDE = 4
 # Tolerance on the map of blocks.
 _COARSE_TOLERANCE = 1e-2
 # Estimate the depth on a map of blocks only for at least this multiple of the last force.
 _FAR = 4.0
-# Smallest number of blocks in contact for an estimate.
-_FEWEST_BLOCKS = 20
 # The depth of the map exceeds the depth of the blocks by a share of c over the square root of the number of blocks in
 # contact. These are a small, likely and large excess c (self-affine maps had 0.6 to 3).
 _EXCESS = 0.6, 1.2, 2.5
@@ -162,7 +156,7 @@ class ForceSearch:
         while self._above and self._above[-1].pressure_sum <= target:
             self._below = self._above.pop()
         guess = self._estimate(target)
-        for attempt in range(_MAX_ATTEMPTS):
+        for attempt in range(self._solver.options.max_depths):
             if guess is None:
                 if contact := self._exact_contact(target, attempt):
                     return contact
@@ -177,8 +171,9 @@ class ForceSearch:
                 settled = self._solver.settled(contact, depth, target)
                 if settled.residual <= 2 * self._solver.tolerance:
                     return settled
+        most = self._solver.options.max_depths
         raise ConvergenceError(
-            f"contact at F/G = {force:g}: the force is not met within {_MAX_ATTEMPTS} depths; choose a larger tolerance"
+            f"contact at F/G = {force:g}: the force is not met within {most} depths; choose a larger tolerance"
         )
 
     def _tighten_bracket(self, contact: ContactState, target: float) -> None:
@@ -208,7 +203,7 @@ class ForceSearch:
         """
         solver, below = self._solver, self._below
         is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
-        if solver.elements.count <= _LARGE or is_near or solver.is_flat:
+        if solver.elements.count <= solver.options.blocks_from or is_near or solver.is_flat:
             return None
         blocks = _highest_in_blocks(solver.indenter)
         coarse = ContactSolver(blocks, _COARSE_TOLERANCE, solver.options, solver.threads, whole=False)
@@ -221,7 +216,7 @@ class ForceSearch:
         measured = _BlockDepth(unit * contact.reduced_depth, contact.count**-0.5)
         least, likely, largest = (measured.depth * (1 + c * measured.share) for c in search._excess_bounds(contact))
         solver.ranking.rank_up_to(largest)  # the first contact then ranks no further elements
-        if contact.count < _FEWEST_BLOCKS or least <= below.reduced_depth:
+        if contact.count < solver.options.blocks_in_contact or least <= below.reduced_depth:
             return None
         self._block_depth = measured
         block_loads, pressure = contact.member_loads(), np.zeros(blocks.heights.shape)

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.state import ElementGrid, Elements, Units
 from viscorough.indenter import Indenter
@@ -18,14 +19,6 @@ from viscorough.types import Array, Integers
 _SAMPLE = 1000
 # Largest number of these ranges.
 _MOST_RANGES = 8
-# Rank all elements of a map below this count if no largest depth is given.
-_LEAST = 1 << 12
-# Rank all elements up to this count for curves, which need all of them.
-_LEAST_OF_CURVES = BLOCK
-# Rank all elements if more than this share of them is requested.
-_MOST_SHARE = 0.5
-# Rank about this many elements first if no largest depth is given.
-_FIRST = 1 << 12
 # Rank at most this share of the elements first.
 _FIRST_SHARE = 0.25
 # A sample of the map gives the depth of the elements ranked first. Expect this number of them in the sample.
@@ -49,9 +42,15 @@ class Ranking:
     """
 
     def __init__(
-        self, indenter: Indenter, threads: int = 1, *, largest_depth: float = np.inf, whole: bool = False
+        self,
+        indenter: Indenter,
+        threads: int = 1,
+        options: SolverOptions = DEFAULT,
+        *,
+        largest_depth: float = np.inf,
+        whole: bool = False,
     ) -> None:
-        self._heights, self._threads = indenter.heights, threads
+        self._heights, self._threads, self._options = indenter.heights, threads, options
         self.highest, lowest = np.fmax.reduce(self._heights, axis=None), np.fmin.reduce(self._heights, axis=None)
         span = float(np.subtract(self.highest, lowest, dtype=float))
         self.is_flat = span == 0
@@ -64,16 +63,17 @@ class Ranking:
             rows, columns = (int(last - first) + 1 for first, last in bounds)
         grid, nothing = ElementGrid(origin, (rows, columns), indenter.aspect), np.empty(0, np.int32)
         self.elements = Elements(nothing, nothing, np.empty(0), grid, units, unranked=count, ranked_depth=-1.0)
-        if count <= _LEAST_OF_CURVES if whole else count < _LEAST and np.isinf(largest_depth):
+        is_small = count <= options.rank_all_for_curves if whole else count < options.rank_first
+        if is_small and (whole or np.isinf(largest_depth)):
             self.rank_up_to(np.inf)
         elif np.isfinite(largest_depth):
             self.rank_up_to(largest_depth / units.length)
 
     def rank_highest(self) -> None:
-        """Rank about _FIRST elements, which takes little time, unless some elements are ranked already."""
+        """Rank about `rank_first` elements, which takes little time, unless some elements are ranked already."""
         if self.elements.initial_gap.size:
             return
-        (rows, columns), share = self._heights.shape, min(_FIRST / self.elements.count, _FIRST_SHARE)
+        (rows, columns), share = self._heights.shape, min(self._options.rank_first / self.elements.count, _FIRST_SHARE)
         # Sample the map evenly by a quasi-random sequence (R2, Roberts 2018).
         places = np.arange(min(_FIRST_IN_SAMPLE / share, _LARGEST_SAMPLE))
         row, column = (places * 0.7548776662466927 % 1 * rows, places * 0.5698402909980532 % 1 * columns)
@@ -90,7 +90,7 @@ class Ranking:
         while True:
             place, gap = self._between(elements.ranked_depth, depth)
             ranked = elements.initial_gap.size + gap.size
-            if ranked > _MOST_SHARE * elements.count and ranked < elements.count:
+            if ranked > self._options.rank_all_share * elements.count and ranked < elements.count:
                 place, gap = self._between(elements.ranked_depth, depth := np.inf)
                 ranked = elements.count
             # If the highest elements have one height, their depth is 0. The depth to rank must be above it.

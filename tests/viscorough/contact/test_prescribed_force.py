@@ -124,14 +124,14 @@ def test_box_excludes_hills_that_are_not_reached():
 
 
 @pytest.mark.parametrize(("hurst", "large"), [(0.2, 1 << 15), (0.8, 1 << 15), (0.8, 1 << 10)])
-def test_coarse_map_bounds_the_depth_of_the_contact(hurst, large, monkeypatch):
+def test_coarse_map_bounds_the_depth_of_the_contact(hurst, large):
     """The contacts range from few elements to complete contact. Blocks at the edges have fewer elements."""
-    monkeypatch.setattr(prescribed_force, "_LARGE", large)
+    options = SolverOptions(blocks_from=large)
     rough = Indenter(self_affine_square(hurst, 403, seed=5)[:, :390], 1.0, 1.3)
     for force in (200.0, 2e3, 2e4):
-        contact = contact_at(rough, force=force)
-        least = contact_at(prescribed_force._highest_in_blocks(rough), force=force).depth
-        solver = ContactSolver(rough, 1e-3)
+        contact = contact_at(rough, force=force, options=options)
+        least = contact_at(prescribed_force._highest_in_blocks(rough), force=force, options=options).depth
+        solver = ContactSolver(rough, 1e-3, options)
         guess = ForceSearch(solver)._estimate(force / solver.units.force)
         largest = guess.target.largest_depth * solver.units.length
         assert 0.7 * contact.depth < least < contact.depth < largest < 1.4 * contact.depth
@@ -159,14 +159,12 @@ def test_force_that_the_first_guess_meets_exactly_is_accepted():
     np.testing.assert_allclose(exact.force, curve.force, rtol=1e-6)
 
 
-def test_exact_loads_of_blocks_are_accepted(monkeypatch):
+def test_exact_loads_of_blocks_are_accepted():
     """One element carries the force: once the depth fits its load, no search direction is left."""
-    for name in ("_LARGE", "_FEWEST_BLOCKS"):
-        monkeypatch.setattr(prescribed_force, name, 1)
     heights = np.full((1, 24), -1.0)
     heights[0, 8] = 0.0
     forces = np.array([1e-4, 6e-4, 3e-3])
-    options = SolverOptions(dense_interactions=0)
+    options = SolverOptions(dense_interactions=0, blocks_from=1, blocks_in_contact=1)
     curve = indent(Indenter(heights - 1e-3 * np.arange(24), 1.0), forces=forces, tolerance=1e-6, options=options)
     punch = indent(Indenter(np.zeros((1, 1)), 1.0), forces=forces)
     np.testing.assert_allclose(curve.depth, punch.depth, rtol=1e-6)
@@ -180,10 +178,11 @@ def test_blocks_that_differ_by_rounding_are_solved():
     )
 
 
-def test_error_names_the_force_that_is_not_met(monkeypatch):
-    monkeypatch.setattr(prescribed_force, "_MAX_ATTEMPTS", 1)
+def test_error_names_the_force_that_is_not_met():
     with pytest.raises(ConvergenceError, match=r"contact at F/G = 5: the force is not met within 1 depths"):
-        contact_at(self_affine_disc(0.8, 65, seed=3), force=5.0, options=SolverOptions(dense_contacts=10**4))
+        contact_at(
+            self_affine_disc(0.8, 65, seed=3), force=5.0, options=SolverOptions(dense_contacts=10**4, max_depths=1)
+        )
 
 
 def test_progress_is_reported_up_to_the_end():

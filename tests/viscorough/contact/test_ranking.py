@@ -1,11 +1,13 @@
 """Elements ranked step by step, against a ranking of all at once; contacts with few ranked elements."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from viscorough import Indenter, contact_at, indent
-from viscorough.contact import prescribed_force, ranking
+from viscorough import Indenter, SolverOptions, contact_at, indent
 from viscorough.contact.halfspace import tiles
+from viscorough.contact.options import DEFAULT
 from viscorough.contact.ranking import Ranking
 from viscorough.surfaces import self_affine_square
 
@@ -38,19 +40,19 @@ def indenter(request):
     return Indenter(*MAPS[request.param])
 
 
+# Solve small maps as maps of millions of elements: few ranked elements, restricted operators, estimated depths.
+FEW_RANKED = SolverOptions(
+    rank_first=50, rank_all_for_curves=50, blocks_from=1, blocks_in_contact=1, tiles_from=0, tiles_share=1.0
+)
+
+
 @pytest.fixture
-def few_ranked(monkeypatch):
-    """Solve small maps as maps of millions of elements: few ranked elements, restricted operators, estimated depths."""
-    for name in ("_LEAST", "_LEAST_OF_CURVES", "_FIRST"):
-        monkeypatch.setattr(ranking, name, 50)
-    for name in ("_LARGE", "_FEWEST_BLOCKS"):
-        monkeypatch.setattr(prescribed_force, name, 1)
-    for name, number in {"_LEAST": 0, "_LARGEST_SHARE": 1, "SIDE": 40}.items():
-        monkeypatch.setattr(tiles, name, number)
+def small_tiles(monkeypatch):
+    monkeypatch.setattr(tiles, "SIDE", 40)
 
 
-def test_ranking_step_by_step_equals_ranking_at_once(indenter, few_ranked):
-    steps, at_once = Ranking(indenter), Ranking(indenter)
+def test_ranking_step_by_step_equals_ranking_at_once(indenter):
+    steps, at_once = Ranking(indenter, options=FEW_RANKED), Ranking(indenter)
     assert steps.elements.initial_gap.size == 0
     steps.rank_highest()
     at_once.rank_up_to(np.inf)
@@ -76,16 +78,16 @@ def test_number_of_elements_ranked_first_does_not_grow_with_the_map(across):
     x = np.linspace(-1, 1, across, dtype="f4")
     steps = Ranking(Indenter(-np.add.outer(x**2, x**2), 1.0))
     steps.rank_highest()
-    assert ranking._FIRST / 2 < steps.elements.initial_gap.size < 2 * ranking._FIRST
+    assert DEFAULT.rank_first / 2 < steps.elements.initial_gap.size < 2 * DEFAULT.rank_first
 
 
 @pytest.mark.parametrize("given", [{"depth": [0.02, 0.3, 1.0]}, {"force": [0.01, 1.0, 30.0]}])
-def test_contacts_do_not_depend_on_the_number_of_ranked_elements(indenter, given, few_ranked, monkeypatch):
+def test_contacts_do_not_depend_on_the_number_of_ranked_elements(indenter, given, small_tiles):
     tolerance = 1e-6
-    contacts = contact_at(indenter, tolerance=tolerance, **given)
-    monkeypatch.setattr(ranking, "_MOST_SHARE", 0)
-    monkeypatch.setattr(tiles, "_LEAST", 10**6)
-    for contact, expected in zip(contacts, contact_at(indenter, tolerance=tolerance, **given), strict=True):
+    contacts = contact_at(indenter, tolerance=tolerance, options=FEW_RANKED, **given)
+    all_ranked = replace(FEW_RANKED, rank_all_share=0.0, tiles_from=10**6)
+    expected_contacts = contact_at(indenter, tolerance=tolerance, options=all_ranked, **given)
+    for contact, expected in zip(contacts, expected_contacts, strict=True):
         assert contact.force == pytest.approx(expected.force, rel=tolerance)
         assert contact.depth == pytest.approx(expected.depth, rel=tolerance)
         assert contact.stiffness == pytest.approx(expected.stiffness, rel=1e-4)
@@ -94,19 +96,19 @@ def test_contacts_do_not_depend_on_the_number_of_ranked_elements(indenter, given
         assert np.nanmin(contact.gap) >= -tolerance * contact.depth
 
 
-def test_force_on_the_highest_terrace_alone_is_met(few_ranked):
+def test_force_on_the_highest_terrace_alone_is_met(small_tiles):
     """The first guess, from blocks, is below the depth at which the next terrace touches."""
     terraces = np.floor(3 * np.random.default_rng(2).random((12, 12)))
-    highest = contact_at(Indenter(np.where(terraces == 2, 0.0, np.nan), 1.0), force=1e-3)
-    contact = contact_at(Indenter(terraces, 1.0), force=1e-3)
+    highest = contact_at(Indenter(np.where(terraces == 2, 0.0, np.nan), 1.0), force=1e-3, options=FEW_RANKED)
+    contact = contact_at(Indenter(terraces, 1.0), force=1e-3, options=FEW_RANKED)
     assert contact.contact_count == highest.contact_count
     assert contact.depth == pytest.approx(highest.depth, rel=1e-3)
 
 
-def test_curves_do_not_depend_on_the_number_of_ranked_elements(indenter, few_ranked, monkeypatch):
-    curve = indent(indenter, until_fraction=0.4)
-    monkeypatch.setattr(ranking, "_LEAST_OF_CURVES", 10**6)
-    expected = indent(indenter, until_fraction=0.4)
+def test_curves_do_not_depend_on_the_number_of_ranked_elements(indenter, small_tiles):
+    curve = indent(indenter, until_fraction=0.4, options=FEW_RANKED)
+    all_ranked = replace(FEW_RANKED, rank_all_for_curves=10**6)
+    expected = indent(indenter, until_fraction=0.4, options=all_ranked)
     inside = expected.force <= curve.force[-1]
     depth, _ = curve.at_force(expected.force[inside])
     np.testing.assert_allclose(depth, expected.depth[inside], rtol=2e-3)

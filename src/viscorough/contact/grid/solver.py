@@ -69,7 +69,8 @@ class GridSolver:
         aspect = 1 / elements.aspect if self._is_transposed else elements.aspect
         (top, left, rows, columns), row, column = self._oriented(elements, reach)
         tiles = tiles_with(row - top, column - left, (rows, columns))
-        self.is_restricted = options.padding and are_few(tiles) and is_suitable((rows, columns), aspect, tolerance)
+        suits = are_few(tiles, options) and is_suitable((rows, columns), aspect, tolerance, options)
+        self.is_restricted = options.padding and suits
         used = tiles if self.is_restricted else None
         self._workspace = GridWorkspace((rows, columns), tolerance, options, aspect=aspect, threads=threads, tiles=used)
         self._loops, self._units = self._workspace.loops, elements.units

@@ -16,6 +16,7 @@ from numpy.typing import DTypeLike
 from viscorough.compilation import njit
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.halfspace.operator import Convolution, convolution_lengths, spectrum_of_kernel
+from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import Buffer, run_blocks
 from viscorough.types import Array, Integers, Mask
 
@@ -37,20 +38,16 @@ _FLAT = 7.0
 ACCURACY = 1e-7
 # Least ratio of a tolerance to this error: the rest is for the iterations.
 _MARGIN = 4
-# Largest number of elements of a grid for which one transform of the whole grid takes less time.
-_LEAST = 1 << 18
-# Largest share of the tiles for which their transforms take less time than the transform of the whole grid.
-_LARGEST_SHARE = 0.5
 # Largest ratio of the sides of elements for which the error of the coarse grid stays within ACCURACY.
 _LARGEST_ASPECT = 2.0
 
 
-def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float) -> bool:
-    """Whether a grid is so large that parts of it take less time here, and these deflections are exact enough.
+def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float, options: SolverOptions = DEFAULT) -> bool:
+    """Return True if a grid is so large that tiles save time, and the deflections in them are exact enough.
 
-    tolerance : error of deflections that is allowed, over the largest one
+    tolerance : error of deflections that is allowed, over the largest deflection
     """
-    is_large = shape[0] * shape[1] > _LEAST
+    is_large = shape[0] * shape[1] > options.tiles_from
     return is_large and max(aspect, 1 / aspect) <= _LARGEST_ASPECT and tolerance >= _MARGIN * ACCURACY
 
 
@@ -61,9 +58,9 @@ def tiles_with(row: Integers, column: Integers, shape: tuple[int, int]) -> Mask:
     return tiles
 
 
-def are_few(tiles: Mask) -> bool:
-    """Whether the tiles of a grid with elements are so few that it takes less time to consider these alone."""
-    return bool(np.count_nonzero(tiles) <= _LARGEST_SHARE * tiles.size)
+def are_few(tiles: Mask, options: SolverOptions = DEFAULT) -> bool:
+    """Return True if the tiles with elements are so few that their transforms take less time than the whole grid."""
+    return bool(np.count_nonzero(tiles) <= options.tiles_share * tiles.size)
 
 
 def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:

@@ -4,8 +4,8 @@ Let all elements be joined to the surface, under tension as well. With the symbo
 
     P = u q − s,    K q = 1,    K s = g
 
-with g the initial gap. The frictionless contact is complete from the depth at which the last tension vanishes,
-u = max(s/q). Beyond it the loading curve is straight: ΣP = Σq (u − ⟨g⟩_q). Here ⟨g⟩_q = Σs/Σq is the mean of g with
+with g the initial gap. The frictionless contact is complete from the depth u = max(s/q) on, where the last
+tension vanishes. Beyond it the loading curve is straight: ΣP = Σq (u − ⟨g⟩_q). Here ⟨g⟩_q = Σs/Σq is the mean of g with
 the weights q.
 """
 
@@ -40,16 +40,16 @@ class JoinedSurface(NamedTuple):
 
     @property
     def depth(self) -> float:
-        """Depth u from which the contact is complete."""
+        """Return the smallest depth u of complete contact."""
         return float((self.load / self.tangent).max())
 
     @property
     def mean_gap(self) -> float:
-        """Mean ⟨g⟩_q of the initial gap with the weights q."""
+        """Return the mean ⟨g⟩_q of the initial gap with the weights q."""
         return float(self.load.sum() / self.tangent.sum())
 
     def first_complete_contact(self, units: Units) -> DenseContact:
-        """Return the contact at the depth from which it is complete."""
+        """Return the contact at the smallest depth of complete contact."""
         depth, stiffness = self.depth, float(self.tangent.sum())
         # Rounding can make the pressure of the last element to touch negative.
         pressure = np.maximum(depth * self.tangent - self.load, 0.0)

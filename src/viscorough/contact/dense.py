@@ -1,4 +1,4 @@
-"""Dense contact solutions for few elements in contact: exact to rounding, and cheaper than any grid.
+"""Solve contacts of few elements by dense linear algebra: exact to rounding, and cheaper than on any grid.
 
 Elements are identified by their rank in the order of increasing initial gap. The elements that can be in contact at a
 given depth are therefore the first ones.
@@ -31,7 +31,7 @@ class ContactEvents(NamedTuple):
     depth, pressure_sum, tangent_sum : u, ΣP and Σq
     count : elements in contact just beyond the event
 
-    The fields are in the order of those of a DenseContact.
+    The fields have the order of the fields of step_control.Level.
     """
 
     depth: np.ndarray
@@ -69,7 +69,7 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
 
 
 def solve_highest_element(elements: Elements, depth: float) -> DenseContact:
-    """Solve the contact of the highest element alone, at a reduced depth at which no other element touches."""
+    """Solve the contact of the highest element alone, at a reduced depth so small that no other element touches."""
     factor = 1 / np.sqrt(elements.influence[0, 0])
     pressure, tangent = (right * factor * factor for right in (np.array([depth]), np.ones(1)))  # as by Cholesky factors
     return _exact_contact(elements.units, depth, np.zeros(1, int), pressure, tangent)
@@ -122,8 +122,8 @@ def follow_events(
     touches adds a row to the Cholesky factor of the influence matrix, so hundreds of events cost as much as a few dense
     solutions. The same recursion in time integrates the viscous problem (viscous.integration.events).
 
-    most : number of elements in contact at which to stop
-    pressure_sum : reduced ΣP at which to stop
+    most : largest number of elements in contact
+    pressure_sum : largest reduced ΣP
 
     Returns ContactEvents after the given contact, the DenseContact at the last event, and True if ΣP reaches its limit
     before another element touches. Elements that touch at the same depth, to rounding, are one event.
@@ -142,7 +142,7 @@ def follow_events(
     ends_at_force = bool(total[-1] > pressure_sum)
     if events.depth.size == 0:
         return events, contact, ends_at_force
-    # The contact at the last event is solved again from the members and their Cholesky factor.
+    # Solve the contact at the last event again from the members and their Cholesky factor.
     last, last_depth = events.count[-1], events.depth[-1]
     solution = np.stack([last_depth - elements.initial_gap[members[:last]], np.ones(last)])
     solve_factored(factor[:last], solution)

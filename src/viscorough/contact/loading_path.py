@@ -85,12 +85,12 @@ def indent(
     depths : array_like, optional
         Levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires.
     start_fraction : float, optional
-        Contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it has only a
-        few levels, and interpolation between these may exceed the tolerance; ignored if depths or forces are given.
+        Smallest contact fraction that is of interest, below `until_fraction`. At smaller fractions the curve has only a
+        few levels, and interpolation between these may exceed the tolerance. Ignored if depths or forces are given.
     until_fraction : float, optional
-        Contact fraction at which to stop, in (0, 1]; ignored if depths or forces are given.
+        Largest contact fraction of the curve, in (0, 1]; ignored if depths or forces are given.
     until_force : float or str, optional
-        F/G at which to stop [length²]; ignored if depths or forces are given.
+        Largest F/G of the curve [length²]; ignored if depths or forces are given.
     shear_modulus : float or str, optional
         G of an incompressible half-space [Pa], or a text like "2 MPa"; forces are then F [N], or texts like "5 mN".
         Depths may be texts, too.
@@ -123,8 +123,8 @@ def indent(
     Returns
     -------
     LoadingCurve
-        Its last level is the first level at or beyond `until_fraction` or `until_force`, or the depth from which all
-        elements touch, as in `complete_contact`: beyond it the curve is straight. An indenter of one height has a
+        Its last level is the first level at or beyond `until_fraction` or `until_force`, or the depth of
+        `complete_contact`: beyond it the curve is straight. An indenter of one height has a
         single level, at a depth of one spacing (√(dx dy) for two): its curve is the straight line from the origin
         through it.
 
@@ -186,11 +186,11 @@ def indent(
 
 @dataclass(frozen=True)
 class _CurveRequest:
-    """What a curve has to cover, and how it is computed: the checked arguments of `indent`, as numbers.
+    """Range or levels of a curve, and details of its computation: the checked arguments of `indent`, as numbers.
 
     depths, forces : levels [length] or F/G [length²]; at most one of them is given, and then the range is ignored
     start_fraction, until_fraction : range of contact fractions
-    until_force : F/G at which to stop [length²]
+    until_force : largest F/G of the curve [length²]
     threads : number of threads
     options : SolverOptions
     """
@@ -214,7 +214,7 @@ def _check_fractions(start_fraction: float, until_fraction: float) -> tuple[floa
 
 
 def _check_until_force(until_force: float | str, modulus: float | None, unit: str) -> float:
-    """Return the force at which to stop as F/G [length²]. Raises ValueError unless it is positive."""
+    """Return the largest force of a curve as F/G [length²]. Raises ValueError unless it is positive."""
     if not (isinstance(until_force, float | np.floating) and until_force == np.inf):
         until_force = units.forces_over_modulus(until_force, modulus, unit, argument("until_force"))
         until_force = real_number(argument("until_force"), until_force)
@@ -322,7 +322,7 @@ def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -
 
 
 class _LoadingPath:
-    """The path from first contact to the contact fraction or force at which to stop; works in reduced units."""
+    """Path from first contact to the largest contact fraction or force of a curve; works in reduced units."""
 
     def __init__(self, solver: ContactSolver, until_fraction: float, until_force: float, progress: Progress) -> None:
         self._solver, self._progress = solver, progress
@@ -365,7 +365,7 @@ class _LoadingPath:
             if is_last or not self._solver.may_be_complete(contact):
                 return contact
             self._complete = self._solver.complete_contact()
-            # Rounding and residuals must not decide the order of two levels at nearly the same depth.
+            # Rounding and residuals must not decide the order of two levels at almost the same depth.
             is_before = depth * self._control.min_ratio < self._complete.reduced_depth
             return contact if is_before else self._complete
         if depth >= self._complete.reduced_depth:
@@ -379,7 +379,7 @@ class _LoadingPath:
         self._progress(min(done, 1.0) ** _PROGRESS_EXPONENT)
 
     def _approach(self, start_count: float) -> None:
-        """Take long steps towards the contact count from which on the curve is needed, shorter ones close to it."""
+        """Take long steps towards the smallest contact count of interest, and shorter steps close to it."""
         ratio, most = _APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
         while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
             contact = self._advance_to(self._contact.reduced_depth * ratio)
@@ -419,10 +419,10 @@ class _LoadingPath:
             ratio = self._control.next_ratio(step, excess)
 
     def _advance(self, ratio: float) -> ContactState:
-        """Return the contact at a depth larger by a ratio, or at the force at which to stop if that comes first."""
+        """Return the contact at a depth larger by a ratio, or at the largest force of the curve if that comes first."""
         contact, last_depth = self._contact, self._contact.reduced_depth
-        # The curve lies above its tangent. So at this depth the force reaches the force at which to stop, or exceeds it
-        # by at least the rounding error of the contact.
+        # The curve lies above its tangent. At this depth the force therefore reaches the largest force of the
+        # curve, or exceeds it by at least the rounding error of the contact.
         sufficient = (1 + ROUNDING) * self._until_pressure_sum
         sufficient_depth = last_depth + (sufficient - contact.pressure_sum) / contact.tangent_sum
         depth = max(min(last_depth * ratio, sufficient_depth), last_depth * self._control.min_ratio)

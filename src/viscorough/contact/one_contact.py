@@ -228,7 +228,7 @@ def _approach(progress: Progress, number: int, size: int) -> Progress:
 def _with_maps(
     solver: ContactSolver, state: ContactState, depth: float, force: float, tolerance: float, modulus: float | None
 ) -> Contact:
-    """Return a contact with its maps of pressure and gap; arguments as in `contact_at`, as numbers."""
+    """Return a contact with its maps of pressure and gap; arguments of `contact_at` as numbers."""
     if not np.isfinite(state.force):
         text = "the force is too large to represent; a larger unit of length is needed"
         raise ValueError(f"{caller('contact_at')}{text}")

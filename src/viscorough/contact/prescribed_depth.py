@@ -92,7 +92,7 @@ class ContactSolver:
         self.units: Units = self.ranking.elements.units
         self._largest_depth = largest_depth / self.units.length
         self._loops = GridLoops(threads)
-        self._grid: GridSolver | None = None  # of the current box; `_grid_up_to` replaces it by that of a larger box
+        self._grid: GridSolver | None = None  # of the current box; only `_grid_up_to` replaces it
         self._reach = 0  # elements, by rank, that the current box allows for
         self._former_applications = 0  # of the operators of former boxes
 
@@ -184,7 +184,7 @@ class ContactSolver:
     def follow_events(
         self, contact: DenseContact, most: int, pressure_sum: float
     ) -> tuple[ContactEvents, DenseContact, bool]:
-        """Follow events at which the next elements touch; return them and the last contact; see dense.follow_events."""
+        """Follow the touches of the next elements; return them and the last contact; see dense.follow_events."""
         while True:
             events, last, ends_at_force = dense.follow_events(self.elements, contact, most, pressure_sum)
             if last.reduced_depth < self.elements.ranked_depth:
@@ -207,7 +207,7 @@ class ContactSolver:
         return not any(self._loops.each(kernels.has_open_gap, fixed, fields.place))
 
     def complete_contact(self) -> ContactState:
-        """Return the contact at the depth from which all elements touch, from two linear problems.
+        """Return the contact at the smallest depth of complete contact, from two linear problems.
 
         Raises ConvergenceError if these cannot be solved.
         """
@@ -242,7 +242,7 @@ class ContactSolver:
     def _start(
         self, grid: GridSolver, contact: ContactState, depth: float, guess: MemberLoads | None
     ) -> GridContact | MemberLoads:
-        """Return a contact on the grid, or loads, from which its iteration for a larger depth starts."""
+        """Return the start of the iteration on the grid for a larger depth: a contact on this grid, or loads."""
         if isinstance(contact, GridContact) and _is_on(grid, contact):
             return contact
         # The fields of a much smaller contact cost more than they save.

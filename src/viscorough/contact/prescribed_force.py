@@ -1,12 +1,15 @@
 """Find contacts at prescribed forces with as few solved depths as possible.
 
 The force is a convex function F(u) of the depth, and the contact solver gives F and its exact tangent k at any depth.
-The depth for a large map is first estimated from a map of the highest points of its blocks, solved in the same way.
-If this does not help, contact events are followed: while few elements touch, they end at the force; otherwise they give
-the exponent of a power law for a first guess. On a grid the depth is then adjusted while the contact is solved
-(grid.depth_adjustment). If this is not accurate enough, the next depth lies between a contact below and a contact
-above: on the interpolant of a loading curve, in the triangle of chord and tangents, or at the intersection with the
-tangents. The last, small correction follows the tangent.
+The search therefore needs few contacts:
+
+1. For a large map, estimate the depth on a map of the highest points of its blocks, solved in the same way.
+2. If there is no estimate, follow contact events. While few elements touch, they end at the force, which is exact.
+3. Otherwise guess the depth from a power law through the last contact. On a grid, the depth is then adjusted while the
+   contact is solved (grid.depth_adjustment).
+4. If the force is not met yet, bracket it. The next depth lies between the nearest contacts below and above the force:
+   on the interpolant of a loading curve, or at the intersection with the tangents.
+5. Extrapolate the last, small difference along the tangent.
 """
 
 from dataclasses import replace
@@ -26,9 +29,9 @@ from viscorough.types import Array, Progress
 
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0
-# The depth guessed may be too small by the ratio to the last depth to this power; boxes of grids allow for no more.
+# A guessed depth may be too small by its ratio to the last depth, raised to this power; boxes allow for no more.
 _UNCERTAINTY = 0.2
-# Largest number of elements in contact up to which contact events are followed.
+# Follow contact events up to this number of elements in contact.
 _EVENTS = 200
 # From this number of elements in contact on, the power law is trusted over larger ratios of depths.
 _REPRESENTATIVE = 100
@@ -112,7 +115,7 @@ class _Guess(NamedTuple):
 
 
 class _BlockDepth(NamedTuple):
-    """The depth of a contact of blocks at a force, from which the depth of the elements is estimated.
+    """Depth of a contact of blocks at a force; it gives an estimate of the depth of the elements.
 
     depth : in reduced units of the elements
     share : number of blocks in contact to the power −1/2; the excess of the depth is proportional to it
@@ -226,7 +229,7 @@ class ForceSearch:
         return _Guess(min(likely, largest), TargetForce(target, largest), loads)
 
     def _excess_bounds(self, contact: ContactState) -> tuple[float, ...]:
-        """Return a small, likely and large excess c for the indenter of which this search solves the blocks.
+        """Return a small, likely and large excess c for the indenter whose blocks this search solves.
 
         contact : contact that this search has found last
         """

@@ -30,14 +30,14 @@ _SMALLEST_DEPTH = 1e-3
 
 
 class Ranking:
-    """The elements of an indenter, ranked from the highest one on as far as they are needed.
+    """Elements of an indenter, ranked from the highest element on as far as they are needed.
 
     elements : state.Elements ranked so far; only the methods of this class replace them, always by longer ones
     highest : the largest height
     is_flat : True if all elements are of this height
 
-    largest_depth : depth up to which elements are ranked first [length]. If it is infinite, all elements of a small map
-        are ranked, and none of a large map
+    largest_depth : the elements up to this depth are ranked first [length]. If it is infinite, all elements of a small
+        map are ranked, and none of a large map
     whole : True if all elements will be needed
     """
 

@@ -191,10 +191,10 @@ class GridFields:
 
 
 class TargetForce(NamedTuple):
-    """A force at which a contact on a grid is solved.
+    """Force to be met by a contact on a grid.
 
     pressure_sum : reduced ΣP to be met
-    largest_depth : reduced depth at which a smaller sum is accepted
+    largest_depth : largest reduced depth; there a smaller sum is accepted
     """
 
     pressure_sum: float

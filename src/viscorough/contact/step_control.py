@@ -16,7 +16,7 @@ from viscorough.contact.state import ContactState, GridContact
 from viscorough.loading_curve import interpolate_between
 from viscorough.types import Array
 
-# Finest tolerance of interpolation: a smaller one would require every contact event as a level, as in direct
+# Finest tolerance of interpolation: a smaller tolerance would require every contact event as a level, like direct
 # integration.
 FINEST_ACCURACY = 1e-5
 # Largest ratio of the depths of successive levels.
@@ -34,15 +34,15 @@ _MAX_EVENTS = 400
 _AIM = 0.8
 # Order of the bound in the logarithm of the depth ratio.
 _ORDER = 2
-# Least factor by which this logarithm changes from step to step.
+# Smallest change of this logarithm from step to step, as a factor.
 _LEAST_CHANGE = 0.3
-# Largest factor by which this logarithm changes from step to step.
+# Largest change of this logarithm from step to step, as a factor.
 _LARGEST_CHANGE = 2.0
 # A step is divided within these shares of it.
 _DIVISION = 0.15, 0.85
 # Shares of an interval's force for evaluations of the bound.
 _POINTS = np.linspace(0, 1, 18)[1:-1]
-# Factor by which the bound may be larger between these points.
+# The bound may be larger between these points by this factor.
 _BETWEEN_POINTS = 1.15
 # An interval is accepted up to this multiple of the bound if the predicted error is small enough.
 _RELAXED_BOUND = 3.3
@@ -64,7 +64,7 @@ _MOST_AHEAD = 2
 
 @dataclass(frozen=True)
 class Level:
-    """The quantities of a contact that a loading curve stores; reduced as in state.ContactState."""
+    """Quantities of a contact that a loading curve stores, in the reduced units of state.ContactState."""
 
     depth: float
     pressure_sum: float
@@ -94,7 +94,7 @@ class StepControl:
     threads : number of threads
 
     min_ratio : smallest ratio of the depths of successive levels; a triangle of this width is flatter than the accuracy
-    events : largest contact count at which every contact event is a level
+    events : up to this contact count every contact event is a level
     """
 
     def __init__(self, tolerance: float, threads: int = 1) -> None:
@@ -151,7 +151,7 @@ def interpolation_bound(before: Level, after: Level) -> float:
 
 
 def division(before: Level, after: Level) -> float:
-    """Return the depth at which to divide the interval between two levels: the intersection of their tangents.
+    """Return the depth that divides the interval between two levels: the intersection of their tangents.
 
     If the stiffness jumps at one depth, it is this depth. Otherwise it is near the middle of the interval.
     """
@@ -159,7 +159,7 @@ def division(before: Level, after: Level) -> float:
 
 
 def _meeting(before: Level, after: Level) -> float:
-    """Return the depth at which the tangents of two levels meet, as a share of the interval between them."""
+    """Return the depth of the intersection of the tangents of two levels, as a share of the interval between them."""
     width = after.depth - before.depth
     rise = after.tangent_sum - before.tangent_sum
     missing = after.tangent_sum * width - (after.pressure_sum - before.pressure_sum)

@@ -1,4 +1,4 @@
-"""Find the depth of a contact under a given force while its pressures are iterated.
+"""Adjust the depth of a contact to a given force while its pressures are iterated.
 
 With the preconditioner M ≈ K⁻¹ a full step leads to the pressures P − M e, and a change Δu of the depth adds Δu M 1 to
 them. Before every step the depth is changed so that these pressures sum to the force: residual and depth converge
@@ -14,9 +14,9 @@ from viscorough.types import Array, Integers
 
 # Largest ratio of depths in one iteration.
 _LARGEST_RATIO = 2.0
-# Distance of the depth, over the largest residual, at which the force counts as met: the tangent corrects the rest.
+# The force counts as met within this distance of the depth, over the largest residual: the tangent corrects the rest.
 _ACCURACY = 0.2
-# Σq of a single square element, used before a set is known: no contact has a smaller Σq.
+# Σq of a single square element, used until a set is prepared: no contact has a smaller Σq.
 _LEAST_STIFFNESS = 0.28
 
 

@@ -1,4 +1,4 @@
-"""Compiled loops of the grid solver, over flat fields with a border or over the places of a contact set.
+"""Loop over flat fields with a border, or over the places of a contact set, for the grid solver.
 
 Compiled functions take plain arrays, hence their many arguments: they accept neither keyword-only arguments nor the
 types of `state`, whose symbols are used here. Arrays that are divided into blocks come last (loops.GridLoops.each).
@@ -16,7 +16,7 @@ _TINY = 1e-30
 
 @njit(fastmath=True)
 def inner_product(left, right, slots):
-    """Σ left·right over the contact set in double precision, for arrays laid out as the operator's load."""
+    """Return Σ left·right over the contact set in double precision, for arrays laid out as the operator's load."""
     total = 0.0
     for t in range(slots.size):
         total += np.float64(left[slots[t]]) * np.float64(right[slots[t]])
@@ -25,7 +25,7 @@ def inner_product(left, right, slots):
 
 @njit
 def total(field, places):
-    """Sum of a field over places, in double precision."""
+    """Return the sum of a field over places, in double precision."""
     result = 0.0
     for t in range(places.size):
         result += np.float64(field[places[t]])
@@ -34,7 +34,7 @@ def total(field, places):
 
 @njit
 def gap_on_set(gap_change, initial_gap, gap, places):
-    """Store e on the set in the flat field `gap`; returns the largest |e| there."""
+    """Store e on the set in the flat field `gap`; return the largest |e| there."""
     largest = 0.0
     for t in range(places.size):
         i = places[t]
@@ -46,7 +46,7 @@ def gap_on_set(gap_change, initial_gap, gap, places):
 
 @njit
 def gather_on_set(field, gathered, places):
-    """Store a field on the set in the flat field `gathered`; returns its largest magnitude there."""
+    """Store a field on the set in the flat field `gathered`; return its largest magnitude there."""
     largest = 0.0
     for t in range(places.size):
         gathered[places[t]] = field[places[t]]
@@ -56,7 +56,7 @@ def gather_on_set(field, gathered, places):
 
 @njit
 def shift_on_set(depth_step, gap, preconditioned, places, response):
-    """e −= Δu and z −= Δu M 1 on the set, in place."""
+    """Compute e −= Δu and z −= Δu M 1 on the set, in place."""
     for t in range(places.size):
         gap[places[t]] -= depth_step
         preconditioned[places[t]] -= depth_step * response[t]
@@ -66,7 +66,7 @@ def shift_on_set(depth_step, gap, preconditioned, places, response):
 def energies(
     depths, pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap, places
 ):  # fmt: skip
-    """Inner products over a contact set: of P, last P and last q with the deflections of each, and with 1.
+    """Return inner products over a contact set: P, last P and last q with the deflections of each, and with 1.
 
     depths : of the two pressures, the last one second
 
@@ -123,7 +123,7 @@ def combine(
 
 @njit(fastmath=True)
 def update_gap(length, deflection, gap):
-    """e − g, or e_q, += α K d everywhere, in place."""
+    """Add α K d to e − g, or to e_q, everywhere, in place."""
     rows, columns = deflection.shape
     for i in range(rows):
         start = (i + REACH) * (columns + 2 * REACH) + REACH
@@ -133,7 +133,7 @@ def update_gap(length, deflection, gap):
 
 @njit(fastmath=True)
 def update_pressure(length, direction, pressure, places, slots):
-    """P += α d on the set, in place; returns whether any pressure is negative."""
+    """Add α d to P on the set, in place; return True if any pressure is negative."""
     lowest = 0.0
     for t in range(places.size):
         i = places[t]
@@ -144,14 +144,18 @@ def update_pressure(length, direction, pressure, places, slots):
 
 @njit(fastmath=True)
 def update_search_direction(direction, preconditioned, factor, places, slots):
-    """d = β d − z on the set, in place, with z the preconditioned residual, a flat field."""
+    """Compute d = β d − z on the set, in place, with z the preconditioned residual, a flat field."""
     for t in range(slots.size):
         direction[slots[t]] = factor * direction[slots[t]] - preconditioned[places[t]]
 
 
 @njit(fastmath=True)
 def direction_sums(direction, deflection, preconditioned, gap, places, slots):
-    """z·Kd, d·e and d·Kd over the set, with d and K d laid out as the operator's load; z and e are flat fields."""
+    """Return z·Kd, d·e and d·Kd over the set.
+
+    direction, deflection : d and K d, laid out like the load of the operator
+    preconditioned, gap : z and e, flat fields
+    """
     by_preconditioned = by_gap = by_direction = 0.0
     for t in range(slots.size):
         change, by_change = np.float64(direction[slots[t]]), np.float64(deflection[slots[t]])
@@ -163,7 +167,7 @@ def direction_sums(direction, deflection, preconditioned, gap, places, slots):
 
 @njit
 def unloaded_under_tension(direction, pressure, places, slots):
-    """Places of elements without pressure that a step along the direction would put under tension."""
+    """Return places of elements without pressure that a step along the direction would put under tension."""
     found, count = np.empty(places.size, places.dtype), 0
     for t in range(places.size):
         found[count] = places[t]  # overwritten unless it is one, which takes less time than a branch
@@ -173,7 +177,7 @@ def unloaded_under_tension(direction, pressure, places, slots):
 
 @njit
 def step_causes_tension(length, direction, pressure, places, slots):
-    """Whether a step of that length would put any element under tension."""
+    """Return True if a step of that length would put any element under tension."""
     for t in range(places.size):
         stepped = pressure[places[t]] + length * direction[slots[t]]
         if stepped < 0:
@@ -183,7 +187,7 @@ def step_causes_tension(length, direction, pressure, places, slots):
 
 @njit
 def step_and_find_tension(length, direction, pressure, inside, places, slots, first):
-    """P += α d, the direction becomes α d, and elements under tension are marked as outside; all in place.
+    """Add α d to P, replace d by α d, and mark elements under tension as outside; all in place.
 
     first : index of the first of these places in the set
 
@@ -202,7 +206,7 @@ def step_and_find_tension(length, direction, pressure, inside, places, slots, fi
 
 @njit
 def release(direction, pressure, inside, places, slots, released, stencil, width, stride):
-    """Elements under tension leave the set: the direction becomes the total change of pressure; all in place.
+    """Let elements under tension leave the set; the direction becomes the total change of pressure; all in place.
 
     When an element under tension leaves, the load of its neighbours changes. They take the change that eliminating the
     element from the influence matrix would give, which saves iterations, but lose at most half of their pressure.
@@ -228,7 +232,7 @@ def release(direction, pressure, inside, places, slots, released, stencil, width
 
 @njit
 def add_penetrating_elements(limit, gap_change, initial_gap, inside):
-    """Elements that overlap the surface by more than `limit` join the set, in place; returns how many did."""
+    """Let elements that overlap the surface by more than `limit` join the set, in place; return their number."""
     joined = 0
     for i in range(gap_change.size):
         if gap_change[i] + initial_gap[i] < -limit and not inside[i]:
@@ -239,7 +243,7 @@ def add_penetrating_elements(limit, gap_change, initial_gap, inside):
 
 @njit
 def has_open_gap(limit, gap_change, initial_gap, places):
-    """Return whether the gap at any of the places is larger than `limit`; the last places are searched first."""
+    """Return True if the gap at any of the places is larger than `limit`; the last places are searched first."""
     for t in range(places.size - 1, -1, -1):
         i = places[t]
         if gap_change[i] + initial_gap[i] > limit:
@@ -249,9 +253,10 @@ def has_open_gap(limit, gap_change, initial_gap, places):
 
 @njit
 def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, pressure, tangent):
-    """Sums over elements that join the contact in a step of the depth, of functions of where in it they touch.
+    """Return sums over elements that join the contact in a step of the depth, of functions of their touch.
 
-    An element touches at t = max(−e/e_q, Δu − P/q)/Δu, but from 0 to 1: e and e_q before the step, P and q after it.
+    An element touches at the share t = max(−e/e_q, Δu − P/q)/Δu of the step, limited to 0 to 1, with e and e_q before
+    the step and P and q after it.
 
     gap_change, initial_gap, tangent_gap : flat fields before the step; places : of the elements in them
     pressure, tangent : of the elements after the step

@@ -95,7 +95,7 @@ class GridLoops:
         return joined(self.over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
 
     def largest_overlap(self, gap_change: Array, initial_gap: Array) -> float:
-        """Largest −e of a flat field, or 0."""
+        """Return the largest −e of a flat field, or 0."""
         return -min(0.0, *self.over(gap_change, lambda i, j: float(np.add(gap_change[i:j], initial_gap[i:j]).min())))
 
     def lowest(self, field: Array) -> float:
@@ -113,7 +113,7 @@ class GridLoops:
         run_blocks(lambda i, j: np.subtract(field[i:j], number, out=out[i:j]), rows, self.threads, -(-BLOCK // columns))
 
     def update_gap(self, length: float | np.floating[Any], deflection: Array, gap: Array) -> None:
-        """e − g, or e_q, += α K d everywhere, in place."""
+        """Add α K d to e − g, or to e_q, everywhere, in place."""
         rows, columns = deflection.shape
         width = gap.size // (rows + 2 * REACH)
 

@@ -15,7 +15,7 @@ _PER_ELEMENT = 60
 _PER_HEIGHT = 10
 # Number of flat fields of the contacts that a loading path holds: four contacts with four fields each.
 _CONTACT_FIELDS = 16
-# The same number at small tolerances, at which six contacts are held, since more are solved ahead.
+# The same number at small tolerances: the path then holds six contacts, since more are solved ahead.
 _CONTACT_FIELDS_IF_EXACT = 24
 # Number of flat fields of the grid solver and of temporary arrays.
 _OTHER_FIELDS = 4
@@ -54,7 +54,10 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
 
 
 def require_for_box(heights: Array, box: tuple[int, ...], *, exact: bool, threads: int = 1) -> None:
-    """Check the same for the contact in a box (first row, first column, rows, columns); the elements exist already."""
+    """Raise MemoryError unless the contact in a box fits into memory; the elements exist already.
+
+    box : (first row, first column, rows, columns)
+    """
     memory.require(_grid_bytes(*box[2:], exact=exact, threads=threads), f"contact of a map of {heights.shape} heights")
 
 

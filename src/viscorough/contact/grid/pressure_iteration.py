@@ -5,7 +5,7 @@ K d of a search direction d on the whole grid, and so the gap everywhere at no f
 
 1. Release phase: while elements leave, the length of a step is fixed in units of the preconditioned residual. So one
    application of the operator serves both the step and the removal of these elements.
-2. Conjugate phase: if no element leaves, a step has the length that minimises the energy, as in the method of conjugate
+2. Conjugate phase: if no element leaves, a step has the length that minimises the energy, like a step of conjugate
    gradients.
 
 The phase is chosen before every step. Directions are conjugate to the last change of pressure in both. If the bound on
@@ -21,8 +21,8 @@ from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.state import BoundedField, ContactSet, TargetForce
 from viscorough.types import Array, Mask
 
-# If the first step would put unloaded elements under tension, and these are more than this share of the set, they leave
-# the set before the step: the preconditioned residual of a far too large set is of little use.
+# Remove unloaded elements that the first step would put under tension before this step, if they exceed this share of
+# the set: the preconditioned residual of a far too large set is of little use.
 _EXCLUDED = 0.05
 # Recompute the gap in a release step if the bound on its rounding error exceeds this share of the limit, and a further
 # step adds less than this share. This saves the operator application of the step.
@@ -74,8 +74,8 @@ class PressureIteration:
         self._set_changed = True  # since the search last knew the set
         self._has_tension = grid.loops.lowest(trial.pressure) < 0
         self._releases = 0  # release steps so far
-        # Measured at the start of every iteration: the largest |e| allowed, |e| reached, and the limit at which the
-        # iteration can end.
+        # Measured at the start of every iteration: the largest |e| allowed, the largest |e| reached, and the largest
+        # |e| that ends the iteration.
         self._limit = self._largest = self._close_enough = 0.0
 
     def solve(self) -> ContactSet:

@@ -1,10 +1,10 @@
-"""The operators, fields and contact sets that the iterations on a grid share.
+"""Hold the operators and fields that all iterations on a grid share.
 
 Symbols and reduced units are defined in contact.state. Fields are flat arrays with a border as wide as the
 preconditioner reaches, so elements at the edge need no special treatment.
 
 The iterations run in single precision by default. Fields are in single precision, too, unless the tolerance is so small
-that the gap must be known in double precision. The iterations compute ever smaller corrections, so the rounding error
+that the gap is needed in double precision. The iterations compute ever smaller corrections, so the rounding error
 is small, and a bound on it is tracked with every field. When the bound nears the tolerance, the gap is recomputed from
 the pressure, in double precision if the tolerance needs it.
 """
@@ -33,7 +33,7 @@ _OUTSIDE = 1e30
 
 
 class GridWorkspace:
-    """The half-space operators of a grid, its preconditioner, and the fields that all solutions on it share.
+    """Half-space operators and preconditioner of a grid, and the fields that all solutions on it share.
 
     shape : rows and columns of the grid
     tolerance : largest |e| in contact or overlap outside it, over the depth
@@ -45,7 +45,7 @@ class GridWorkspace:
     tolerance, options : as they were given
     loops : GridLoops
     width : length of a row of flat fields
-    inner : slice of flat fields without the first and last rows of their border, which are most of those of a strip
+    inner : slice of flat fields without the first and last rows of their border, which for a strip are most of its rows
     initial_gap : flat field; the grid solver sets it at the elements
     residual : e or e_q on the set, as the running iteration last computed it, flat field
     precision : floating-point type of the other fields

@@ -1,7 +1,7 @@
-"""Convolution of the columns of a grid with an even kernel, by Fourier transforms of many columns side by side.
+"""Convolve the columns of a grid with an even kernel, by Fourier transforms of many columns side by side.
 
 The transforms are implemented here because a convolution needs less than a library's transforms provide: rows without
-data are neither stored nor copied, and frequencies stay in the order in which the transform leaves them.
+data are neither stored nor copied, and frequencies keep the order that the transform produces.
 
 Columns are processed in blocks. Within a row of a block the real parts are contiguous and the imaginary parts follow,
 so that every operation below acts on as many columns at once as a register of the processor holds.
@@ -19,7 +19,7 @@ from viscorough.types import Array, Complex
 _BLOCK = 64
 # Largest number of further columns in the last block.
 _REST = 8
-# The next two distances are no powers of two, multiples of which compete for the same cache lines. They are constants
+# The next two distances are no powers of two, whose multiples compete for the same cache lines. They are constants
 # so that the compiler can see which numbers do not overlap.
 # Distance in memory from real to imaginary parts.
 _PARTS = _BLOCK + _REST
@@ -30,14 +30,14 @@ _LARGEST_RADIX = 8
 
 
 def good_length(least: int) -> int:
-    """Smallest length 2^a 3^b ≥ least with a ≥ 2: the lengths for which there are transforms."""
+    """Return the smallest length 2^a 3^b ≥ least with a ≥ 2: the transforms need such lengths."""
     most = int(np.ceil(np.log2(max(least, 4))))
     lengths = [2**a * 3**b for a in range(2, most + 1) for b in range(most)]
     return min(length for length in lengths if length >= least)
 
 
 def _radices(length: int) -> list[int]:
-    """Factors 3, 4 and 8 of a length, small ones first: the last stage is one of four or eight."""
+    """Return factors 3, 4 and 8 of a length, small factors first: the last stage has the factor 4 or 8."""
     twos = (length & -length).bit_length() - 1
     threes = round(np.log(length >> twos) / np.log(3))
     fours = -twos % 3
@@ -46,7 +46,7 @@ def _radices(length: int) -> list[int]:
 
 @njit(inner=True)
 def _at(x, row, j):
-    """The complex number in column j of a row."""
+    """Return the complex number in column j of a row."""
     return complex(x[row, j], x[row, _PARTS + j])
 
 
@@ -66,20 +66,20 @@ def _put_exchanged(y, group, j, value, factor):
 
 @njit(inner=True)
 def _times_minus_i(z):
-    """−i z."""
+    """Return −i z."""
     return complex(z.imag, -z.real)
 
 
 @njit(inner=True)
 def _transform_of_four(a, b, c, d):
-    """Transform of four numbers."""
+    """Return the transform of four numbers."""
     even, odd, even_rotated, odd_rotated = a + c, b + d, a - c, _times_minus_i(b - d)
     return even + odd, even_rotated + odd_rotated, even - odd, even_rotated - odd_rotated
 
 
 @njit(inner=True, fastmath=True)
 def _transform_of_eight(z0, z1, z2, z3, z4, z5, z6, z7, root):
-    """Transform of eight numbers; root = √½."""
+    """Return the transform of eight numbers; root = √½."""
     a, b, c, d = _transform_of_four(z0, z2, z4, z6)
     e, f, g, h = _transform_of_four(z1, z3, z5, z7)
     f, g, h = (f + _times_minus_i(f)) * root, _times_minus_i(g), (_times_minus_i(h) - h) * root
@@ -149,7 +149,7 @@ def _stage_of_eight(x, source, y, before, factors, width):
 
 @njit(inner=True, fastmath=True)
 def _last_stage_of_four(x, source, y, spectrum, frequency, width):
-    """The last stage, without twiddle factors, times the rows of the spectrum at these frequencies."""
+    """Run the last stage on four rows, without twiddle factors, and multiply by the spectrum at these frequencies."""
     quarter = source.size // 4
     out = y.reshape(quarter, 4 * _ROW)
     for p in range(quarter):
@@ -166,7 +166,7 @@ def _last_stage_of_four(x, source, y, spectrum, frequency, width):
 
 @njit(inner=True, fastmath=True)
 def _last_stage_of_eight(x, source, y, spectrum, frequency, width):
-    """The same for eight rows."""
+    """Run the last stage on eight rows; see `_last_stage_of_four`."""
     eighth = source.size // 8
     out = y.reshape(eighth, 8 * _ROW)
     root = x.dtype.type(np.sqrt(0.5))
@@ -216,14 +216,14 @@ def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, pad
 
     Two transforms follow each other. The last stage of the first one multiplies with the spectrum and exchanges real
     and imaginary parts, so that the second transform is an inverse one. Every stage reads rows n/r apart and writes r
-    rows side by side, of which the first holds frequencies that are 0 modulo r, the next those that are 1, and so on
+    rows side by side: the first holds frequencies that are 0 modulo r, the next frequencies that are 1, and so on
     (decimation in frequency with constant geometry; Pease 1968).
 
     start, stop : first block, and the one after the last
     edges : first column of every block, and the number of columns
     spectra, frequency : factors by block and frequency; frequency in every row after the last stage
     stages : r of every stage, the product of all r before it, and the first of its rows in `factors`
-    factors : twiddle factors by group of rows, of which there are n over the product of all r up to the stage
+    factors : twiddle factors by group of rows; the number of groups is n over the product of all r up to the stage
     padded, place, same : rows that the first stage reads, that the first stage of the inverse transform reads, and
         0, 1, 2, …, the rows that the others read
     x, y : two blocks, which the stages read and write in turn
@@ -252,13 +252,13 @@ def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, pad
 
 
 class ColumnConvolution:
-    """Convolution of every column of a grid with its own even kernel.
+    """Convolution of every column of a grid with an even kernel for this column.
 
     rows : number of rows with data
     spectrum : real transforms of the kernels along the columns, divided by the length of the transform: the frequencies
         up to half of it, shape (length/2 + 1, columns), where length is a good_length above `rows`
     precision : floating-point type of the computation
-    threads : on which blocks of columns are convolved
+    threads : number of threads, each of which convolves blocks of columns
     """
 
     def __init__(self, rows: int, spectrum: Array, precision: DTypeLike, threads: int = 1) -> None:

@@ -1,8 +1,8 @@
-"""Cholesky factor L of the influence matrix of a contact set that grows element by element.
+"""Update the Cholesky factor L of the influence matrix of a contact set that grows element by element.
 
 It serves the two methods that follow contact events: the dense elastic path and the direct integration of the viscous
-problem. The latter checks the former; all they share are the influence coefficients and this linear algebra, which is
-tested against a full factorisation. Compiled functions take plain arrays, hence their many arguments.
+problem. The second method checks the first; they share only the influence coefficients and this linear algebra, which
+is tested against a full factorisation. Compiled functions take plain arrays, hence their many arguments.
 """
 
 import numpy as np

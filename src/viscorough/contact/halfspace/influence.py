@@ -1,4 +1,4 @@
-"""Influence coefficients of the elastic half-space: deflection by uniform pressure on a rectangular element."""
+"""Compute influence coefficients of the elastic half-space: deflection by uniform pressure on a rectangular element."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ _FAR = 30
 
 
 def influence_coefficient(row: Array | Integers, column: Array | Integers, aspect: float = 1.0) -> Array:
-    """K: displacement at a distance in rows and columns, of a rectangular element under uniform pressure.
+    """Return K: the displacement at a distance from a rectangular element under uniform pressure.
 
     Love's solution, w = p d/(πE*) K = p d/(4πG) K, for an element with sides dx along the rows and dy along the columns
     and d = √(dx dy) (Love 1929). Near the element K is the closed form, the sum over the four corners of
@@ -30,7 +30,7 @@ def influence_coefficient(row: Array | Integers, column: Array | Integers, aspec
 
 
 def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
-    """K of `influence_coefficient` at all pairs of distances in rows and columns.
+    """Return K of `influence_coefficient` at all pairs of distances in rows and columns.
 
     row, column : distances, arrays of shapes (m,) and (n,)
     aspect : dy/dx
@@ -45,7 +45,7 @@ def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
 
 @njit
 def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
-    """∫∫ dA/r at all pairs of x ≥ 0 and y ≥ 0 from the centre of a rectangle of area 1.
+    """Return ∫∫ dA/r at all pairs of x ≥ 0 and y ≥ 0 from the centre of a rectangle of area 1.
 
     The series is used everywhere, then the closed form where it is needed: without a branch, the loop over the series
     acts on as many numbers at once as a register of the processor holds.
@@ -71,7 +71,7 @@ def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
 
 @njit(inner=True)
 def _closed_form(x, y, length, width):
-    """∫∫ dA/r at (x, y) from the centre of a rectangle, by differences of logarithms."""
+    """Return ∫∫ dA/r at (x, y) from the centre of a rectangle, by differences of logarithms."""
     total = 0.0
     for sign_x in (-1, 1):
         for sign_y in (-1, 1):
@@ -86,7 +86,7 @@ def _closed_form(x, y, length, width):
 
 @njit(inner=True)
 def _mean_inverse_distance(x, y, length, width):
-    """Mean of 1/r over a rectangle as seen from far: its moment expansion to fourth order; nan at its centre."""
+    """Return the mean of 1/r over a distant rectangle by its moment expansion to fourth order; nan at its centre."""
     x2, y2 = x * x, y * y
     inverse2 = 1 / (x2 + y2)  # 1/r²; the only division, since divisions take most of the time
     inverse = np.sqrt(inverse2)

@@ -1,4 +1,4 @@
-"""The elastic half-space under uniform pressure on rectangular elements: the operator of influence coefficients."""
+"""Apply the influence coefficients of the elastic half-space to the pressures on a grid, by Fourier transforms."""
 
 from collections.abc import Callable
 from functools import lru_cache
@@ -15,8 +15,8 @@ from viscorough.types import Array
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
 # that.
 _ROW_PADDING = 16
-# Elements up to which the spectrum of a grid is kept for further ones with transforms of the same lengths: the boxes
-# of an ensemble of indenters have few of these.
+# Keep the spectrum of a grid of up to this number of elements for other grids with transforms of the same lengths: the
+# boxes of an ensemble of indenters need few different lengths.
 _KEPT = 1 << 20
 # The number of rows in a block is a multiple of this: the library transforms so many at once.
 _ROWS_AT_ONCE = 16
@@ -26,7 +26,7 @@ _COMPILED_FROM = 5000
 
 
 def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
-    """Lengths of the periodic convolution along the columns and along the rows of a grid.
+    """Return the lengths of the periodic convolution along the columns and along the rows of a grid.
 
     A single row has no distances along the columns: its length there is 1.
     """
@@ -34,7 +34,7 @@ def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
 
 
 def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: bool = True, threads: int = 1) -> Array:
-    """Return the spectrum of the influence coefficients of a grid, in double precision; arguments as of Halfspace."""
+    """Return the spectrum of the influence coefficients of a grid, in double precision; arguments of Halfspace."""
     lengths, period = convolution_lengths(rows, columns), None if padding else (rows, columns)
     if rows * columns <= _KEPT:
         return _kept_spectrum(lengths, period, aspect, 1)
@@ -42,10 +42,10 @@ def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: b
 
 
 def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float, threads: int) -> Array:
-    """Real spectrum of K on a periodic grid of these lengths, divided by their product.
+    """Return the real spectrum of K on a periodic grid of these lengths, divided by their product.
 
-    period : rows and columns after which a grid without padding repeats: there the distance is that to the nearest
-        image; None with padding
+    period : period in rows and columns of a grid without padding, whose distances are counted to the nearest image;
+        None with padding
     """
 
     def kernel(row: Array, column: Array) -> Array:
@@ -56,15 +56,15 @@ def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspe
     return spectrum_of_kernel(lengths, kernel, threads)
 
 
-_kept_spectrum = lru_cache(maxsize=6)(_spectrum)  # the same, cached for grids with these lengths
+_kept_spectrum = lru_cache(maxsize=6)(_spectrum)  # cached by lengths, period and aspect
 
 
 def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array], Array], threads: int = 1) -> Array:
-    """Real spectrum of an even kernel on a periodic grid of these even lengths, divided by their product.
+    """Return the real spectrum of an even kernel on a periodic grid of these even lengths, divided by their product.
 
-    It is even, too, so that a cosine transform over distances up to half the lengths gives it at all frequencies.
+    The spectrum is even, too, so a cosine transform over distances up to half the lengths gives all frequencies.
 
-    kernel : function that gives its values at all pairs of distances in rows and columns
+    kernel : function that returns the kernel at all pairs of distances in rows and columns
     """
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
     spectrum = np.empty((row.size, column.size))
@@ -87,7 +87,7 @@ def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array]
 
 
 class Convolution:
-    """The convolution w_i = Σ_j K(i − j) P_j on a grid, with an even kernel K given by its spectrum.
+    """Convolution w_i = Σ_j K(i − j) P_j on a grid, with an even kernel K given by its spectrum.
 
     K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
     nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
@@ -100,7 +100,7 @@ class Convolution:
     threads : number of threads
     once : True if it is applied once, so that it takes less time without compiled convolutions of the columns
 
-    load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
+    load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero on elements without pressure
         and in the columns beyond the grid
     count : number of applications so far
     accuracy : bound on the error in addition to rounding, over the largest deflection
@@ -137,7 +137,7 @@ class Convolution:
         self.count = 0
 
     def apply(self) -> Array:
-        """Deflection w = K P of the pressure in `load`, in the same layout; valid until the next call."""
+        """Compute the deflection w = K P of the pressure in `load`, in the same layout; valid until the next call."""
         blocks = len(self.load), self._threads, self._block, _ROWS_AT_ONCE
         run_blocks(self._transform, *blocks)
         if self._convolution:
@@ -149,7 +149,7 @@ class Convolution:
         return self._deflection
 
     def _transform(self, start: int, stop: int) -> None:
-        """Real transforms of some rows of `load`, padded with zeros."""
+        """Transform some rows of `load`, padded with zeros."""
         rows, columns = self.load[start:stop], self.shape[1]
         if not self._is_one:
             padded = self._buffer.array[0, : stop - start]
@@ -158,7 +158,7 @@ class Convolution:
         ducc0.fft.r2c(rows[:, : self._length], axes=[1], out=self._transformed[start:stop])
 
     def _transform_back(self, start: int, stop: int) -> None:
-        """The inverse of `_transform` without a factor, to the deflection; overwrites the transforms."""
+        """Transform some rows back to the deflection, without a factor; overwrites the transforms."""
         rows, columns = self._deflection[start:stop], self.shape[1]
         out = rows if self._is_one else self._buffer.array[1, : stop - start]
         data = self._transformed[start:stop]
@@ -168,7 +168,7 @@ class Convolution:
 
 
 class Halfspace(Convolution):
-    """The half-space operator w = K P on a grid of rows × columns elements.
+    """Half-space operator w = K P on a grid of rows × columns elements.
 
     With P = p d/(4πG) and d = √(dx dy) the result w is the deflection of the surface.
 

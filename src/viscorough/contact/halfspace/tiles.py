@@ -1,4 +1,4 @@
-"""The half-space operator on parts of a large grid: loads and deflections in some square tiles of it, none elsewhere.
+"""Apply the half-space operator in some square tiles of a large grid, with no loads and deflections elsewhere.
 
 The kernel is split as in Ewald's sum for point charges: K = (K − S) + S with S(r) ≈ erf(r/σ)/r, the smooth deflection
 by a load that is spread over a Gaussian. K − S has a short range: its convolution takes one small Fourier transform for
@@ -32,13 +32,13 @@ _WINDOW = 16.5
 _SMOOTHING = 4.5
 # Range of K − S over σ.
 _RANGE = 3.8
-# Distance over σ from which on erf is 1 to rounding.
+# Distance over σ beyond which erf is 1 to rounding.
 _FLAT = 7.0
 # Bound on the error, over the largest deflection (tests/viscorough/contact/halfspace/test_tiles.py).
 ACCURACY = 1e-7
 # Least ratio of a tolerance to this error: the rest is for the iterations.
 _MARGIN = 4
-# Largest ratio of the sides of elements for which the error of the coarse grid stays within ACCURACY.
+# Largest ratio of the sides of elements; beyond it the error of the coarse grid exceeds ACCURACY.
 _LARGEST_ASPECT = 2.0
 
 
@@ -52,7 +52,7 @@ def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float, options
 
 
 def tiles_with(row: Integers, column: Integers, shape: tuple[int, int]) -> Mask:
-    """The tiles of a grid of that shape in which there are elements, shape (rows of tiles, columns of tiles)."""
+    """Return True for the tiles of a grid that contain elements, shape (rows of tiles, columns of tiles)."""
     tiles: Mask = np.zeros([-(-n // SIDE) for n in shape], bool)
     tiles[row // SIDE, column // SIDE] = True
     return tiles
@@ -64,7 +64,7 @@ def are_few(tiles: Mask, options: SolverOptions = DEFAULT) -> bool:
 
 
 def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:
-    """The tiles of a grid that are not whole in a box: (first row, first column, rows, columns)."""
+    """Return True for the tiles of a grid that do not lie wholly in a box (first row, first column, rows, columns)."""
     tiles: Mask = np.ones([-(-n // SIDE) for n in shape], bool)
     inner = []
     for first, size, n in zip(box, box[2:], shape, strict=False):
@@ -75,14 +75,14 @@ def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:
 
 
 class TiledHalfspace:
-    """The half-space operator w = K P on tiles of a grid of rows × columns elements; see operator.Convolution.
+    """Half-space operator w = K P on tiles of a grid of rows × columns elements; see operator.Halfspace.
 
-    rows, columns, precision, aspect, threads : as of Halfspace
-    tiles : those that may have loads, as of `tiles_with`
+    rows, columns, precision, aspect, threads : see operator.Halfspace
+    tiles : True for tiles that may have loads; see `tiles_with`
 
     load : the array to write P into, of shape (rows, columns); it must be zero where there is no pressure
     count : number of applications so far
-    accuracy : bound on the error beside rounding, over the largest deflection
+    accuracy : bound on the error in addition to rounding, over the largest deflection
     """
 
     accuracy = ACCURACY
@@ -114,7 +114,7 @@ class TiledHalfspace:
         self._transform = Buffer(self._spectrum.shape, np.result_type(precision, np.complex64))
 
     def apply(self) -> Array:
-        """Deflection w = K P of the pressure in `load` in the tiles, else zero; valid until the next call."""
+        """Compute w = K P in the tiles from the pressure in `load`, zero in other tiles; valid until the next call."""
         for part in map(_part, np.argwhere(self._tiles)):
             self._deflection[part] = 0
         self.add_to(self._deflection, self._tiles)
@@ -166,7 +166,7 @@ class TiledHalfspace:
 
 
 def _interpolation_weights() -> Array:
-    """Weights of the coarse points around an element, by its place between them, shape (_STRIDE, _POINTS)."""
+    """Return the weights of the coarse points around an element, by its place between them: (_STRIDE, _POINTS)."""
     from scipy.special import i0  # takes long to import
 
     place = np.arange(_STRIDE)[:, None] / _STRIDE - np.arange(1 - _POINTS // 2, _POINTS // 2 + 1)
@@ -177,7 +177,7 @@ def _interpolation_weights() -> Array:
 def _short_range(
     sides: tuple[float, float], sigma: float, precision: DTypeLike
 ) -> tuple[tuple[int, ...], tuple[int, ...], Array]:
-    """Range of K − S in rows and columns, lengths of the transforms for a tile, and the spectrum of K − S."""
+    """Return the range of K − S in rows and columns, the lengths of the transforms for a tile, and its spectrum."""
     reach = tuple(int(np.ceil(_RANGE * sigma / side)) for side in sides)
     lengths = tuple(2 * ducc0.fft.good_size(-(-(SIDE + 2 * n) // 2), True) for n in reach)
 
@@ -190,18 +190,18 @@ def _short_range(
 
 
 def _part(tile: Integers) -> tuple[slice, ...]:
-    """Rows and columns of a tile."""
+    """Return the rows and columns of a tile."""
     return tuple(slice(first, first + SIDE) for first in (SIDE * tile).tolist())
 
 
 def _coarse_part(tile: Integers) -> tuple[slice, ...]:
-    """Rows and columns of the points of the coarse grid that the elements of a tile are distributed to."""
+    """Return rows and columns of the points of the coarse grid to which a tile distributes its loads."""
     return tuple(slice(part.start // _STRIDE, part.stop // _STRIDE + _POINTS - 1) for part in _part(tile))
 
 
 @njit(fastmath=True)
 def _smooth_kernel(row, column, side_y, side_x, sigma):
-    """S at all pairs of distances: the mean of erf(r/σ)/r over an element, by two points of Gauss along each side."""
+    """Return S at all pairs of distances: the mean of erf(r/σ)/r over an element, by two Gauss points per side."""
     table, shift = np.zeros((row.size, column.size)), 1 / np.sqrt(12.0)
     for i in range(row.size):
         target = table[i]
@@ -221,7 +221,7 @@ def _smooth_kernel(row, column, side_y, side_x, sigma):
 
 @njit(fastmath=True)
 def _distribute(load, weights):
-    """Loads of a tile distributed to the points of the coarse grid, first along the rows."""
+    """Distribute the loads of a tile to the points of the coarse grid, first along the rows."""
     rows, columns = load.shape
     coarse = np.zeros(((rows - 1) // _STRIDE + _POINTS, (columns - 1) // _STRIDE + _POINTS), load.dtype)
     row_sums = np.empty(coarse.shape[1], load.dtype)
@@ -243,7 +243,7 @@ def _distribute(load, weights):
 
 @njit(fastmath=True)
 def _interpolate(coarse, weights):
-    """Field of a tile interpolated between the points of the coarse grid."""
+    """Interpolate the field of a tile between the points of the coarse grid."""
     side = (coarse.shape[0] - _POINTS + 1) * _STRIDE
     across, field = np.empty((coarse.shape[0], side), coarse.dtype), np.empty((side, side), coarse.dtype)
     for k in range(coarse.shape[0]):

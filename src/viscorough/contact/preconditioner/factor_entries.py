@@ -1,7 +1,7 @@
 """Tabulate the possible rows of the sparse factor G of the preconditioner.
 
-Row i of G (in this module not the shear modulus) depends only on which of the twelve nearest elements before element i
-are in contact: there are 4096 rows.
+In this package G is the sparse factor, not the shear modulus. Row i of G depends only on the contact of the twelve
+elements that precede element i and are nearest to it: each may be in contact or not, so there are 4096 rows.
 """
 
 from functools import lru_cache

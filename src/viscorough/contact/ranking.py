@@ -32,13 +32,16 @@ _SMALLEST_DEPTH = 1e-3
 class Ranking:
     """Elements of an indenter, ranked from the highest element on as far as they are needed.
 
-    elements : state.Elements ranked so far; only the methods of this class replace them, always by longer ones
-    highest : the largest height
-    is_flat : True if all elements are of this height
-
+    indenter : Indenter with two-dimensional heights
+    threads : number of threads
+    options : SolverOptions with the numbers of elements to rank first
     largest_depth : the elements up to this depth are ranked first [length]. If it is infinite, all elements of a small
         map are ranked, and none of a large map
     whole : True if all elements will be needed
+
+    elements : state.Elements ranked so far; only the methods of this class replace them
+    highest : the largest height
+    is_flat : True if all elements have this height
     """
 
     def __init__(

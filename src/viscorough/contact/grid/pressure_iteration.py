@@ -71,7 +71,7 @@ class PressureIteration:
         self._adjustment = DepthAdjustment(target, trial.pressure.size, grid.loops) if target else None
         self._search: ConjugateGradients | None = None
         self._contact_set = grid.contact_set(trial.inside)
-        self._set_changed = True  # since the search last knew the set
+        self._set_changed = False  # since `_contact_set` was made
         self._has_tension = grid.loops.lowest(trial.pressure) < 0
         self._releases = 0  # release steps so far
         # Measured at the start of every iteration: the largest |e| allowed, the largest |e| reached, and the largest
@@ -86,7 +86,7 @@ class PressureIteration:
         for iteration in range(self._grid.options.max_iterations):
             self._measure()
             if self._is_close():
-                if self._is_final():
+                if self._try_to_finish():
                     return self._contact_set
                 continue
             direction = self._next_direction()
@@ -127,8 +127,8 @@ class PressureIteration:
         trial, places = self._trial, self._contact_set.places
         return not self._adjustment or self._adjustment.is_met(trial.pressure, places, trial.depth, self._limit)
 
-    def _is_final(self) -> bool:
-        """Return True if no element joins the set and the gap is accurate; otherwise correct the set or the gap."""
+    def _try_to_finish(self) -> bool:
+        """Return True if no element joins the set and the gap is accurate; otherwise improve the set or the gap."""
         trial = self._trial
         self._set_changed = False
         self._add_penetrating_elements(self._close_enough)
@@ -163,6 +163,7 @@ class PressureIteration:
         if excluded.size <= _EXCLUDED * self._contact_set.places.size:
             return False
         self._trial.inside[excluded] = False
+        self._set_changed = True
         return True
 
     def _can_recompute(self) -> bool:

@@ -54,7 +54,7 @@ class LightLoad(solver_race.Task):
 
     def rank(self):
         """Rank the elements that can touch, the least that any solution needs."""
-        return Ranking(self.indenter, largest_depth=self.depths[0])
+        return Ranking(self.indenter, largest_depth=self.depths[0]).elements
 
     def outcome(self, solution):
         """Return residual, by the measure of all solvers, and force; the number of iterations is not reported."""

@@ -52,7 +52,7 @@ def write_files(folder):
     The function reads from a folder. The last of the names is the file to damage.
     """
     disc = viscorough.self_affine_disc(0.7, 33, rms=0.01, seed=1)
-    viscorough.indent(disc).save(folder / "curve.nc")
+    viscorough.save(viscorough.indent(disc), folder / "curve.nc")
     members, settings = [], {"ensembles": [{"name": "h05000"}]}
     lines = SelfAffineLines(hurst=0.5, points=512, rms=1e-6, length=1e-3)
     for number in range(24):

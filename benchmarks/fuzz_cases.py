@@ -90,7 +90,7 @@ def npy(shape):
 def saved(result):
     """Return the bytes of a file of a result."""
     with tempfile.TemporaryDirectory() as folder:
-        result.save(path := Path(folder) / "saved.nc")
+        viscorough.save(result, path := Path(folder) / "saved.nc")
         return path.read_bytes()
 
 

@@ -12,21 +12,19 @@ from viscorough.estimates import estimate as estimate
 from viscorough.indenter import Indenter as Indenter
 from viscorough.io.heights import read_heights as read_heights
 from viscorough.io.heights import read_line as read_line
+from viscorough.io.histories import read_load as read_load
 from viscorough.io.media import read_medium as read_medium
+from viscorough.io.result_datasets import to_dataset as to_dataset
 from viscorough.io.saving import load_curve as load_curve
 from viscorough.io.saving import save as save
 from viscorough.loading_curve import LoadingCurve as LoadingCurve
-from viscorough.mdr import line_of_map as line_of_map
-from viscorough.mdr import line_of_surface as line_of_surface
 from viscorough.mdr import reduce as reduce
 from viscorough.plotting import plot as plot
 from viscorough.preparation import prepare as prepare
 from viscorough.sum_rules import audit as audit
 from viscorough.sum_rules import complete_contact as complete_contact
-from viscorough.surfaces import cut_disc as cut_disc
 from viscorough.surfaces import self_affine_disc as self_affine_disc
 from viscorough.surfaces import self_affine_line as self_affine_line
-from viscorough.viscous.identification import IdentifiedMedium as IdentifiedMedium
 from viscorough.viscous.identification import identify_medium as identify_medium
 from viscorough.viscous.integration.march import march as march
 from viscorough.viscous.kinetics import kinetics as kinetics
@@ -38,7 +36,6 @@ from viscorough.viscous.media import Newtonian as Newtonian
 from viscorough.viscous.media import Prony as Prony
 from viscorough.viscous.media import Springpot as Springpot
 from viscorough.viscous.media import StandardLinearSolid as StandardLinearSolid
-from viscorough.viscous.medium import Medium as Medium
 from viscorough.viscous.motion import Motion as Motion
 from viscorough.viscous.pressures import pressure_at as pressure_at
 

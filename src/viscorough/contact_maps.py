@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays, ReadOnlyTuple, real_number
-from viscorough.saved import Saved
 from viscorough.summaries import span, unit_power, with_unit
 from viscorough.types import Mask
 from viscorough.units import in_metres, result_units, square_metres
@@ -40,7 +39,7 @@ class Patches(ReadOnlyTuple, _Patches):
 
 
 @dataclass(frozen=True)
-class Contact(ReadOnlyArrays, Saved):
+class Contact(ReadOnlyArrays):
     """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
 
     Arrays are copied and read-only.

@@ -16,7 +16,6 @@ from viscorough.argument_names import argument
 from viscorough.arrays import ReadOnlyArrays, increasing, real_numbers
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
-from viscorough.saved import Saved
 from viscorough.summaries import span
 from viscorough.viscous.creep_response import constant_creep
 from viscorough.viscous.media import medium_of
@@ -24,7 +23,7 @@ from viscorough.viscous.medium import Medium
 
 
 @dataclass(frozen=True)
-class Estimate(ReadOnlyArrays, Saved):
+class Estimate(ReadOnlyArrays):
     """Depth and velocity over time by the penetration law; arrays of shape (times,), nan where the law does not hold.
 
     time : t; x : X = F·J(t)/(4hL)

@@ -9,7 +9,6 @@ import numpy as np
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, is_whole, named, read_only, real_numbers, shown, unit_attribute
-from viscorough.saved import Saved
 from viscorough.summaries import with_unit
 from viscorough.types import Array
 
@@ -18,7 +17,7 @@ _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double pre
 
 
 @dataclass(frozen=True)
-class Indenter(ReadOnlyArrays, Saved):
+class Indenter(ReadOnlyArrays):
     """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
     Parameters

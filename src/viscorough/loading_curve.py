@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only
-from viscorough.saved import Saved
 from viscorough.summaries import span, unit_power
 from viscorough.types import Array, Integers, Pair, Scalar
 
@@ -29,7 +28,7 @@ _OF_GRID = ("grid_error", "force_grid_error", "area_change")
 
 
 @dataclass(frozen=True)
-class LoadingCurve(ReadOnlyArrays, Saved):
+class LoadingCurve(ReadOnlyArrays):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
     Arrays are copied and read-only. Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem

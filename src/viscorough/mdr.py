@@ -163,15 +163,15 @@ def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
     Examples
     --------
     >>> import numpy as np
-    >>> import viscorough
+    >>> from viscorough.mdr import line_of_surface
     >>> heights = np.random.default_rng(1).normal(size=(16, 16))
-    >>> viscorough.line_of_surface(heights, 1.0, seed=2).heights.shape
+    >>> line_of_surface(heights, 1.0, seed=2).heights.shape
     (16,)
     """
     square = real_numbers("line_of_surface: square", square)
     n = len(square) if square.ndim else 0
     if n == 0 or square.shape != (n, n):
-        raise ValueError(f"line_of_surface: the map must be square, its shape is {square.shape}")
+        raise ValueError(f"square: the map must be square, its shape is {square.shape}")
     power = np.abs(np.fft.fft2(square)) ** 2 / n**4
     wavenumber = np.fft.fftfreq(n, 1 / n)
     rings = _ring_sums(power, np.hypot(wavenumber[:, None], wavenumber), n)
@@ -207,8 +207,9 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     --------
     >>> import numpy as np
     >>> import viscorough
+    >>> from viscorough.mdr import line_of_map
     >>> heights = np.random.default_rng(1).normal(size=(16, 16))
-    >>> viscorough.line_of_map(viscorough.Indenter(heights, 1.0), seed=2).heights.shape
+    >>> line_of_map(viscorough.Indenter(heights, 1.0), seed=2).heights.shape
     (16,)
     """
     check_indenter("line_of_map", surface, 2)
@@ -227,7 +228,7 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
         )
         square, spoiled = np.nanvar(heights), slice(1, _SPOILED + 1)
     if not (0 < square < np.inf and 0 < rings[1:].sum() < np.inf and 0 < long[spoiled].sum() < np.inf):
-        raise ValueError("line_of_map: the map is flat or its squares overflow; heights that vary, less, are needed")
+        raise ValueError("surface: the map is flat or its squares overflow; heights that vary, less, are needed")
     rings[spoiled] = long[spoiled] * max(square - rings[_SPOILED + 1 :].sum(), 0) / long[spoiled].sum()
     line = _random_line(rings * (square / rings[1:].sum()), points, seed)
     return Indenter(line, spacing, length_unit=surface.length_unit)

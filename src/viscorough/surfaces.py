@@ -189,13 +189,13 @@ def cut_disc(square: Array, elements_across: int) -> Array:
     Examples
     --------
     >>> import numpy as np
-    >>> import viscorough
-    >>> int(np.isfinite(viscorough.cut_disc(np.zeros((5, 5)), 5)).sum())
+    >>> from viscorough.surfaces import cut_disc
+    >>> int(np.isfinite(cut_disc(np.zeros((5, 5)), 5)).sum())
     13
     """
     n, square = whole_number("elements_across", elements_across, at_least=1), real_numbers("cut_disc: square", square)
     if square.ndim != 2 or min(square.shape) < n:
-        raise ValueError(f"cut_disc: the map must have at least {n} x {n} points, its shape is {square.shape}")
+        raise ValueError(f"square: the map must have at least {n} x {n} points, its shape is {square.shape}")
     twice = 2 * np.arange(n) - (n - 1)  # twice the distance from the centre: whole numbers for odd and even n
     return np.where(twice[:, None] ** 2 + twice**2 <= (n - 1) ** 2, square[:n, :n], np.nan)
 

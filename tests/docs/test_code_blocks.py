@@ -17,7 +17,7 @@ from matplotlib.testing.compare import compare_images
 from support.code_blocks import run_console, run_python, run_shell
 from support.documentation import PAGES, README, ROOT, blocks, read
 from support.workflow import merged, read_settings
-from viscorough import Load
+from viscorough import read_load
 from viscorough.io.media import read_medium
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.run.settings import check_settings
@@ -25,7 +25,7 @@ from viscorough_study.run.settings import check_settings
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}
 # {beginning: name, reader}
 FILES = {
-    "t [": ("force.csv", lambda name, unit: Load.read(name, length_unit=unit)),
+    "t [": ("force.csv", lambda name, unit: read_load(name, length_unit=unit)),
     "kind: ": ("medium.yaml", read_medium),
 }
 # Blocks that other tests read: directives of the website, the citation, and settings (below).

@@ -7,11 +7,17 @@ import re
 import pytest
 
 import viscorough
-from viscorough import reference
+from viscorough import mdr, reference, surfaces
+from viscorough.viscous.identification import IdentifiedMedium
+from viscorough.viscous.medium import Medium
 
 FORMULAS = [name for name, item in vars(reference).items() if getattr(item, "__module__", "") == reference.__name__]
 PUBLIC = {name: getattr(viscorough, name) for name in viscorough.__all__ if name != "reference"}
 PUBLIC |= {f"reference.{name}": getattr(reference, name) for name in FORMULAS if not name.startswith("_")}
+# The documentation names these with their modules.
+PUBLIC |= {
+    item.__name__: item for item in (IdentifiedMedium, Medium, mdr.line_of_map, mdr.line_of_surface, surfaces.cut_disc)
+}
 
 
 @pytest.mark.parametrize("name", PUBLIC)

@@ -43,6 +43,19 @@ def test_top_level_names_do_not_depend_on_earlier_imports():
     assert set(before) == PUBLIC, "names of the package differ from those of the reference"
 
 
+def test_guide_uses_every_public_name():
+    guide = "\n".join(page.read_text() for page in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+    assert not [name for name in viscorough.__all__ if not re.search(rf"\b{name}\b", guide)]
+    assert len(viscorough.__all__) <= 38
+
+
+def test_no_module_hides_an_import_in_a_text():
+    """An import by a computed name could hide a circle from the contracts of imports."""
+    importing = [path for path in LIBRARY.rglob("*.py") if re.search("import_module|__import__", path.read_text())]
+    # Both import on first use what their own package consists of.
+    assert set(importing) == {LIBRARY / "__init__.py", LIBRARY / "cli/__init__.py"}
+
+
 def test_functions_that_messages_name_are_public():
     trees = [ast.parse(path.read_text()) for path in LIBRARY.rglob("*.py")]
     functions = {node.name for tree in trees for node in tree.body if isinstance(node, ast.FunctionDef)}

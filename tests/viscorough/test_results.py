@@ -12,7 +12,8 @@ import viscorough
 from support.contract import refused
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.io.datasets import read_dataset
-from viscorough.saved import Saved
+from viscorough.io.saving import Result
+from viscorough.viscous.identification import IdentifiedMedium
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.stepping import march_steps
 
@@ -177,7 +178,7 @@ def test_energies_beyond_double_precision_are_refused(heights):
     assert viscorough.complete_contact(viscorough.Indenter(np.zeros((2, 2)), 1.0)).energy == 0
 
 
-SAVED = [pytest.param(one, id=type(one).__name__) for one in results() if isinstance(one, Saved)]
+SAVED = [pytest.param(one, id=type(one).__name__) for one in results() if isinstance(one, Result)]
 
 
 def test_texts_of_results_are_short():
@@ -206,12 +207,12 @@ def test_text_of_options_shows_values_other_than_the_default():
 @pytest.mark.parametrize("result", SAVED)
 def test_results_are_saved_drawn_and_converted(result, tmp_path):
     """The dataset has the variables, attributes and coordinates of the NetCDF file."""
-    medium = isinstance(result, viscorough.IdentifiedMedium)
+    medium = isinstance(result, IdentifiedMedium)
     path = tmp_path / ("result.yaml" if medium else "result.nc")
-    result.save(path)
+    viscorough.save(result, path)
     viscorough.plot(result, tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 1000
-    dataset = result.to_dataset()
+    dataset = viscorough.to_dataset(result)
     if medium:
         assert dataset["compliance"].values.tolist() == result.compliance.tolist()
         assert dataset["low"].attrs["units"] == "1/Pa"

@@ -72,7 +72,7 @@ def contact(
     modulus, elastic_constants = options.elasticity(length_unit=indenter.length_unit, **constants)
 
     from viscorough.contact.one_contact import contact_at
-    from viscorough.io.contacts import contacts_to_content
+    from viscorough.io.contact_files import contacts_to_content
     from viscorough.io.load_tables import rows_of_contacts, text_of_row
 
     with messages.progress_bar("viscorough contact", progress) as report:

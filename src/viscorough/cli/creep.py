@@ -81,7 +81,7 @@ def creep(
     unit = loading.length_unit
     measured, value_unit = ("depth", unit) if depth_history is None else ("force", "N")
     times, values = read_columns(record, "a record", {"time": "s", measured: value_unit}, unit)
-    load, about = files.read_load(force, force_history, unit, depth_history)
+    load, about = files.load_from_options(force, force_history, unit, depth_history)
     deviation = None if scatter is None else units.number(scatter, value_unit, unit, "--scatter")
     identified = identify_medium(
         loading, load, times, values, kind=fit, scatter=deviation, fit_offset=fit_offset, fit_drift=fit_drift

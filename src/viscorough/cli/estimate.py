@@ -54,7 +54,7 @@ def estimate(
 
     from viscorough.calibrated_law import ACROSS
     from viscorough.estimates import estimate
-    from viscorough.io.motion import estimate_to_content
+    from viscorough.io.motion_files import estimate_to_content
 
     options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
     if output:

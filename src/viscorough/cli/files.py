@@ -97,13 +97,13 @@ def read_curve(path: Path) -> viscorough.LoadingCurve:
     return curve_from_content(content)
 
 
-def read_load(
+def load_from_options(
     force: Quantity | None, force_history: Path | None, length_unit: str, depth_history: Path | None = None
 ) -> tuple[Any, dict[str, Any]]:
     """Return (force or Load, text for the output) of --force and the two histories, one of which is given."""
     for kind, history in (("force", force_history), ("depth", depth_history)):
         if history is not None:
-            load = viscorough.Load.read(history, kind, length_unit=length_unit)
+            load = viscorough.read_load(history, kind, length_unit)
             return load, {kind: printable_name(history)}
     number = units.number(force, "N", length_unit, "--force")
     return number, {"force": number}

@@ -79,7 +79,7 @@ def kinetics(
 
     import numpy as np
 
-    from viscorough.io.motion import motion_to_content
+    from viscorough.io.motion_files import motion_to_content
 
     files.check_output(output, curve=curve, force_history=force_history, depth_history=depth_history, medium=medium)
     loading = files.read_curve(curve)
@@ -87,7 +87,7 @@ def kinetics(
     grid_error = loading.grid_error_text if depth_history is None else ""  # it applies to the velocity at a given force
     if grid_error:
         about |= {"mean_grid_error": loading.mean_grid_error}
-    load, of_load = files.read_load(force, force_history, loading.length_unit, depth_history)
+    load, of_load = files.load_from_options(force, force_history, loading.length_unit, depth_history)
     motion = viscorough.kinetics(loading, load, half_space, times)
     unknown = np.count_nonzero(~np.isfinite(motion.depth + motion.force + motion.velocity))
     if unknown == motion.time.size:

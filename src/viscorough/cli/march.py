@@ -68,11 +68,11 @@ def march(
 
     import numpy as np
 
-    from viscorough.io.motion import motion_to_content
+    from viscorough.io.motion_files import motion_to_content
 
     indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
-    load, of_load = files.read_load(force or Quantity(1.0), force_history, unit)
+    load, of_load = files.load_from_options(force or Quantity(1.0), force_history, unit)
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     if times:
         load = viscorough.Load(np.append(0.0, times), force=np.full(1 + len(times), load))

@@ -1,6 +1,6 @@
-"""NetCDF files as datasets of xarray, for programs that compute with labelled arrays.
+"""Convert the content of NetCDF files to datasets of xarray, and back.
 
-The only module of the library that imports xarray.
+Only this module and `result_datasets` import xarray, which takes long to import.
 """
 
 import xarray as xr
@@ -9,8 +9,8 @@ from viscorough.io import netcdf
 from viscorough.types import FilePath
 
 
-def dataset_of(content: netcdf.Content) -> xr.Dataset:
-    """Return a Content as a dataset; variables along a dimension of their own name are its coordinates."""
+def content_to_dataset(content: netcdf.Content) -> xr.Dataset:
+    """Convert a Content to a dataset; a variable along a dimension of the same name becomes a coordinate."""
     given = {name: (v.dimensions, v.values, v.attributes) for name, v in content.variables.items()}
     along = {name for name, (dimensions, _, _) in given.items() if dimensions == (name,)}
     data = {name: variable for name, variable in given.items() if name not in along}

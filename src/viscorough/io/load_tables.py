@@ -19,7 +19,7 @@ from viscorough.argument_names import argument
 from viscorough.contact_maps import Contact
 from viscorough.indenter import Indenter
 from viscorough.io.atomic import reading
-from viscorough.io.contacts import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
+from viscorough.io.contact_files import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
 from viscorough.io.curves import ABOUT_GRID, OVER_LEVELS
 from viscorough.io.netcdf import Content, Variable
 from viscorough.loading_curve import LoadingCurve

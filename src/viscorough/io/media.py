@@ -155,7 +155,7 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     >>> record = viscorough.kinetics(curve, 5e-6, 1e6, np.geomspace(0.1, 100, 50))
     >>> identified = viscorough.identify_medium(curve, 5e-6, record.time, record.depth)
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     identified.save(f"{folder}/medium.yaml")
+    ...     viscorough.save(identified, f"{folder}/medium.yaml")
     ...     medium = viscorough.read_medium(f"{folder}/medium.yaml")
     >>> type(medium).__name__
     'CreepTable'

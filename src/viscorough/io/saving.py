@@ -1,14 +1,14 @@
-"""Results as files that the command line reads and writes."""
+"""Write results to the files of the command line, and read loading curves from them."""
 
 from viscorough.contact_maps import Contact
 from viscorough.estimates import Estimate
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf, tables
-from viscorough.io.contacts import contacts_to_content
+from viscorough.io.contact_files import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
 from viscorough.io.media import identified_to_content, save_identified
-from viscorough.io.motion import estimate_to_content, motion_to_content
+from viscorough.io.motion_files import estimate_to_content, motion_to_content
 from viscorough.io.suffixes import RESULTS, check_suffix
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import FilePath
@@ -20,20 +20,22 @@ WRITERS = {".nc": netcdf.write, ".csv": tables.write}
 
 
 def save(result: Result, path: FilePath) -> None:
-    """Write a result as the file that the command line writes and reads; atomically. The same as `result.save(path)`.
+    """Write a result to a file, in the format of the command line.
+
+    The file appears whole or not at all.
 
     Parameters
     ----------
     result : Indenter, LoadingCurve, Contact, Motion, Estimate or IdentifiedMedium
-        Heights are read by `read_heights`, a curve by `load_curve`, a medium by `read_medium`.
+        Result of the library. `read_heights` reads heights, `load_curve` a curve and `read_medium` a medium again.
     path : path
-        File to write or replace: NetCDF (.nc), or a table (.csv) of a curve, motion, estimate or line. A medium is YAML
-        (.yaml); its creep table, in the same folder, has the suffix .csv. Other suffixes are refused.
+        File to write or replace. The suffix .nc selects NetCDF; .csv selects a table and suits a curve, motion,
+        estimate or line; .yaml suits an identified medium, and a creep table is then written next to it (.csv).
 
     Raises
     ------
     ValueError
-        For a path that cannot be written, and a suffix that does not suit the result.
+        For a path that cannot be written, and for a suffix that does not suit the result.
     OSError
         If writing fails.
 
@@ -44,7 +46,7 @@ def save(result: Result, path: FilePath) -> None:
     >>> import os, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     viscorough.save(disc, f"{folder}/disc.nc")
-    ...     viscorough.indent(disc).save(f"{folder}/curve.csv")
+    ...     viscorough.save(viscorough.indent(disc), f"{folder}/curve.csv")
     ...     sorted(os.listdir(folder))
     ['curve.csv', 'disc.nc']
     """
@@ -55,12 +57,12 @@ def save(result: Result, path: FilePath) -> None:
 
 
 def load_curve(path: FilePath) -> LoadingCurve:
-    """Read the loading curve in a file of `save` or of the command viscorough indent.
+    """Read a loading curve from a file that `save` or the command viscorough indent wrote.
 
     Parameters
     ----------
     path : path
-        A NetCDF file.
+        NetCDF file (.nc).
 
     Returns
     -------
@@ -69,7 +71,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
     Raises
     ------
     ValueError
-        In one line, if the file is missing or damaged or holds no loading curve.
+        For a file that is missing or damaged, or that holds no loading curve. The message has one line.
 
     Examples
     --------
@@ -78,7 +80,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
     >>> curve = viscorough.indent(disc)
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     curve.save(f"{folder}/curve.nc")
+    ...     viscorough.save(curve, f"{folder}/curve.nc")
     ...     loaded = viscorough.load_curve(f"{folder}/curve.nc")
     >>> bool((loaded.force == curve.force).all())
     True
@@ -87,7 +89,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
 
 
 def to_content(result: Result) -> netcdf.Content:
-    """A result as the Content of its file."""
+    """Convert a result to the Content of its file. Raises TypeError for other objects."""
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
     if isinstance(result, Motion):
@@ -107,5 +109,5 @@ def to_content(result: Result) -> netcdf.Content:
 
 
 def write_content(content: netcdf.Content, path: FilePath) -> None:
-    """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as `save`."""
+    """Write a Content as NetCDF, or as a table if the path ends in .csv. Raises the errors of `save`."""
     WRITERS[check_suffix(path, RESULTS)](content, path)

@@ -22,7 +22,6 @@ from viscorough.argument_names import argument
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.errors import AccuracyWarning
 from viscorough.loading_curve import LoadingCurve, check_curve
-from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span, with_unit
 from viscorough.types import Array
 from viscorough.viscous.creep_fit import fit_growing_depth
@@ -45,7 +44,7 @@ _ASSUMED_OFFSET = 1e-3  # of the largest depth, where the scatter of the depth i
 
 
 @dataclass(frozen=True)
-class IdentifiedMedium(ReadOnlyArrays, Saved):
+class IdentifiedMedium(ReadOnlyArrays):
     """A medium identified from a record, as `identify_medium` returns it.
 
     Attributes

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, integral, read_only, real_numbers
 from viscorough.summaries import span
-from viscorough.types import Array, FilePath, Integers
+from viscorough.types import Array, Integers
 
 # Times that differ by less than this share of them are the same to rounding: within a shorter interval the slope of a
 # load would be lost in rounding.
@@ -80,28 +79,6 @@ class Load(ReadOnlyArrays):
             raise ValueError(f"Load: {name}: sample {where} is {values[where]}; allowed: {text}")
         object.__setattr__(self, "time", read_only(time))
         object.__setattr__(self, name, read_only(values))
-
-    @classmethod
-    def read(cls, path: FilePath, kind: str = "force", length_unit: str = units.UNKNOWN) -> Load:
-        """Read a load from a .csv or .npy file of two columns, times and forces or depths.
-
-        Parameters
-        ----------
-        path : path
-            The file.
-        kind : {"force", "depth"}, optional
-            Quantity in the second column.
-        length_unit : str, optional
-            Of the indenter. If it is known, numbers are converted to s, and to N or this unit, from the units that a
-            heading states.
-
-        Raises
-        ------
-        ValueError
-            In one line, with the file and its fault.
-        """
-        # By name: files are on a floor above.
-        return import_module("viscorough.io.motion").read_load(path, kind, length_unit)
 
     @property
     def by_depth(self) -> bool:

@@ -50,7 +50,8 @@ class Medium(ABC):
     Examples
     --------
     >>> import viscorough
-    >>> isinstance(viscorough.Maxwell(2.0, 5.0), viscorough.Medium)
+    >>> from viscorough.viscous.medium import Medium
+    >>> isinstance(viscorough.Maxwell(2.0, 5.0), Medium)
     True
     >>> viscorough.Springpot(1.0, 0.5).relaxation is None  # no springs and dashpots
     True

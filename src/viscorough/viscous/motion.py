@@ -6,12 +6,11 @@ import numpy as np
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays
-from viscorough.saved import Saved
 from viscorough.summaries import si_unit, span, with_unit
 
 
 @dataclass(frozen=True)
-class Motion(ReadOnlyArrays, Saved):
+class Motion(ReadOnlyArrays):
     """Motion of an indenter under a load; read-only arrays of shape (times,).
 
     Attributes

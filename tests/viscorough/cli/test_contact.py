@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+import viscorough
 from support.command_line import run, values
 from support.tables import read_table
 from viscorough import Indenter, contact_at, self_affine_disc
@@ -16,7 +17,7 @@ def here(here):
     """Make a folder with heights.npy, a rough disc, and um.nc, the same disc in micrometres."""
     heights = self_affine_disc(0.7, 25, rms=0.3, diameter=25, seed=2).heights
     np.save("heights.npy", heights)
-    Indenter(heights, 1.0, length_unit="um").save("um.nc")
+    viscorough.save(Indenter(heights, 1.0, length_unit="um"), "um.nc")
     return here
 
 
@@ -35,7 +36,7 @@ def test_file_has_the_results_of_python(here, tolerance):
     """tests/viscorough/contact/test_one_contact.py tests that Python solves the contact problem."""
     written, heights = contact(f"--force 30 --tolerance {tolerance}"), np.load("heights.npy")
     wanted = contact_at(Indenter(heights, 1.0), force=30, tolerance=tolerance)
-    wanted.save("saved.nc")
+    viscorough.save(wanted, "saved.nc")
     saved = values("saved.nc")
     np.testing.assert_array_equal(written["heights"], heights)
     assert set(written) - set(saved) == {"heights"}

@@ -21,7 +21,7 @@ def here(here):
     """A curve in micrometres, and a record in ms and nm of a step of force on a rubber."""
     curve = curve_of_body(viscorough.reference.sphere(100.0), np.geomspace(1e-6, 3, 200))
     object.__setattr__(curve, "length_unit", "um")
-    curve.save("curve.nc")
+    viscorough.save(curve, "curve.nc")
     motion = viscorough.kinetics(curve, FORCE, MEDIUM, TIMES)
     np.savetxt("record.csv", np.c_[1e3 * TIMES, 1e3 * motion.depth], "%.17g", ",", header="t_ms,u [nm]", comments="")
     return here

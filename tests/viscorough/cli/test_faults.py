@@ -18,6 +18,7 @@ import click
 import numpy as np
 import pytest
 
+import viscorough
 from support.command_line import VISCOROUGH, run, sphere_heights
 from support.curves import random_curve
 from support.faults import DAMAGES, contents, no_privileges
@@ -33,7 +34,7 @@ def here(here):
     """Make a folder with heights.npy, curve.nc and an older out.nc, which must not be changed."""
     np.save("heights.npy", sphere_heights(9))
     for name in ("curve.nc", "out.nc"):
-        random_curve(length_unit="1").save(name)
+        viscorough.save(random_curve(length_unit="1"), name)
     return here
 
 

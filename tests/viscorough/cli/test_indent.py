@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import viscorough
 from support.command_line import run, values
 from support.tables import read_table
 from viscorough import indent, load_curve, read_heights, self_affine_disc
@@ -12,7 +13,7 @@ from viscorough.io import netcdf
 @pytest.fixture
 def disc(here):
     """Make a disc in the file disc.nc."""
-    self_affine_disc(0.8, 65, rms=0.02, length_unit="um", seed=1).save("disc.nc")
+    viscorough.save(self_affine_disc(0.8, 65, rms=0.02, length_unit="um", seed=1), "disc.nc")
     return read_heights("disc.nc")
 
 
@@ -47,7 +48,7 @@ def test_requested_error_states_the_chosen_points(disc, capsys, error):
 
 def test_table_has_grid_errors_and_areas_of_the_chosen_points(disc):
     """With every n-th point, the area of an element is n² times as large."""
-    self_affine_disc(0.9, 129, rms=0.02, length_unit="um", seed=2).save("other.nc")
+    viscorough.save(self_affine_disc(0.9, 129, rms=0.02, length_unit="um", seed=2), "other.nc")
     assert run("indent disc.nc other.nc --error 20% -o table.csv") == 0
     table, _ = read_table("table.csv")
     for name in ("disc.nc", "other.nc"):

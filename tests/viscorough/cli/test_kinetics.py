@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
+import viscorough
 from support.command_line import run, sphere_heights, values
 from viscorough import Indenter, Load, indent, kinetics
 from viscorough.io import netcdf
@@ -41,8 +42,8 @@ def curve():
 @pytest.fixture
 def here(curve, here):
     """Make a folder with a curve without a unit, the same in micrometres, and media and force histories."""
-    curve.save("curve.nc")
-    dataclasses.replace(curve, length_unit="um").save("um.nc")
+    viscorough.save(curve, "curve.nc")
+    viscorough.save(dataclasses.replace(curve, length_unit="um"), "um.nc")
     (here / "table.csv").write_text("t,J\n0,0.2\n1,0.5\n10,0.9\n")
     (here / "force.csv").write_text("t,F\n0,0\n1,0.2\n1,0.3\n9,0.3\n")
     (here / "table.yaml").write_text(MEDIA["creep_table"][0])
@@ -152,7 +153,7 @@ def test_times_may_be_given_by_their_number(here):
 def test_missing_values_give_a_warning(here, capsys, complaint):
     """A ramp passes through depths before the first level, where the curve is not determined."""
     late = indent(Indenter(sphere_heights(17), 1.0), depths=[0.15, 0.6])
-    late.save("late.nc")
+    viscorough.save(late, "late.nc")
     (here / "force.csv").write_text("0,0\n0.1,0.1\n1,1\n2,1\n")
     load = f"--force-history force.csv --viscosity {1.6 / late.force[-1]}"
     assert run(f"kinetics late.nc {load} -o kin.nc") == 0

@@ -8,6 +8,7 @@ import os
 import numpy as np
 import pytest
 
+import viscorough
 from support.command_line import sphere_heights
 from support.curves import random_curve
 from viscorough import Indenter
@@ -163,9 +164,9 @@ def test_mistakes_are_one_line(here, complaint, line, what):
     np.save("heights.npy", sphere_heights(9))
     np.save("line.npy", np.arange(3.0))
     np.save("text.npy", np.array(["a"]))
-    random_curve(length_unit="1").save("curve.nc")
+    viscorough.save(random_curve(length_unit="1"), "curve.nc")
     for name, unit in (("map.nc", "1"), ("um.nc", "um")):
-        Indenter(sphere_heights(9), 1.0, length_unit=unit).save(name)
+        viscorough.save(Indenter(sphere_heights(9), 1.0, length_unit=unit), name)
     write(Content({"a": Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}, {}), "other.nc")
     (here / "medium.yaml").write_text("{kind: newtonian, viscosity: 30}")
     (here / "table.yaml").write_text("{kind: creep_table, file: table.csv}")

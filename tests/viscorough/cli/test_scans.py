@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+import viscorough
 from support import dying_process
 from support.command_line import run, sphere_heights
 from support.tables import read_table
@@ -23,8 +24,8 @@ def surface(seed):
 def here(here):
     """Make a folder with scans/a.nc in um, b.nc in nm, and c.nc and d.csv, which are no maps."""
     (here / "scans").mkdir()
-    surface(1).save("scans/a.nc")
-    surface(2).to("nm").save("scans/b.nc")
+    viscorough.save(surface(1), "scans/a.nc")
+    viscorough.save(surface(2).to("nm"), "scans/b.nc")
     (here / "scans/c.nc").write_text("no map")
     (here / "scans/d.csv").write_text("1,2\n")
     return here
@@ -78,14 +79,14 @@ def test_only_changed_files_are_evaluated_again(here, capsys):
     for row in (0, 2):
         mark(table, row=row)
     assert table.read_text().count(",777,") == 2
-    surface(3).save("scans/b.nc")
+    viscorough.save(surface(3), "scans/b.nc")
     capsys.readouterr()
     assert contact("b.nc a.nc") == 0
     assert capsys.readouterr().out == "table.csv: 4 rows of 2 files, 1 of them unchanged\n"
     patches = read_table("table.csv")[0].set_index("file")["patches"]
     assert (patches["scans/a.nc"] == 777).tolist() == [True, False]
     assert not (patches["scans/b.nc"] == 777).any()
-    surface(2).to("nm").save("scans/b.nc")
+    viscorough.save(surface(2).to("nm"), "scans/b.nc")
     assert contact("a.nc b.nc", "--tolerance 1e-4") == 0
     assert ",777," not in table.read_text()
 

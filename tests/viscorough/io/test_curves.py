@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import viscorough
 from support.contract import refused
 from support.curves import assert_same_curve, random_curve
 from viscorough import Indenter, indent, load_curve, reduce, self_affine_disc, self_affine_line
@@ -67,9 +68,9 @@ ABOUT_GRID = {
 )
 def test_curve_is_read_exactly_as_written(tmp_path, name, levels, about):
     curve = random_curve(levels, **about)
-    curve.save(str(tmp_path / name))
+    viscorough.save(curve, str(tmp_path / name))
     assert_same_curve(load_curve(tmp_path / name), curve)
-    Indenter(np.eye(3), 1.0).save(tmp_path / "map.nc")
+    viscorough.save(Indenter(np.eye(3), 1.0), tmp_path / "map.nc")
     with refused(r"map\.nc: .*a loading curve of viscorough indent is needed"):
         load_curve(tmp_path / "map.nc")
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import viscorough
 from support.contract import refused
 from support.curves import random_curve
 from viscorough import load_curve, read_heights
@@ -124,7 +125,7 @@ def test_file_that_is_written_again_gets_a_new_digest(path):
 def test_damaged_number_in_a_curve_is_refused(tmp_path):
     """The file has a valid structure, and its curve is possible."""
     curve = random_curve(30)
-    curve.save(tmp_path / "curve.nc")
+    viscorough.save(curve, tmp_path / "curve.nc")
     whole = (tmp_path / "curve.nc").read_bytes()
     place = whole.index(curve.depth.tobytes())
     (tmp_path / "curve.nc").write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])

@@ -106,7 +106,7 @@ def test_counts_are_scaled(tmp_path):
     for scale in (0, "-1 nm", "1 s"):
         with refused(r"counts\.npy: "):
             viscorough.read_heights(tmp_path / "counts.npy", 20.0, scale=scale)
-    indenter.save(tmp_path / "nm.nc")
+    viscorough.save(indenter, tmp_path / "nm.nc")
     with refused("scale 0.053 nm: heights are in nm in the file"):
         viscorough.read_heights(tmp_path / "nm.nc", scale="0.053 nm")
     for odd in (["a", "b"], [True, False]):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import viscorough
 from support.contract import refused
 from viscorough import Indenter
 from viscorough.io.heights import read_heights, read_line
@@ -107,7 +108,7 @@ def test_numbers_of_points_state_no_spacing(tmp_path):
 
 def test_saved_line_is_read_again(tmp_path):
     line = Indenter(Z, 0.5, length_unit="um")
-    line.save(tmp_path / "line.csv")
+    viscorough.save(line, tmp_path / "line.csv")
     again = read_line(tmp_path / "line.csv")
     np.testing.assert_array_equal(again.heights, Z)
     assert (again.spacing, again.length_unit) == (0.5, "um")

@@ -23,19 +23,19 @@ RESULTS = {
 @pytest.mark.parametrize("kind", RESULTS)
 def test_other_suffixes_are_refused_and_no_file_is_left(tmp_path, kind, name):
     with refused(f"{name}: unknown kind of file"):
-        RESULTS[kind].save(tmp_path / name)
+        viscorough.save(RESULTS[kind], tmp_path / name)
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("name", ["result.nc", "result.NC"])
 def test_suffix_of_netcdf_may_be_in_any_case(tmp_path, name):
-    CURVE.save(tmp_path / name)
+    viscorough.save(CURVE, tmp_path / name)
     assert netcdf.read(tmp_path / name).variables["depth"].values.tolist() == CURVE.depth.tolist()
 
 
 @pytest.mark.parametrize("name", ["result.csv", "result.CSV"])
 def test_suffix_of_tables_may_be_in_any_case(tmp_path, name):
-    MOTION.save(tmp_path / name)
+    viscorough.save(MOTION, tmp_path / name)
     rows = [line for line in (tmp_path / name).read_text().splitlines() if not line.startswith("#")]
     columns = np.genfromtxt(rows, delimiter=",", names=True)
     np.testing.assert_array_equal(columns["depth"], MOTION.depth)

@@ -5,9 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
+import viscorough
 from viscorough import contact_at, self_affine_disc
 from viscorough.io import netcdf
-from viscorough.io.contacts import contacts_to_content
+from viscorough.io.contact_files import contacts_to_content
 
 DISC = self_affine_disc(0.7, 17, rms=0.01, seed=1)
 CONTACT = contact_at(DISC, depth=0.005)
@@ -17,7 +18,7 @@ CONTACT = contact_at(DISC, depth=0.005)
 def test_maps_have_the_precision_of_the_contact(tmp_path, tolerance, precision):
     """Maps are in single precision for tolerances of 1e-4 or more; single numbers are always in double precision."""
     contact = dataclasses.replace(CONTACT, tolerance=tolerance)
-    contact.save(tmp_path / "contact.nc")
+    viscorough.save(contact, tmp_path / "contact.nc")
     variables = netcdf.read(tmp_path / "contact.nc").variables
     for name in ("pressure", "gap"):
         np.testing.assert_array_equal(variables[name].values, getattr(contact, name).astype(precision), strict=True)

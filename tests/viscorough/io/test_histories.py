@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.contract import refused
-from viscorough import Load
+from viscorough import read_load
 from viscorough.io.media import medium_from_mapping
 
 
@@ -14,7 +14,7 @@ def history(tmp_path):
 
     def read(text, length_unit="1"):
         (tmp_path / "force.csv").write_text(text, encoding="utf-8")
-        load = Load.read(tmp_path / "force.csv", length_unit=length_unit)
+        load = read_load(tmp_path / "force.csv", length_unit=length_unit)
         return load.time, load.values
 
     return read

@@ -1,6 +1,6 @@
-"""Files written atomically: under a temporary name, which becomes the final one when the content is complete.
+"""Write files atomically, and check files before they are read or written.
 
-Also what files, read or written, must be.
+A file is written under a temporary name. It gets its final name when its content is complete.
 """
 
 import contextlib
@@ -19,17 +19,18 @@ import psutil
 
 from viscorough.types import FilePath
 
-_LONGEST_REASON = 250  # letters of an error, which may quote what a file holds
+# Characters of an error message that are quoted: the message may repeat the content of a file.
+_LONGEST_REASON = 250
 
 
 def reason(error: BaseException) -> str:
-    """The message of an error, on one line."""
+    """Return the message of an error on one line."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
 
 
 @contextlib.contextmanager
 def path_named(path: FilePath) -> Iterator[None]:
-    """Context in which the message of a ValueError gets the path in front, unless it starts with it."""
+    """Put the path in front of the message of a ValueError raised in this context, unless it starts with it."""
     try:
         yield
     except ValueError as error:
@@ -39,10 +40,12 @@ def path_named(path: FilePath) -> Iterator[None]:
 
 @contextlib.contextmanager
 def reading(path: FilePath, needed: str) -> Iterator[None]:
-    """Context in which a file is read: any fault of it becomes a one-line ValueError, which says what is needed.
+    """Turn every error of reading a file in this context into a one-line ValueError.
 
-    Damage raises errors of many kinds in the libraries that read files. Opening a pipe would wait for a writer, and a
-    device may have no end. A lack of memory is no fault of the file.
+    Libraries raise errors of many kinds for a damaged file. Pipes and devices are refused: opening a pipe would wait
+    for a writer, and a device may have no end. MemoryError passes, since it is no fault of the file.
+
+    needed : sentence about the content that is needed, for the message
     """
     try:
         mode = os.stat(path).st_mode
@@ -57,10 +60,10 @@ def reading(path: FilePath, needed: str) -> Iterator[None]:
 
 
 def check_output(path: FilePath) -> Path:
-    """The path with links resolved, so that a link's target is replaced and not the link.
+    """Return the path with symbolic links resolved, so that the target of a link is replaced and not the link.
 
-    Raises ValueError unless the folder exists and is writable, the path does not exist yet or is a regular file, and
-    its name is text (NetCDF libraries take no other).
+    Raises ValueError if the folder is missing or not writable, if the path exists but is not a regular file, and if
+    its name is not text, which the NetCDF library needs.
     """
     target, folder = Path(os.path.realpath(path)), Path(path).parent
     try:
@@ -78,18 +81,18 @@ def check_output(path: FilePath) -> Path:
 
 @contextlib.contextmanager
 def atomic_write(path: FilePath) -> Iterator[Path]:
-    """Context that yields a temporary path beside `path`; the file written there replaces `path` on success.
+    """Yield a temporary path in the folder of `path`; the file written there replaces `path` on success.
 
-    A file that is replaced keeps its permissions. On an error the temporary file is removed and `path` is not changed.
-    Temporary files that killed processes left for the same path are removed, too, if this process can tell that they
-    are not alive. Raises what check_output raises, and OSError if writing fails.
+    A file that is replaced keeps its permissions. After an error the temporary file is removed, and `path` is
+    unchanged. Temporary files of the same path are removed, too, if the processes that wrote them have ended. Raises
+    the errors of check_output, and OSError if writing fails.
     """
     target = check_output(path)
     stem = f".{os.fsencode(target.name)[:60].decode(errors='ignore')}.{_place()}"
     temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
     for leftover in target.parent.glob(f"{glob.escape(stem)}.*.part"):
         process = leftover.name.removeprefix(stem).split(".")[1]
-        with contextlib.suppress(OSError, OverflowError):  # somebody else removed it; no number of a process
+        with contextlib.suppress(OSError, OverflowError):  # another process removed it; not a process number
             if process.isdecimal() and not psutil.pid_exists(int(process)):
                 leftover.unlink()
     try:
@@ -99,7 +102,7 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
         if target.exists():
             temporary.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(temporary, target)
-    except (OSError, RuntimeError) as error:  # the NetCDF library raises RuntimeError where the disk is full
+    except (OSError, RuntimeError) as error:  # the NetCDF library raises RuntimeError for a full disk
         cause = reason(_error_of_plain_writing(temporary) or error)
         raise OSError(f"{path}: not written ({cause}); room on a writable disk is needed") from error
     finally:
@@ -107,7 +110,7 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
 
 
 def _error_of_plain_writing(path: FilePath) -> OSError | None:
-    """The error where a file cannot be continued; the NetCDF library calls a full disk a denied permission."""
+    """Return the error of appending to a file, or None; the NetCDF library calls a full disk a missing permission."""
     try:
         with open(path, "ab") as file:
             file.write(bytes(2**20))
@@ -120,10 +123,10 @@ def _error_of_plain_writing(path: FilePath) -> OSError | None:
 
 @functools.cache
 def _place() -> str:
-    """A name for where the numbers of processes are those that this process sees: a running system or a container.
+    """Return a name of the running system or container, within which process numbers are unique.
 
-    Systems that share a disk, or containers, may have one host name, so the name holds those of the system's start and
-    of the namespace of process numbers where the system (Linux) tells them.
+    Containers, and systems that share a disk, may have the same host name. On Linux the name therefore includes the
+    identifiers of the start of the system and of the namespace of process numbers.
     """
     identity = [platform.node()]
     with contextlib.suppress(OSError):

@@ -1,4 +1,4 @@
-"""Two columns of numbers read from a file: force histories and tables of creep."""
+"""Read two columns of numbers, such as force histories and creep tables, from files."""
 
 import contextlib
 import re
@@ -13,37 +13,37 @@ from viscorough.io.atomic import path_named, reading
 from viscorough.io.heights import npy_array
 from viscorough.types import Array, FilePath
 
-# A common unit as the last word of a heading, as in t_ms.
+# Common unit as the last word of a heading, such as t_ms.
 _LAST_WORD = re.compile(
     r"(?:.*[\s_:;])?((?:[kMmunpµμ]|kilo|milli|micro|nano)?(?:[sN]|sec|seconds?|newtons?)"
     r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1|[munµμ]m)"
 )
 _LOAD, _TIME = (re.compile(rf"(?:{names})(?![^\W\d_])", re.IGNORECASE) for names in ("force|depth|f|u", "time|t"))
-# A number, nan, infinity, or what starts with a digit: "1N" is a mistake, not a heading.
+# Number, nan, infinity, or text that starts with a digit: "1N" is a mistake, not a heading.
 _LIKE_A_NUMBER = re.compile(r"\s*[-+]?(?:\.?\d|(?:nan|inf|infinity)\s*$)", re.IGNORECASE)
 _LETTER = re.compile(r"[^\W\d_]")
 _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
-# What spreadsheets write for a number that is missing, such as #N/A, looks like a comment.
+# Spreadsheets mark missing numbers by texts such as #N/A, which look like comments.
 _MISSING = re.compile(r"#[A-Z][^\s,]*,\s*[-+.\d]")
 
 
-def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit: str) -> tuple[Array, Array]:
-    """The first two columns in a .csv or .npy file, arrays of shape (rows,) with at least two rows.
+def read_columns(path: FilePath, content: str, columns: dict[str, str], length_unit: str) -> tuple[Array, Array]:
+    """Read the first two columns of a .csv or .npy file as arrays of shape (rows,), with at least two rows.
 
-    The first row of a .csv file may be a heading, in which no field is or starts like a number, nan or infinity; only
-    under a heading that names them all may there be more than two columns. Lines
-    that start with "#" are comments; two names above the first row are a heading there, too. Where a heading states
-    units, as in t [ms], t (ms), t/ms, t in ms or t_ms, numbers are converted.
+    The first row of a .csv file is a heading if none of its fields starts like a number, nan or infinity. Lines that
+    start with "#" are comments, but two names in the last comment above the first row are a heading, too. The file may
+    have more than two columns if the heading names all of them. If a heading states units, as in t [ms], t (ms), t/ms,
+    t in ms or t_ms, the numbers are converted.
 
-    what : what is read, for messages
-    columns : {what a column holds: unit to which it is converted}
-    length_unit : "1" if it is not known. Numbers are then in consistent units of the user's choice, and headings that
-        state units are refused
+    content : content of the file in words, for messages
+    columns : {quantity of the column: unit of the returned numbers}
+    length_unit : unit of length of the indenter; "1" if it is not known. Numbers are then in consistent units of the
+        user's choice, and headings with units are refused
 
-    Raises a one-line ValueError that names the file and what is wrong.
+    Raises a one-line ValueError that names the file and its fault.
     """
     if Path(path).suffix not in (".npy", ".csv"):
-        raise ValueError(f"{path}: unknown kind of file; {what} is read from .csv and .npy")
+        raise ValueError(f"{path}: unknown kind of file; {content} is read from .csv and .npy")
     names = " and ".join(columns)
     if Path(path).suffix == ".npy":
         table, factors = npy_array(path), [1.0, 1.0]
@@ -55,8 +55,8 @@ def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit
     return table[:, 0].astype(float) * factors[0], table[:, 1].astype(float) * factors[1]
 
 
-def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -> tuple[Array, list[float]]:
-    """The numbers in a .csv file, and the factors that convert its columns to the units wanted."""
+def _rows_and_factors(path: FilePath, result_units: Iterable[str], length_unit: str) -> tuple[Array, list[float]]:
+    """Return the numbers in a .csv file, and the factors that convert its columns to the units of the result."""
     lines = [line.strip() for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
     if missing := next(filter(_MISSING.match, lines), None):
         raise ValueError(f"{missing[:40]!r} is no row of two numbers")
@@ -68,25 +68,25 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
     else:
         heading = above[-1] if above and _TWO_NAMES.fullmatch(above[-1]) else None
     if heading is not None and heading.count(",") > 1 and {row.count(",") for row in rows} == {heading.count(",")}:
-        # Only the first two are read: unknown ends of intervals are empty.
+        # Only the first two columns are read: fields of unknown interval ends are empty.
         heading, *rows = (",".join(row.split(",")[:2]) for row in [heading, *rows])
     table = np.loadtxt(rows, delimiter=",", ndmin=2) if rows else np.empty((0, 0))
     for comment in comments:
         stated = None if comment is heading else _unit_in(comment.strip("# "))
-        if stated is not None and any(_is_another(stated, unit) for unit in wanted):
+        if stated is not None and any(_is_different_unit(stated, unit) for unit in result_units):
             raise ValueError(f"the comment {comment[:40]!r} states a unit; a heading of both columns is needed for it")
-    return table, _factors(heading, wanted, length_unit) if heading else [1.0, 1.0]
+    return table, _factors(heading, result_units, length_unit) if heading else [1.0, 1.0]
 
 
-def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[float]:
-    """Factors that convert the columns from the units in their heading to those wanted."""
+def _factors(heading: str, result_units: Iterable[str], length_unit: str) -> list[float]:
+    """Return the factors that convert the columns from the units in their heading to the units of the result."""
     fields = [field.strip('# \t"') for field in heading.split(",")]
     if len(fields) != 2 or fields[0] == fields[1] or not all(map(_LETTER.search, fields)):
         raise ValueError(f"{heading[:40]!r} is neither two numbers nor the names of two columns")
     if _LOAD.match(fields[0]) or _TIME.match(fields[1]):
         raise ValueError(f"the heading {heading[:40]!r}: times are needed in the first column")
     factors = [1.0, 1.0]
-    for i, (field, unit) in enumerate(zip(fields, wanted, strict=True)):
+    for i, (field, unit) in enumerate(zip(fields, result_units, strict=True)):
         stated = _unit_in(field)
         if stated is not None and length_unit == units.UNKNOWN:
             text = "states a unit, but the unit of length is not known; "
@@ -99,15 +99,15 @@ def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[floa
 
 
 def _unit_in(heading: str) -> str | None:
-    """The unit that a heading states; None for none."""
+    """Return the unit that a heading states, or None."""
     if match := re.search(r"[\[(]([^\])]*)[\])]|/\s*(.+)$|\bin\s+(\S+)$", heading):
         return next(text for text in match.groups() if text is not None).strip()
     last = _LAST_WORD.fullmatch(heading)
     return last[1] if last else None
 
 
-def _is_another(unit: str, wanted: str) -> bool:
-    """Whether a text is a unit that measures the same as that wanted, but another one."""
+def _is_different_unit(text: str, unit: str) -> bool:
+    """Return True if a text is a different unit of the same dimension as `unit`."""
     with contextlib.suppress(ValueError):
-        return units.factor(unit, wanted) != 1
+        return units.factor(text, unit) != 1
     return False

@@ -1,4 +1,4 @@
-"""Contacts in NetCDF files: maps of pressure, gap and contact with the coordinates of their points, and numbers."""
+"""Convert contacts to the content of NetCDF files: maps with the coordinates of their points, and numbers."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -31,26 +31,29 @@ NUMBERS = {
     "largest_pressure": ("largest pressure over shear modulus", 0),
     "residual": OVER_LEVELS["residual"],
 }
-# Numbers, and a map, of contacts whose shear modulus is given.
+# Numbers of contacts with a given shear modulus.
 NUMBERS_WITH_MODULUS = {
     **WITH_MODULUS,
     "mean_normal_pressure": ("mean normal pressure p", "Pa"),
     "largest_normal_pressure": ("largest normal pressure p", "Pa"),
 }
+# Map of contacts with a given shear modulus.
 _MAP_WITH_MODULUS = {"normal_pressure": ("normal pressure p", "Pa")}
 PATCHES = {"patches": ("number of patches of contact", 0), "patch_area": ("area of a patch", 2)}
-# Tolerance from which on maps are stored in single precision, as the solver has them, and the range of their numbers.
-_SINGLE_FROM, _SINGLE_RANGE = 1e-4, (1e-25, 1e30)
+# Store maps in single precision from this tolerance on: the solver then computes in single precision, too.
+_SINGLE_FROM = 1e-4
+# Smallest and largest numbers that single precision may store, far from its limits of 1e-38 and 3e38.
+_SINGLE_RANGE = (1e-25, 1e30)
 
 
 def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = None) -> Content:
-    """Contacts of one indenter, and its heights if they are given, as the Content of a file.
+    """Convert contacts of one indenter to a Content.
 
-    contacts : Contacts; if there are several, maps and numbers have the dimension `level` before their own
+    The variables are MAPS and heights over (y, x), NUMBERS, `patches` (number of contact patches), and `patch_area`
+    over `patch` (their areas in decreasing order, nan beyond the last patch). Coordinates count from the centre of the
+    map. If there are several contacts, `level` is the first dimension of maps and numbers.
 
-    The variables are MAPS and heights over (y, x), NUMBERS, `patches`, the number of patches of contact, and
-    `patch_area` over `patch`, their areas in decreasing order, nan beyond the last one. Coordinates count from the
-    centre of the map.
+    heights : heights of the indenter, written as well if given, shape (rows, columns) [length]
     """
     first = contacts[0]
     unit, level = first.length_unit, ("level",) if len(contacts) > 1 else ()
@@ -74,14 +77,14 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
         add((), NUMBERS_WITH_MODULUS, **numbers)
         add(("y", "x"), _MAP_WITH_MODULUS, normal_pressure=[modulus * each for each in maps["pressure"]])
     areas = [contact.patches().areas for contact in contacts]
-    add((), PATCHES, patches=[len(of_contact) for of_contact in areas])
+    add((), PATCHES, patches=[len(patch_areas) for patch_areas in areas])
     add(("patch",), PATCHES, patch_area=list(padded(areas)))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
 
 
 def _kind_of_maps(contacts: Sequence[Contact]) -> DTypeLike:
-    """Type of the numbers in the maps of pressure and gap."""
+    """Return the floating-point type of the stored maps of pressure and gap."""
     least, largest = _SINGLE_RANGE
     small = min(min(contact.depth, contact.mean_pressure) for contact in contacts)
     large = max(max(contact.largest_pressure, np.nanmax(contact.gap)) for contact in contacts)

@@ -1,4 +1,4 @@
-"""Loading curves in NetCDF files, one or a stack of them: variables over levels, and how the curve was obtained."""
+"""Convert loading curves to the content of NetCDF files and back, for one curve or a stack of curves."""
 
 import contextlib
 import dataclasses
@@ -18,11 +18,12 @@ COMMENT = (
     "force is F/G, stiffness is d(F/G)/du. With viscosity for G and impulse for F it is the viscous solution."
 )
 _NEEDED = "a loading curve of viscorough indent is needed"
-_ROUNDING = 1e-6  # relative; of numbers that were stored in single precision
-# Relative decrease of contact counts and stiffnesses that is allowed for, over the tolerance; where levels are close to
-# each other, they do decrease by up to the tolerance.
+# Relative rounding error of numbers that were stored in single precision.
+_ROUNDING = 1e-6
+# Allow contact counts and stiffnesses to decrease by this multiple of the tolerance: between close levels they decrease
+# by up to the tolerance itself.
 _LOST = 10
-# Variables over levels: long_name, and the power of the length unit that is their unit.
+# Variables over levels: {name: (long_name, power of the unit of length)}.
 OVER_LEVELS: dict[str, tuple[str, int]] = {
     "depth": ("depth of indentation u", 1),
     "force": ("normal force over shear modulus F/G", 2),
@@ -31,28 +32,31 @@ OVER_LEVELS: dict[str, tuple[str, int]] = {
     "contact_fraction": ("share of the indenter's elements in contact", 0),
     "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
 }
-# The same of curves whose grid error was estimated.
+# Further variables of curves with an estimated grid error, in the same form.
 ABOUT_GRID: dict[str, tuple[str, int]] = {
     "grid_error": ("estimated relative error of the velocity due to the spacing of the map", 0),
     "force_grid_error": ("estimated relative error of the force at a depth due to the spacing of the map", 0),
     "area_change": ("relative change of the contact area when the spacing of the map is halved", 0),
 }
-# Quantities of curves and contacts whose shear modulus is given.
+# Quantities of curves and contacts with a given shear modulus: {name: (long_name, unit)}.
 WITH_MODULUS = {"normal_force": ("normal force F", "N"), "normal_stiffness": ("normal stiffness k = dF/du", "N m-1")}
-STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]  # fields of LoadingCurve, not derived
+# Variables that are fields of LoadingCurve; the contact fraction is derived from them.
+STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]
+# Global attributes of every curve: {name: (type, long_name)}.
 PER_CURVE = {
     "elements": (int, "number of elements of the indenter"),
     "operator_applications": (int, "applications of the half-space operator on the grid"),
     "tolerance": (float, "relative accuracy asked for"),
     "method": (str, "how the curve was obtained"),
 }
-# Attributes of single curves, stored where they differ from the defaults of LoadingCurve, and their least values.
+# Attributes of single curves, stored if they differ from the defaults of LoadingCurve: {name: type}.
 OPTIONAL: dict[str, type] = {"mean_grid_error": float, "mean_area_change": float, "sampling": int, "choice": str}
+# Least allowed values of these attributes; 0 for all others.
 OPTIONAL_LEAST = {"mean_area_change": -1.0, "sampling": 1}
 
 
 def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) -> Content:
-    """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE.
+    """Convert a LoadingCurve to a Content: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE.
 
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known; adds WITH_MODULUS
     """
@@ -70,10 +74,10 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
 
 
 def curve_from_content(content: Content) -> LoadingCurve:
-    """The LoadingCurve in a Content made by curve_to_content.
+    """Return the LoadingCurve in a Content that curve_to_content made.
 
-    Raises ValueError, which names the file that was read, if the Content holds no curve, for units that do not follow
-    from the unit of the depth, and for numbers that no curve can have, within its tolerance.
+    Raises ValueError, which names the file, if the Content holds no curve, if units do not follow from the unit of the
+    depth, and if no curve can have these numbers within its tolerance.
     """
     with contextlib.nullcontext() if content.path is None else path_named(content.path):
         return _checked_curve(content)
@@ -103,7 +107,7 @@ def _checked_curve(content: Content) -> LoadingCurve:
 
 
 def _length_unit(content: Content) -> str:
-    """Unit of the depth in a Content; "1" if it states none. Raises ValueError if other units are not its powers."""
+    """Return the unit of the depth, "1" if none is stated. Raises ValueError if other units are not powers of it."""
     stated = {name: variable.attributes.get("units", units.UNKNOWN) for name, variable in content.variables.items()}
     length = stated["depth"]
     if length != units.UNKNOWN:
@@ -118,10 +122,10 @@ def _length_unit(content: Content) -> str:
 
 
 def _check_contact(curve: LoadingCurve) -> None:
-    """Raise ValueError unless the numbers of a curve can be those of a growing contact, within its tolerance.
+    """Raise ValueError unless the numbers of a curve can belong to a growing contact, within its tolerance.
 
-    Contact only grows, so that the force is a convex function of the depth: between two levels its mean slope is not
-    below the stiffness at the first one and not above that at the second one.
+    Contact only grows, so the force F(u) is a convex function of the depth. Between two levels its mean slope ΔF/Δu
+    therefore lies between the stiffnesses at these levels.
     """
     if not curve.tolerance < 1:
         raise ValueError(f"attribute tolerance is {curve.tolerance:g}; a number below 1 is needed")
@@ -147,9 +151,9 @@ def _check_contact(curve: LoadingCurve) -> None:
 
 
 def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
-    """A global attribute as int, float or str. Raises ValueError unless it is a whole number, a number or text.
+    """Convert a global attribute to int, float or str. Raises ValueError if its value is of another type.
 
-    least : the least number that is allowed
+    least : least allowed number
     """
     with contextlib.suppress(TypeError, ValueError, OverflowError):
         converted = kind(value)
@@ -160,10 +164,10 @@ def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
 
 
 def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
-    """LoadingCurves as one Content over (realization, level), nan beyond each curve's last level; without grid errors.
+    """Combine loading curves into one Content over (realization, level), without grid errors.
 
-    Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list, and for curves
-    in different units of length.
+    Values beyond the last level of a curve are nan. The variables `levels` (number of levels) and PER_CURVE have one
+    value for each realization. Raises ValueError for an empty list, and for curves in different units of length.
     """
     if not curves:
         raise ValueError("curves: there is none; at least one is needed")
@@ -183,7 +187,7 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
 
 
 def unstack_curves(content: Content) -> list[LoadingCurve]:
-    """The LoadingCurves in a Content made by stack_curves, in order. Raises ValueError as curve_from_content."""
+    """Return the loading curves in a Content that stack_curves made. Raises the errors of curve_from_content."""
     stacked = {n: v for n, v in content.variables.items() if v.dimensions == ("realization", "level")}
     per_curve = {name: content.variables[name].values for name in PER_CURVE if name in content.variables}
     curves = []

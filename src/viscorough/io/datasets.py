@@ -21,9 +21,11 @@ def content_to_dataset(content: netcdf.Content) -> xr.Dataset:
 def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     """Write a dataset as CF-1.11 NetCDF, atomically.
 
-    Every data variable needs `long_name`, and `units` unless it holds text. Adds the attributes Conventions, source
-    ("viscorough <version>") and history, and compresses large numeric arrays; nothing depends on when or where the file
-    is written. CF has no coordinate variables of text: labels x of a dimension x stand along a dimension x_index.
+    Every data variable needs the attribute `long_name`, and `units` unless it holds text. The attributes Conventions,
+    source ("viscorough <version>") and history are added, and large numeric arrays are compressed. Neither time nor
+    place of writing changes the file. CF has no coordinate variables of text, so text labels x of a dimension x are
+    written as a variable over a dimension x_index.
+
     Raises ValueError for a path that cannot be written, OSError if writing fails.
     """
     labels = {name: f"{name}_index" for name in ds.indexes if ds[name].dtype.kind not in "biuf"}
@@ -38,9 +40,9 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
 
 
 def read_dataset(path: FilePath) -> xr.Dataset:
-    """Read a NetCDF file into memory, with labels as write_dataset got them, and close it.
+    """Read a NetCDF file into memory, close it, and restore the text labels that write_dataset converted.
 
-    Raises a one-line ValueError if it is missing or damaged.
+    Raises a one-line ValueError if the file is missing or damaged.
     """
     with netcdf.opened(path) as file:
         ds = xr.open_dataset(xr.backends.NetCDF4DataStore(file), decode_times=False, decode_timedelta=False).load()

@@ -13,8 +13,9 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-ATTRIBUTE = "content_sha256"  # global attribute with the digest of everything else in the file
-# Number of values that are read at a time, 32 MiB in double precision: a large map need not fit into memory twice.
+# Global attribute with the digest of the rest of the file.
+ATTRIBUTE = "content_sha256"
+# Number of values read at a time, 32 MiB in double precision, so that a large map need not fit into memory twice.
 _VALUES_AT_A_TIME = 2**22
 
 
@@ -30,7 +31,7 @@ def add_digest(file: netCDF4.Dataset) -> None:
 def check_digest(file: netCDF4.Dataset) -> None:
     """Raise ValueError if the content of an open file has changed since its digest was added.
 
-    Files of other programs and of versions of viscorough without digests have none, and are not checked.
+    Files of other programs, and of versions of viscorough without digests, have no digest and are not checked.
     """
     names = file.ncattrs()
     if ATTRIBUTE in names:
@@ -82,7 +83,7 @@ def _groups(group: netCDF4.Dataset) -> Iterator[netCDF4.Dataset]:
 
 
 def _attributes(owner: netCDF4.Dataset | netCDF4.Variable) -> list[Any]:
-    """[name, type, shape, value] of every attribute, numbers as hexadecimal bytes."""
+    """Return [name, type, shape, value] of every attribute, numbers as hexadecimal bytes."""
     listed: list[Any] = []
     for name in sorted(set(owner.ncattrs()) - {ATTRIBUTE}):
         value = np.asarray(owner.getncattr(name))
@@ -94,7 +95,7 @@ def _attributes(owner: netCDF4.Dataset | netCDF4.Variable) -> list[Any]:
 
 
 def _parts(variable: netCDF4.Variable) -> Iterator[NDArray[Any]]:
-    """The stored values of a variable, some rows at a time if they are many."""
+    """Yield the stored values of a variable, a few rows at a time if there are many."""
     variable.set_auto_maskandscale(False)
     rows = variable.shape[0] if variable.ndim else 1
     step = max(1, _VALUES_AT_A_TIME * rows // max(1, variable.size))

@@ -1,4 +1,4 @@
-"""Elevation models, such as GeoTIFF files, read by rasterio (GDAL): units, masks, missing values, compressions."""
+"""Read elevation models, such as GeoTIFF files, with rasterio (GDAL): units, masks, missing values, compressions."""
 
 import contextlib
 import math
@@ -19,17 +19,18 @@ from viscorough.types import FilePath
 # Formats of elevation models in GDAL, by the suffix of their files.
 FORMATS = {".adf": "AIG", ".bil": "EHdr", ".dem": "USGSDEM", ".flt": "EHdr", ".hgt": "SRTMHGT", ".img": "HFA"}
 FORMATS |= dict.fromkeys((".dt0", ".dt1", ".dt2"), "DTED")
-# Names of units in GDAL that pint does not have.
+# Names of units in GDAL that pint does not know.
 _GDAL_UNITS = {"US survey foot": "survey_foot", "sfoot": "survey_foot", "us-ft": "survey_foot"}
-_RIGHT_ANGLE = 1e-6  # largest cosine of the angle between perpendicular rows and columns
+# Rows and columns are perpendicular up to this cosine of the angle between them.
+_RIGHT_ANGLE = 1e-6
 
 
 def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Scan:
     """Read the Scan in a file of an elevation model.
 
-    Points are nan where the file has no data: its value for missing data, or a mask in the file or in its .msk file.
+    Missing points are nan: those with the file's value for missing data, and those masked in the file or its .msk file.
 
-    kind : format, as GDAL calls it, one of FORMATS or "GTiff"
+    kind : name of the format in GDAL, a value of FORMATS or "GTiff"
     channel : number of the band, or of the page of a TIFF file, from 0; needed if the file has several
 
     Raises a one-line ValueError for coordinates in degrees, for pictures, and if rasterio is not installed.
@@ -45,7 +46,7 @@ def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Sca
 
 
 def units_of_prj(path: FilePath) -> tuple[str, str]:
-    """Return the units of x and y and of heights that the .prj file of an ESRI grid states; "1" for none.
+    """Return the units of positions and of heights that the .prj file of an ESRI grid states, "1" if it states none.
 
     Raises ValueError for coordinates in degrees, and for a reference system that GDAL cannot interpret.
     """
@@ -55,7 +56,7 @@ def units_of_prj(path: FilePath) -> tuple[str, str]:
 
 @contextlib.contextmanager
 def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]:
-    """Context that yields the rasterio dataset of a file, or of one of its pages, which GDAL names."""
+    """Yield the rasterio dataset of a file, or of one of its pages; `page` is its name in GDAL."""
     try:
         import rasterio
     except ImportError as error:
@@ -64,14 +65,14 @@ def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]
     with contextlib.ExitStack() as stack:
         with _decoding(path):
             stack.enter_context(warnings.catch_warnings(action="ignore"))  # maps without coordinates are read as well
-            # A name that starts with a folder is not taken for an address or for options of GDAL.
+            # GDAL could take a name without a folder for an address or for options.
             file = stack.enter_context(rasterio.open(page or os.path.abspath(path), driver=kind))
         yield file
 
 
 @contextlib.contextmanager
 def _decoding(path: FilePath) -> Iterator[None]:
-    """Context that turns a fault of a file into a one-line ValueError with the cause that GDAL gives."""
+    """Turn an error in this context into a one-line ValueError with the cause that GDAL gives."""
     with reading(path, "a whole elevation model, such as GeoTIFF, is needed"):
         try:
             yield
@@ -79,12 +80,12 @@ def _decoding(path: FilePath) -> Iterator[None]:
             raise ValueError(reason(error.__cause__ or error)) from error
 
 
-def _number(channel: str | None, count: int, what: str) -> int:
-    """Return the number of the channel to read, of `count` channels."""
+def _number(channel: str | None, count: int, kind: str) -> int:
+    """Return the number of the channel to read, of `count` channels of a kind (bands or pages)."""
     if channel is None and count == 1:
         return 0
     if channel is None or not (channel.isascii() and channel.isdigit() and int(channel) < count):
-        raise ValueError(f"it has {count} {what}; {argument('channel')} 0 to {count - 1} chooses one")
+        raise ValueError(f"it has {count} {kind}; {argument('channel')} 0 to {count - 1} chooses one")
     return int(channel)
 
 
@@ -119,7 +120,7 @@ def _heights(file: Any, band: int) -> NDArray[Any]:
     if stored.dtype.kind not in "iuf":
         return stored
     heights = stored.astype(stored.dtype if stored.dtype.kind == "f" else np.float64)
-    if (nodata := file.nodatavals[band - 1]) is not None:  # a mask hides it from GDAL
+    if (nodata := file.nodatavals[band - 1]) is not None:  # GDAL ignores it if there is a mask
         with np.errstate(over="ignore"):
             is_measured &= heights != np.asarray(nodata).astype(heights.dtype)
     scale, offset = file.scales[band - 1], file.offsets[band - 1]
@@ -129,12 +130,12 @@ def _heights(file: Any, band: int) -> NDArray[Any]:
 
 
 def _units(system: Any) -> tuple[str, str]:
-    """Return the units of x and y and of heights in a coordinate reference system of rasterio; "1" for none."""
+    """Return the units of positions and of heights in a reference system of rasterio, "1" if it states none."""
     if system is None:
         return units.UNKNOWN, units.UNKNOWN
     definition = system.to_dict(projjson=True)
     if definition["type"] == "EngineeringCRS" and definition["name"] == "unnamed":
-        # GDAL then gives metres, although the file may state another unit.
+        # GDAL then returns metres, although the file may state another unit.
         text = "its coordinate reference system is incomplete, so that the unit of x and y is not certain"
         raise ValueError(f"{text}; a complete one is needed, as 'rio edit-info --crs EPSG:CODE FILE' writes into it")
     lateral = vertical = units.UNKNOWN
@@ -147,7 +148,7 @@ def _units(system: Any) -> tuple[str, str]:
 
 
 def _axes(definition: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the axes of a reference system in PROJJSON, part after part."""
+    """Return the axes of all parts of a reference system in PROJJSON."""
     if definition["type"] == "BoundCRS":
         return _axes(definition["source_crs"])
     if definition["type"] == "CompoundCRS":
@@ -156,7 +157,7 @@ def _axes(definition: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def _unit(unit: str | dict[str, Any]) -> str:
-    """Return a unit of length in PROJJSON as units.length_unit takes it. Raises ValueError for degrees."""
+    """Convert a unit of length in PROJJSON to a text for units.length_unit. Raises ValueError for degrees."""
     if unit == "metre":
         return "m"
     if isinstance(unit, dict) and unit["type"] == "LinearUnit":

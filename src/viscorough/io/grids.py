@@ -1,4 +1,4 @@
-"""Points x, y, z, in any order, as a map of heights where x and y form a grid."""
+"""Convert points x, y, z in any order to a map of heights, if x and y form a grid."""
 
 from decimal import Decimal
 
@@ -6,18 +6,22 @@ import numpy as np
 
 from viscorough.types import Array, Integers
 
-_MERGED = 1e-6  # positions closer than this, relative to their range, are one
-_OFF_GRID = 0.05  # largest distance from the grid, relative to its spacing
-_LEAST_SHARE, _LEAST_POINTS = 0.5, 9  # of the grid, that rows of unknown meaning need to be taken for its points
+# Positions closer than this share of their range are the same position.
+_MERGED = 1e-6
+# Largest distance of a point from the grid, relative to its spacing.
+_OFF_GRID = 0.05
+# Rows of unknown meaning are points of a grid only if they fill this share of it, and are at least so many.
+_LEAST_SHARE, _LEAST_POINTS = 0.5, 9
 
 
 def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] | None:
-    """(heights, (dx, dy)) of points on a grid of equal spacing; heights[row, column], both in increasing order.
+    """Return (heights, (dx, dy)) of points on a grid of equal spacing.
 
     points : x, y, z, shape (points, 3)
-    required : whether the points are known to be x, y, z; else None is returned for what is no grid
+    required : True if the points are certainly x, y, z; otherwise None is returned for points that form no grid
 
-    Where a point of the grid is missing, the height is nan. Raises ValueError for required points that form no grid.
+    The heights have the shape (rows, columns), both in increasing order, and are nan at missing points. Raises
+    ValueError for required points that form no grid.
     """
     try:
         if points.shape[1] != 3:
@@ -43,10 +47,10 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
 
 
 def even_spacing(positions: Array) -> float | None:
-    """Return the distance between positions that rise, or fall, in equal steps; None for other positions.
+    """Return the distance between positions that rise or fall in equal steps; None for other positions.
 
-    Each may be off its place as far as it was rounded, by a unit of the last digit, but not by more than a twentieth of
-    the distance.
+    Each position may deviate by its rounding error, one unit of the last digit, but by at most a twentieth of the
+    distance.
     """
     with np.errstate(invalid="ignore", over="ignore"):
         step = abs(positions[-1] - positions[0]) / max(positions.size - 1, 1)
@@ -57,7 +61,7 @@ def even_spacing(positions: Array) -> float | None:
 
 
 def _last_digit(numbers: Array) -> float:
-    """Return the unit of the last digit of printed numbers, all with as many decimals, or else as many digits."""
+    """Return the unit of the last digit of printed numbers that have equally many decimals or equally many digits."""
     decimals = [Decimal(repr(number)).normalize() for number in numbers.tolist()]
     digits, places = zip(*(number.as_tuple()[1:] for number in decimals), strict=True)
     largest = max(number.adjusted() for number in decimals)
@@ -65,9 +69,9 @@ def _last_digit(numbers: Array) -> float:
 
 
 def _axis(positions: Array) -> tuple[Integers, int, float]:
-    """(index of each position, number of indices, spacing) along an axis of equal spacing. Raises ValueError.
+    """Return (index of each position, number of indices, spacing) along an axis of equal spacing.
 
-    Positions may be rounded, and whole columns may be missing.
+    Positions may be rounded, and whole columns may be missing. Raises ValueError if the spacing is not equal.
     """
     different = np.unique(positions)
     with np.errstate(over="ignore"):

@@ -1,22 +1,26 @@
-"""What the header of a text file states: the spacing of the points, units of lengths, names of columns.
+"""Read the header of a text file: spacing of the points, units of lengths, names of columns.
 
-A statement is a line "key: value" or "key = value"; the unit of a length stands behind the number or in brackets behind
-the key. Keys are compared without spaces, hyphens, underscores and case. A key that is not known states nothing, so
-that "Camera pixel size" is not taken for the distance of the points; but a unit of length whose meaning is not known is
-refused, and so is what can be read in two ways.
+A statement is a line "key: value" or "key = value". The unit of a length follows the number, or is in brackets after
+the key. Keys are compared without spaces, hyphens, underscores and case. Unknown keys are ignored, so that "Camera
+pixel size" is not taken for the spacing of the points. But a unit of length whose meaning is not certain is refused,
+and so is every line with two possible meanings.
 """
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 from viscorough import units
 from viscorough.argument_names import argument, spelled
 
 Spacing = tuple[float, float]
-Stated = dict[str, list[tuple[str, str, str]]]  # what a header states, by role: line, unit in brackets, value
+# Statements of a header by role: (line, unit in brackets, value).
+Stated = dict[str, list[tuple[str, str, str]]]
 
-_AGREEMENT = 1e-3  # relative difference up to which statements of the same length agree
-_ROUNDING = 5e-3  # the same for a width and a distance of points, which are rounded to few digits
+# Relative difference up to which statements of the same length agree.
+_AGREEMENT = 1e-3
+# The same for an extent and a spacing, which are rounded to few digits.
+_ROUNDING = 5e-3
 
 _NUMBER = r"[+-]?(?:\d+(?:[.,]\d+|\.)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _LENGTH = re.compile(rf"[(\[]?({_NUMBER})\s*[(\[]?([^\d\s,;()\[\]/]*)(?:/(?:px|pixel|point))?[)\]]?", re.IGNORECASE)
@@ -37,7 +41,7 @@ _DEGREES = {"lon", "lat", "longitude", "latitude"}
 
 _STEP = "pixelsize pixelspacing pointspacing samplespacing spacing pixelgröße pixelabstand"
 _STEPS = f"{_STEP} step stepsize pitch increment d"
-# The spellings of keys by what they state; the axis stands before or behind, as in "x pixel size" and "pixel size x".
+# Spellings of keys by role. The axis comes first or last, as in "x pixel size" and "pixel size x".
 _ROLES = {
     "step x": {f"x{key}" for key in _STEPS.split()} | {f"{key}x" for key in _STEPS.split()} | {"deltax", "pixelwidth"},
     "step y": {f"y{key}" for key in _STEPS.split()} | {f"{key}y" for key in _STEPS.split()} | {"deltay", "pixelheight"},
@@ -53,30 +57,76 @@ _ROLES = {
     "channel": {"channel", "kanal", "canal", "datachannel"},
 }
 _ROLE_OF = {key: role for role, keys in _ROLES.items() for key in keys}
+# Axes along which lengths are stated: 0 is x, 1 is y.
+_AXES = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,)}
+
+
+class Header(NamedTuple):
+    """Units and spacing that a header states.
+
+    unit : unit of the heights; "1" if it is not stated
+    spacing : (dx, dy); nan for a direction that is not stated, None if neither is
+    lateral_unit : unit of the spacing, or of positions x and y; "1" if it is not stated
+    columns : names of the columns of points in their order, such as ("x", "y", "z"), or ("x", "z") for a profile; None
+        if they are not stated
+    """
+
+    unit: str
+    spacing: Spacing | None
+    lateral_unit: str
+    columns: tuple[str, ...] | None
+
+
+class _Columns(NamedTuple):
+    """Names of columns, "" for columns without positions or heights, and {name: unit}."""
+
+    names: tuple[str, ...]
+    units: dict[str, str]
+
+
+class _Length(NamedTuple):
+    """Spacing or extent along an axis, as a line of the header states it; the unit is "" if it is not stated."""
+
+    line: str
+    axis: int
+    is_extent: bool
+    number: float
+    unit: str
 
 
 def states(line: str) -> bool:
-    """Whether a line states a length, a unit or the name of a map."""
+    """Return True if a line states a length, a unit or the name of a map."""
     match = _STATEMENT.match(line)
     return match is not None and bool(_role(match[1]))
 
 
-def read_header(
-    lines: Sequence[str], shape: tuple[int, ...], decimal: str, profile_columns: int = 0
-) -> tuple[str, Spacing | None, str, tuple[str, ...] | None]:
-    """(unit, spacing, lateral unit, columns) in lines of text above, below and beside a table of that shape.
+def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str, profile_columns: int = 0) -> Header:
+    """Return the Header in the lines of text around a table of numbers.
 
-    decimal : mark of the table; a decimal comma there makes "1,234" a number below two
+    shape : rows and columns of the table
+    decimal : decimal mark of the table; if it is a comma, "1,234" is a number below two
     profile_columns : number of columns of the table if it holds a profile, whose points lie along x; 0 for a map
 
-    unit : of the heights; "1" if it is not stated
-    spacing : (dx, dy); None if it is not stated, nan for a direction in which it is not
-    lateral unit : of the spacing, or of positions x and y; "1" if it is not stated
-    columns : names of the columns of points in their order, such as ("x", "y", "z"), or ("x", "z") of a profile; None
-        if they are not stated
+    Raises ValueError for statements that contradict each other or have two meanings, and for the heading of a profile
+    above a map.
+    """
+    stated, others = _statements(lines)
+    columns = _heading_of_columns(others, profile_columns or shape[1], is_profile=profile_columns > 0)
 
-    Raises ValueError for statements that contradict each other or can be read in two ways, and above a map for the
-    heading of a profile.
+    def stated_unit(role: str, *axes: str) -> str:
+        headed = [] if columns is None else [columns.units.get(axis, "") for axis in axes]
+        return _agreed([*(_unit_text(value) for _, _, value in stated[role]), *headed])
+
+    spacing, lateral = _spacing(stated, shape, stated_unit("unit xy", "x", "y"), decimal)
+    unit = stated_unit("unit z", "z") or stated_unit("unit")
+    names = None if columns is None else columns.names
+    return Header(unit or units.UNKNOWN, spacing, lateral or units.UNKNOWN, names)
+
+
+def _statements(lines: Sequence[str]) -> tuple[Stated, list[str]]:
+    """Return the statements in lines by their roles, and the lines that are no statements.
+
+    Raises ValueError for a factor of the heights, and for a unit of length without the quantity that it belongs to.
     """
     stated: Stated = {role: [] for role in _ROLES}
     others = []
@@ -94,30 +144,23 @@ def read_header(
         elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and units.is_length(_unit_text(value)):
             text = "of which lengths is not stated; 'XY units', 'Z units' are allowed"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")
-    columns, of_columns = _columns(others, profile_columns or shape[1], of_profile=profile_columns > 0)
-
-    def unit_among(role: str, *axes: str) -> str:
-        return _agreed([*(_unit_text(value) for _, _, value in stated[role]), *(of_columns.get(a, "") for a in axes)])
-
-    spacing, lateral = _spacing(stated, shape, unit_among("unit xy", "x", "y"), decimal)
-    unit = unit_among("unit z", "z") or unit_among("unit")
-    return unit or units.UNKNOWN, spacing, lateral or units.UNKNOWN, columns
+    return stated, others
 
 
 def _role(key: str) -> str:
-    """What a key states, one of `_ROLES`; "" if it is not known."""
+    """Return the role of a key, one of `_ROLES`; "" for other keys."""
     compact = re.sub(r"[\s_.-]+", "", key.lower())
     return _ROLE_OF.get(re.sub(r"(unité?|einheit)(?:s|en)", r"\1", compact), "")
 
 
 def _unit_text(value: str) -> str:
-    """The unit that a value is; "" for one that counts points."""
+    """Return the unit in a value; "" for a unit that counts points."""
     text = value.strip("[](){} ")
     return "" if units.counts_points(text) else text
 
 
 def _agreed(texts: Iterable[str]) -> str:
-    """The unit in texts, which may spell it differently; "" for none. Raises ValueError if they are different units."""
+    """Return the unit in texts, in any spelling; "" if all are empty. Raises ValueError for two different units."""
     different = list(dict.fromkeys(filter(None, texts)))
     for other in different[1:]:
         if units.metres(different[0]) != units.metres(other):
@@ -126,39 +169,48 @@ def _agreed(texts: Iterable[str]) -> str:
 
 
 def _spacing(stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str) -> tuple[Spacing | None, str]:
-    """((dx, dy), unit) that statements give, the unit being the lateral one if it is stated; "" for none.
+    """Return ((dx, dy), unit) of the points from the stated spacings and extents.
 
-    The spacing is None if there is no statement, and nan for a direction without one.
+    lateral : stated unit of lengths along x and y, "" if there is none
+
+    The spacing is nan for a direction that is not stated, None if neither is. The unit is `lateral` or, for lengths
+    with their own units, "m"; it is "" if no unit is stated.
     """
+    points = shape[::-1]
     steps: list[list[float]] = [[], []]
     extents: list[list[float]] = [[], []]
     have_units = set()
-    axes_of = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,)}
-    for role, axes in axes_of.items():
-        for line, bracket, value in stated[role]:
-            of_both = role == "step" and value.count(" x ") == 1  # "0.5 um x 0.8 um"
-            for axis, text in zip(axes, value.split(" x ") if of_both else [value] * len(axes), strict=True):
-                number, unit = _length(line, text, decimal)
-                if unit and bracket and unit != bracket:
-                    raise ValueError(f"header {line!r}: units {bracket} and {unit}; one unit is needed")
-                unit = unit or bracket
-                if not units.counts_points(unit):
-                    unit = unit or lateral
-                    have_units.add(bool(unit))
-                    lengths = extents if role.startswith("extent") else steps
-                    lengths[axis].append(number * units.metres(unit) / units.metres(lateral or "m") if unit else number)
-                elif role.startswith("extent") and number != shape[1 - axis]:
-                    raise ValueError(f"header {line!r}: the table has {shape[1 - axis]} points there")
-    if not (any(steps) or all(extents)):  # a height alone may be one of the heights
+    for length in _lengths(stated, decimal):
+        if units.counts_points(length.unit):
+            if length.is_extent and length.number != points[length.axis]:
+                raise ValueError(f"header {length.line!r}: the table has {points[length.axis]} points there")
+            continue
+        unit = length.unit or lateral
+        have_units.add(bool(unit))
+        number = length.number * units.metres(unit) / units.metres(lateral or "m") if unit else length.number
+        (extents if length.is_extent else steps)[length.axis].append(number)
+    if not (any(steps) or all(extents)):  # a height without a width may be one of the heights
         return None, lateral
     if len(have_units) > 1:
         raise ValueError("the header states units for some of the lengths only; one for all, or none, is needed")
-    dx, dy = (_agreed_step(axis, steps[axis], extents[axis], shape[1 - axis]) for axis in (0, 1))
+    dx, dy = (_agreed_step(axis, steps[axis], extents[axis], points[axis]) for axis in (0, 1))
     return (dx, dy), lateral or ("m" if have_units == {True} else "")
 
 
+def _lengths(stated: Stated, decimal: str) -> Iterator[_Length]:
+    """Yield the stated spacings and extents. Raises ValueError for two different units of one length."""
+    for role, axes in _AXES.items():
+        for line, bracket, value in stated[role]:
+            is_pair = role == "step" and value.count(" x ") == 1  # "0.5 um x 0.8 um"
+            for axis, text in zip(axes, value.split(" x ") if is_pair else [value] * len(axes), strict=True):
+                number, unit = _length(line, text, decimal)
+                if unit and bracket and unit != bracket:
+                    raise ValueError(f"header {line!r}: units {bracket} and {unit}; one unit is needed")
+                yield _Length(line, axis, role.startswith("extent"), number, unit or bracket)
+
+
 def _length(line: str, value: str, decimal: str) -> tuple[float, str]:
-    """(number, unit or "") of a statement. Raises ValueError for another value, or a comma that may part thousands."""
+    """Return (number, unit or "") of a length. Raises ValueError for other texts, and for ambiguous commas."""
     match = _LENGTH.fullmatch(value)
     if match is None:
         raise ValueError(f"header {line!r}: not a length; a number, with or without a unit, is needed")
@@ -170,7 +222,7 @@ def _length(line: str, value: str, decimal: str) -> tuple[float, str]:
 
 
 def _agreed_step(axis: int, steps: Sequence[float], extents: Sequence[float], count: int) -> float:
-    """The distance of points along an axis, from statements that must agree; nan for none."""
+    """Return the spacing along an axis from statements that must agree; nan without a statement."""
     if not (steps or extents):
         return float("nan")
     step = steps[0] if steps else extents[0] / count
@@ -186,66 +238,82 @@ def _agreed_step(axis: int, steps: Sequence[float], extents: Sequence[float], co
 
 
 def names_profile(lines: Iterable[str], count: int) -> bool:
-    """Return True if a line heads a table of `count` columns as positions x and heights z of a profile."""
+    """Return True if a line is the heading of a profile with `count` columns, positions x and heights z among them."""
     return any(len(cells) == count and _profile_columns(cells) for cells in (_cells(_heading(line)) for line in lines))
 
 
 def _heading(line: str) -> str:
-    """The text of a line that may head columns, with units attached to the names."""
+    """Return a line without comment marks and quotation marks, with units attached to the names of columns."""
     return re.sub(r"\s+(?=[\[(/])|(?<=/)\s+", "", line.strip("#%/;,!| \t").replace('"', ""))
 
 
 def _cells(heading: str) -> list[str]:
-    """The names in a heading, separated by commas, semicolons and tabs, or else by spaces."""
+    """Split a heading at commas, semicolons and tabs, or at spaces if it has none of these."""
     return [cell.strip() for cell in re.split(r"[,;\t]" if re.search(r"[,;\t]", heading) else r"\s+", heading)]
 
 
-def _columns(lines: Sequence[str], count: int, of_profile: bool) -> tuple[tuple[str, ...] | None, dict[str, str]]:
-    """(names of the columns in their order or None, {name: unit}) of a line that heads columns x, y, z, or x and z.
+def _heading_of_columns(lines: Sequence[str], count: int, is_profile: bool) -> _Columns | None:
+    """Return the columns in the first line that is their heading, or None.
 
-    Other columns have the name "". Raises ValueError for positions in degrees, for what may be a heading or its units
-    in another form, for two headings, and for the heading of a profile above a map.
+    count : number of columns of the table
+    is_profile : True for columns x and z, False for columns x, y and z
+
+    Raises ValueError for units that are not lengths, for positions in degrees, for a second heading, for lines that may
+    be headings in another form, and for the heading of a profile above a map.
     """
-    names: tuple[str, ...] | None = None
-    found: dict[str, str] = {}
+    found = None
     for line in lines:
         text = _heading(line)
-        cells = _cells(text)
-        profile = _profile_columns(cells) if len(cells) == count else None
-        if profile and not of_profile:
-            text = f"heading {text[:60]!r}: positions and heights of a profile"
-            raise ValueError(f"{text}; {spelled('viscorough reduce', 'read_line')} reads it, a map has columns x, y, z")
-        heading = profile if of_profile else _map_columns(cells) if len(cells) == count else None
-        if names is None and heading:
-            names, found = heading
-            if wrong := next((unit for unit in found.values() if not units.is_length(unit)), None):
+        columns = _columns(text, count, is_profile)
+        if found is None and columns is not None:
+            if wrong := next((unit for unit in columns.units.values() if not units.is_length(unit)), None):
                 raise ValueError(f"heading {text[:60]!r}: {wrong!r} is no unit of length, such as um, nm or m")
-            continue
-        words = set(re.split(r"[\W\d_]+", text.lower()))
-        if words & _DEGREES:
-            raise ValueError(f"heading {text[:60]!r}: positions in degrees; lengths x and y are needed")
-        of_units = len(cells) == count > 1 and all(map(units.is_length, cells))
-        in_brackets = map(units.is_length, re.findall(r"[\[(]([^\W\d]\w*)[\])]", text))
-        if of_units or words >= ({"x", "z"} if of_profile else {"x", "y", "z"}) or any(in_brackets):
-            example = "x [um], z [nm]" if of_profile else "x [um], y [um], z [nm]"
-            text = f"header {text[:60]!r}: which columns and units these are is not stated"
-            raise ValueError(f"{text}; one heading, such as {example!r}, is allowed")
-    return names, found
+            found = columns
+        else:
+            _check_no_heading(text, count, is_profile)
+    return found
 
 
-def _map_columns(cells: Sequence[str]) -> tuple[tuple[str, ...], dict[str, str]] | None:
-    """(names, {name: unit}) of cells that head columns x, y and z, in any order, and others; None for other cells."""
+def _columns(heading: str, count: int, is_profile: bool) -> _Columns | None:
+    """Return the columns in a heading, or None. Raises ValueError for the heading of a profile above a map."""
+    cells = _cells(heading)
+    if len(cells) != count:
+        return None
+    profile = _profile_columns(cells)
+    if profile and not is_profile:
+        text = f"heading {heading[:60]!r}: positions and heights of a profile"
+        raise ValueError(f"{text}; {spelled('viscorough reduce', 'read_line')} reads it, a map has columns x, y, z")
+    return profile if is_profile else _map_columns(cells)
+
+
+def _check_no_heading(text: str, count: int, is_profile: bool) -> None:
+    """Raise ValueError if a text may be a heading that was not recognised, or one of positions in degrees."""
+    words = set(re.split(r"[\W\d_]+", text.lower()))
+    if words & _DEGREES:
+        raise ValueError(f"heading {text[:60]!r}: positions in degrees; lengths x and y are needed")
+    cells = _cells(text)
+    only_units = len(cells) == count > 1 and all(map(units.is_length, cells))
+    has_unit_in_brackets = any(map(units.is_length, re.findall(r"[\[(]([^\W\d]\w*)[\])]", text)))
+    names, example = ({"x", "z"}, "x [um], z [nm]") if is_profile else ({"x", "y", "z"}, "x [um], y [um], z [nm]")
+    if only_units or has_unit_in_brackets or words >= names:
+        text = f"header {text[:60]!r}: which columns and units these are is not stated"
+        raise ValueError(f"{text}; one heading, such as {example!r}, is allowed")
+
+
+def _map_columns(cells: Sequence[str]) -> _Columns | None:
+    """Return the columns of a heading with x, y and z in any order, and possibly others; None for other cells."""
     matches = [_COLUMN.fullmatch(cell) for cell in cells]
     if [m and m[1].lower() for m in matches] == ["x", "y", None]:  # z has another name
         matches[2] = _COLUMN.fullmatch(re.sub(r"^[^\W\d_][^\[(/_]*", "z", cells[2]))
     names = tuple(match[1].lower() if match else "" for match in matches)
     if sorted(filter(None, names)) != ["x", "y", "z"]:
         return None
-    return names, {match[1].lower(): match[2] for match in matches if match and match[2] is not None}
+    stated = {match[1].lower(): match[2] for match in matches if match and match[2] is not None}
+    return _Columns(names, stated)
 
 
-def _profile_columns(cells: Sequence[str]) -> tuple[tuple[str, ...], dict[str, str]] | None:
-    """The same of cells that head the positions x and heights z of a profile, one of which may be named y."""
+def _profile_columns(cells: Sequence[str]) -> _Columns | None:
+    """Return the columns of a heading with positions x and heights z of a profile; either may be named y."""
     matches = [_PROFILE_COLUMN.fullmatch(cell) for cell in cells]
     names = [next(name for name in "xyz" if match[name]) if match else "" for match in matches]
     if sorted(names) == ["y", "z"] or sorted(names) == ["x", "y"]:
@@ -253,4 +321,5 @@ def _profile_columns(cells: Sequence[str]) -> tuple[tuple[str, ...], dict[str, s
     if sorted(filter(None, names)) != ["x", "z"]:
         return None
     pairs = zip(names, matches, strict=True)
-    return tuple(names), {name: match["unit"] for name, match in pairs if match and match["unit"] is not None}
+    stated = {name: match["unit"] for name, match in pairs if match and match["unit"] is not None}
+    return _Columns(tuple(names), stated)

@@ -1,4 +1,4 @@
-"""Maps and lines of heights read from files of many formats, checked for what makes results wrong, and written."""
+"""Read maps and lines of heights from files of many formats, and convert them to the content of NetCDF files."""
 
 import warnings
 from pathlib import Path
@@ -21,7 +21,9 @@ from viscorough.io.unpacking import unpacked
 from viscorough.preparation import doubts, prepare
 from viscorough.types import Array, FilePath
 
-_STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful
+# The theory of small slopes is doubtful above this rms slope.
+_STEEP_SLOPE = 0.3
+# Suffixes of text files.
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".tsv")
 
 
@@ -35,11 +37,12 @@ def read_heights(
     scale: float | str | units.Quantity | None = None,
     **preparation: Any,
 ) -> Indenter:
-    """Read a map of heights as an Indenter: the highest point touches first, points that are nan lie outside it.
+    """Read a map of heights as an Indenter.
 
-    Rows are along y and columns along x, in the order of the file; columns of x, y, z in increasing order. Values that
-    the file marks as missing are nan. Gives an AccuracyWarning for each defect that viscorough.preparation finds in
-    the prepared map, and for an rms slope above 0.3.
+    The highest point touches first. Points that the file marks as missing are nan and lie outside the indenter. Rows
+    are along y and columns along x, in the order of the file; points x, y, z are sorted in increasing order. An
+    AccuracyWarning is given for each defect of the prepared map, such as tilt, spikes and holes, and for an rms slope
+    above 0.3.
 
     Parameters
     ----------
@@ -48,25 +51,32 @@ def read_heights(
         TIFF, an elevation model such as GeoTIFF (pip install "viscorough[geo]"), or a format of an instrument (pip
         install "viscorough[formats]").
     spacing : number or text or pair of them, optional
-        Distance between neighbouring points, or (dx, dy): from column to column, from row to row; numbers in the unit
-        of the heights, or texts as "0.2 um". Needed where the file states none.
+        Distance between neighbouring points, or (dx, dy) from column to column and from row to row. Plain numbers are
+        in the unit of the heights; texts have a unit, such as "0.2 um". Needed if the file states no spacing.
     unit : str, optional
-        Unit of length of the heights, where the file states none, such as "um"; also of positions x and y without one.
+        Unit of length of the heights, such as "um", if the file states none. It also applies to positions x and y
+        without a unit.
     lateral_unit : str, optional
-        Unit of positions x and y, and of a spacing in plain numbers, if it is another one, such as "mm".
+        Unit of positions x and y, and of a spacing in plain numbers, such as "mm", if it is not the unit of the
+        heights.
     channel : str, optional
-        Name or number (from 0) of the map to read, where a file holds several; by default the variable `heights` of a
-        NetCDF file, and the first channel of heights of an instrument's file.
+        Name or number (from 0) of the map in a file with several maps. By default the variable `heights` of a NetCDF
+        file is read, and the first channel with heights of an instrument's file.
     scale : float or str or units.Quantity, optional
-        Conversion factor of the numbers in a file without a unit of length, as "0.053 nm" per count of a detector, or
-        "53 nm" per radian where the file states radians.
+        Conversion factor of the numbers in a file without a unit of length, such as "0.053 nm" per count of a detector,
+        or "53 nm" per radian if the file states radians.
     preparation : Any
         Keyword arguments of viscorough.prepare.
+
+    Returns
+    -------
+    Indenter
 
     Raises
     ------
     ValueError
-        That names the file, what is wrong and what is needed.
+        For a file without a map of heights, and if spacing or unit is missing or contradicts the file. The one-line
+        message names the file, its fault and the remedy.
 
     Examples
     --------
@@ -98,27 +108,33 @@ def read_line(
     unit: str | None = None,
     lateral_unit: str | None = None,
 ) -> Indenter:
-    """Read the heights of a line as an Indenter, for the method of dimensionality reduction (mdr.reduce).
+    """Read the heights of a line as an Indenter, for the method of dimensionality reduction (`reduce`).
 
     Parameters
     ----------
     path : path
-        .npy of shape (points,), .nc with a variable `heights` of one dimension or only one such variable, or text
-        (.txt, .csv, .asc, .dat, .tsv, .xyz): a single column or row of heights, or two of them, positions x and heights
-        z. Under a heading that names x and z, such as "x [um], z [nm]", other columns are left out.
+        .npy of shape (points,), .nc with a variable `heights` of one dimension or a single variable of one dimension,
+        or text (.txt, .csv, .asc, .dat, .tsv, .xyz). A text holds one column or row of heights, or two columns or rows
+        with positions x and heights z. If a heading names x and z, such as "x [um], z [nm]", other columns are ignored.
     spacing : number or text, optional
-        Distance between neighbouring points, in the unit of the heights, or a text as "0.2 um"; needed where the file
-        states none. Positions must be equally spaced, to the last digit. If they are 0, 1, 2, … or
-        1, 2, 3, … without a heading, they number the points and state no distance.
+        Distance between neighbouring points: a number in the unit of the heights, or a text such as "0.2 um". Needed if
+        the file states no spacing. Positions in the file must be equally spaced, to the last digit. Positions 0, 1,
+        2, … or 1, 2, 3, … without a heading number the points and state no spacing.
     unit : str, optional
-        Unit of length of the heights, where the file states none, such as "um"; also of positions x without one.
+        Unit of length of the heights, such as "um", if the file states none. It also applies to positions without a
+        unit.
     lateral_unit : str, optional
-        Unit of positions x, and of a spacing in plain numbers, if it is another one, such as "mm".
+        Unit of positions x, and of a spacing in plain numbers, such as "mm", if it is not the unit of the heights.
+
+    Returns
+    -------
+    Indenter
 
     Raises
     ------
     ValueError
-        In one line, with the file and what is wrong.
+        For a file without a line of heights, and if spacing or unit is missing or contradicts the file. The one-line
+        message names the file and its fault.
 
     Examples
     --------
@@ -144,9 +160,9 @@ def read_line(
 
 
 def surface_to_content(indenter: Indenter) -> netcdf.Content:
-    """An Indenter as the Content of a file: `heights` over (y, x), or over x for a line, and these coordinates.
+    """Convert an Indenter to a Content with `heights` over (y, x), or over x for a line.
 
-    Coordinates count from the centre of the map, or of the line.
+    The coordinates y and x count from the centre of the map or line.
     """
     axes = {"x": indenter.spacing} if indenter.heights.ndim == 1 else {"y": indenter.row_spacing, "x": indenter.spacing}
     unit = indenter.length_unit
@@ -156,7 +172,7 @@ def surface_to_content(indenter: Indenter) -> netcdf.Content:
 
 
 def dimensions_of_heights(path: FilePath) -> int:
-    """Number of dimensions of the heights in a file: 1 for a line in a .npy, NetCDF or text file, 2 for all others."""
+    """Return the number of dimensions of the heights in a file: 1 for a line (.npy, NetCDF or text), otherwise 2."""
     suffix = Path(path).suffix.lower()
     if suffix == ".npy":
         return npy_array(path).ndim
@@ -171,7 +187,7 @@ def dimensions_of_heights(path: FilePath) -> int:
 
 
 def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
-    """Return the Scan with its heights multiplied by a number, whose unit, if any, becomes the unit of the heights."""
+    """Return the Scan with heights multiplied by a scale, whose unit, if any, becomes the unit of the heights."""
     quantity = units.with_unit(scale)
     number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
     if unit and units.is_length(scan.unit):
@@ -180,14 +196,14 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
         )
     number = positive(argument("scale"), number)
     if scan.heights.dtype.kind not in "iuf":
-        return scan  # is refused for what it holds
+        return scan  # the Indenter refuses such heights
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
 def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
-    """The Scan in a file, by the reader for its suffix.
+    """Read the Scan in a file with the reader for its suffix.
 
-    is_map : whether the distances of both columns and rows are given, so that a text of few rows or columns is a map
+    is_map : True if the user gives both dx and dy, so that a text of one or two rows or columns is a map
     """
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
@@ -198,7 +214,7 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
         return read_tiff(path, channel)
     if suffix in elevation.FORMATS:
         return elevation.read_elevation(path, elevation.FORMATS[suffix], channel)
-    if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):  # some instruments use the suffixes of texts
+    if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):  # some instruments use suffixes of texts
         if channel is not None:
             raise ValueError(f"{argument('channel')} {channel}: a file of this kind holds one map; leave it out")
         return Scan(npy_array(path)) if suffix == ".npy" else _with_units_of_prj(read_text(path, is_map=is_map), path)
@@ -208,7 +224,7 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
 
 
 def _with_units_of_prj(scan: Scan, path: FilePath) -> Scan:
-    """Return the Scan of a text file; an ESRI grid that has a .prj file gets the units in it."""
+    """Return the Scan of a text file with the units of its .prj file, if it is an ESRI grid and has such a file."""
     if scan.corners is None or not any(Path(path).with_suffix(end).exists() for end in (".prj", ".PRJ")):
         return scan
     lateral, vertical = elevation.units_of_prj(path)
@@ -216,15 +232,16 @@ def _with_units_of_prj(scan: Scan, path: FilePath) -> Scan:
 
 
 def npy_array(path: FilePath) -> NDArray[Any]:
-    """The array in a .npy file. Raises a one-line ValueError if it cannot be read; pickled objects are refused."""
+    """Return the array in a .npy file. Raises a one-line ValueError for unreadable files and pickled objects."""
     with reading(path, "a .npy file of numbers is needed"), open(path, "rb") as file:
         return np.lib.format.read_array(file, allow_pickle=False)
 
 
 def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Scan:
-    """Return the variable named `channel` of a NetCDF file, or `heights`, or else the only one of so many dimensions.
+    """Return the Scan in a variable of a NetCDF file.
 
-    Further dimensions of length 1, such as a time, may precede them.
+    channel : name of the variable; None for `heights` or, without it, for the only variable of so many dimensions
+    dimensions : 2 for a map, 1 for a line; leading dimensions of length 1, such as a time, do not count
     """
     with netcdf.opened(path) as file:
         data = [each for name, each in file.variables.items() if name not in file.dimensions]
@@ -253,19 +270,19 @@ def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Sca
 
 
 def _leading(variable: netCDF4.Variable, dimensions: int) -> str:
-    """Return the dimensions of more than one value before the last ones, as text "time (3)"; "" for none."""
+    """Return the leading dimensions with more than one value as text, such as "time (3)"; "" if there are none."""
     lengths = zip(variable.dimensions[:-dimensions], variable.shape[:-dimensions], strict=True)
     return ", ".join(f"{name} ({length})" for name, length in lengths if length != 1)
 
 
 def _unit_of(variable: netCDF4.Variable) -> str:
-    """The attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" if it has none."""
+    """Return the attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" without both."""
     unit = getattr(variable, "units", getattr(variable, "unit", None))
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
 def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
-    """Name, positions and unit along a dimension: of the variable of that name, or of the only one that has only it."""
+    """Return (name, positions, unit) along a dimension, from its coordinate or the only variable over it; or None."""
     variables = {name: each for name, each in file.variables.items() if each.dimensions == (dimension,)}
     along = [name for name, each in variables.items() if np.dtype(each.dtype).kind in "iuf" and name != heights]
     name = dimension if dimension in along else along[0] if len(along) == 1 else None
@@ -273,9 +290,10 @@ def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tup
 
 
 def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str] | None) -> tuple[Any, ...]:
-    """((dx, dy), unit) that the positions of rows and columns state; (None, "1") for none, or mere indices.
+    """Return ((dx, dy), unit) from the positions of rows and columns; (None, "1") without positions.
 
-    Raises ValueError if only one of them is there, or if their units differ in kind.
+    Positions that only number the points do not count. Raises ValueError if only rows or columns have positions, and if
+    only one unit is stated.
     """
     stated = [axis for axis in (columns, rows) if axis is not None and not _are_indices(*axis[1:])]
     if not stated:
@@ -292,7 +310,7 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
 
 
 def _are_indices(positions: Array, unit: str) -> bool:
-    """Whether positions only count points, from 0 or 1 on, so that they state no distance."""
+    """Return True if positions only number the points, from 0 or 1, so that they state no distance."""
     counts = (np.arange(first, first + positions.size) for first in (0, 1))
     counts_up = not np.ma.is_masked(positions) and any(np.array_equal(positions, count) for count in counts)
     return units.counts_points(unit) or (unit == "1" and counts_up)

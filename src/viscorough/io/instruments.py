@@ -1,4 +1,4 @@
-"""Maps of heights in the file formats of instruments, read by SurfaceTopography if that is installed."""
+"""Read maps of heights in the file formats of instruments with SurfaceTopography, if it is installed."""
 
 import io
 import re
@@ -16,13 +16,13 @@ from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
 from viscorough.types import Array, FilePath
 
-# Formats that hold plain arrays, with rows along y; SurfaceTopography's first index runs along x.
-_OF_ARRAYS = ("npy", "npz", "mat", "h5")
-# Heights from this magnitude on, in any unit of length, mark missing points, such as -1.8e308 in double precision.
+# Formats of plain arrays, with rows along y. The first index of SurfaceTopography runs along x.
+_ARRAY_FORMATS = ("npy", "npz", "mat", "h5")
+# Heights of at least this magnitude, in any unit of length, mark missing points, such as -1.8e308.
 _LARGEST_HEIGHT = 1e30
-# Sides of the field of an instrument in metres: others indicate a wrong unit.
+# Shortest and longest side of the field of an instrument in metres. Other sides indicate a wrong unit.
 _LEAST_SIDE, _LARGEST_SIDE = 1e-8, 1.0
-# Suffixes of many formats: a fault that one of their readers finds is not the cause.
+# Suffixes that several formats use, so that the fault found by one of their readers may not be the cause.
 _SHARED_SUFFIXES = ("asc", "csv", "dat", "txt", "xyz", "zip")
 _NANOMETRES_PER_MILLIMETRE = 1e6
 
@@ -30,15 +30,15 @@ _NANOMETRES_PER_MILLIMETRE = 1e6
 def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
     """Read the Scan in a file of a format that SurfaceTopography recognizes from its contents.
 
-    Gives an AccuracyWarning if other channels hold heights as well, for a periodic surface, and for a field that is
+    An AccuracyWarning is given if other channels hold heights as well, for a periodic surface, and for a field that is
     larger than 1 m or smaller than 10 nm.
 
-    channel : name or number of the channel, from 0; by default the first one of heights. Arrays without a meaning, as
-        MATLAB and HDF5 files hold them, must be chosen if there are several
+    channel : name or number of the channel, from 0; by default the first channel with heights. It is needed for
+        several plain arrays, as in MATLAB and HDF5 files
 
-    Raises a one-line ValueError for files of no known format, line scans and channels that hold no heights.
+    Raises a one-line ValueError for unknown formats, line scans and channels without heights.
     """
-    # The warnings are about optional packages and the layout of files, which no user can change.
+    # Ignore warnings about optional packages and the layout of files, which users cannot change.
     with (
         reading(path, "a file of heights is needed"),
         warnings.catch_warnings(action="ignore"),
@@ -47,13 +47,13 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         if file.format() == "gwy" and not file.channels:
             return _gwyddion_scan(path, file, channel)
         chosen, others = _choose(file, channel)
-        # A size is required also where the file states none; it is not used then.
+        # SurfaceTopography needs a size even if the file states none. It is not used then.
         size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
         topography = chosen.topography(**size)
         heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
         # HDF5 files that MATLAB wrote hold its arrays transposed.
         kind = file.format()
-        if kind not in _OF_ARRAYS or (kind == "h5" and Path(path).suffix.lower() == ".mat"):
+        if kind not in _ARRAY_FORMATS or (kind == "h5" and Path(path).suffix.lower() == ".mat"):
             heights = heights.T
         heights[np.abs(heights) >= _LARGEST_HEIGHT] = np.nan
         unit, spacing = chosen.unit or units.UNKNOWN, chosen.pixel_size
@@ -71,9 +71,9 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 
 
 def _opened(path: FilePath) -> Any:
-    """Return a SurfaceTopography reader of a file: of the format that its contents, or else its suffix, indicate.
+    """Return a SurfaceTopography reader of a file, for the format that its content or its suffix indicates.
 
-    Raises ValueError with the fault that the reader for the suffix finds, or if there is no such reader.
+    Raises ValueError for an unknown format, and with the fault that the reader for the suffix finds.
     """
     try:
         from SurfaceTopography.IO import CannotDetectFileFormat, open_topography, readers
@@ -93,16 +93,16 @@ def _opened(path: FilePath) -> Any:
         if not kinds or suffix in _SHARED_SUFFIXES:
             raise ValueError("no known format") from error
         return open_topography(source, format=kinds[0])
-    if file.format() == "hgt":  # which any file of a suitable size could be
+    if file.format() == "hgt":  # any file of a suitable size could have this format
         raise ValueError("no known format")
     if file.format() in kinds or _maps(file) or not kinds:
         return file
-    file.close()  # a format that many files could have
+    file.close()  # the content suits several formats
     return open_topography(source, format=kinds[0])
 
 
 def _with_plain_revision(path: FilePath) -> Any:
-    """Return the path as text, or the content of an x3p file with a hyphen in its revision in place of a dash."""
+    """Return the path as text, or the content of an x3p file with a hyphen instead of a dash in its revision."""
     if Path(path).suffix.lower() != ".x3p" or not zipfile.is_zipfile(path):
         return str(path)
     content = io.BytesIO()
@@ -117,39 +117,42 @@ def _with_plain_revision(path: FilePath) -> Any:
 
 
 def _maps(file: Any) -> list[Any]:
-    """Return the channels of a file with two dimensions; of plain arrays those with more than one row and column."""
+    """Return the channels of a file that are maps; plain arrays need more than one row and column."""
     maps = [channel for channel in file.channels if channel.dim == 2]
-    return [each for each in maps if file.format() not in _OF_ARRAYS or min(each.nb_grid_pts) > 1]
+    return [each for each in maps if file.format() not in _ARRAY_FORMATS or min(each.nb_grid_pts) > 1]
 
 
-def _choose(file: Any, wanted: str | None) -> tuple[Any, list[str]]:
-    """Return the channel to read, and the names of the other channels of heights if none was asked for."""
+def _choose(file: Any, name: str | None) -> tuple[Any, list[str]]:
+    """Return (channel, names of the other channels with heights).
+
+    name : name or number of the channel; None for the first channel with heights. Others are listed only for None
+    """
     maps = _maps(file)
-    called = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
-    matches = maps if wanted is None else called[:1]
-    of_heights = [channel for channel in matches if _holds_heights(channel)]
+    called = [channel for channel in maps if name in (channel.channel_id, channel.name, str(channel.index))]
+    matches = maps if name is None else called[:1]
+    with_heights = [channel for channel in matches if _holds_heights(channel)]
     names = ", ".join(repr(channel.channel_id) for channel in maps)
     if not maps:
         raise ValueError("it holds no map of two dimensions")
-    if not of_heights:
-        what = "no map of heights" if wanted is None else f"no map of heights is called {wanted!r}"
-        raise ValueError(f"{what}; its maps of two dimensions are {names}")
-    if len(of_heights) > 1 and file.format() in _OF_ARRAYS:
+    if not with_heights:
+        text = "no map of heights" if name is None else f"no map of heights is called {name!r}"
+        raise ValueError(f"{text}; its maps of two dimensions are {names}")
+    if len(with_heights) > 1 and file.format() in _ARRAY_FORMATS:
         raise ValueError(f"it holds several arrays, {names}; {argument('channel')} chooses one")
-    return of_heights[0], [channel.channel_id for channel in of_heights[1:]]
+    return with_heights[0], [channel.channel_id for channel in with_heights[1:]]
 
 
 def _holds_heights(channel: Any) -> bool:
-    """Return True if a channel holds heights, in a unit of length or in none."""
+    """Return True if a channel holds heights, in a unit of length or without a unit."""
     unit = channel.unit
     return channel.is_height_channel and (unit is None or (isinstance(unit, str) and units.is_length(unit)))
 
 
 def _nms_spacing(spacing: tuple[float, float], unit: str, shape: tuple[int, ...]) -> tuple[float, float]:
-    """Return the spacing of a NanoFocus file, whose header has it in nanometres or in millimetres.
+    """Return the spacing of a NanoFocus file, whose header states it in nanometres or in millimetres.
 
-    SurfaceTopography reads millimetres. Fields of confocal microscopes are far below 1 m, and a spacing in nanometres
-    gives one far above it.
+    SurfaceTopography assumes millimetres. Fields of confocal microscopes are far smaller than 1 m, and a spacing in
+    nanometres that is read as millimetres gives a field far above 1 m.
     """
     if max(np.multiply(spacing, shape[::-1])) * units.metres(unit) <= _LARGEST_SIDE:
         return spacing
@@ -165,18 +168,21 @@ def _check_field(path: FilePath, spacing: tuple[float, float], unit: str, shape:
         warnings.warn(f"{path}: {text}: check the unit of the spacing", AccuracyWarning, stacklevel=3)
 
 
-# ---- Gwyddion fields without a unit of heights or of lengths, which SurfaceTopography leaves out
+# ---- Gwyddion fields without a unit of heights or lengths, which SurfaceTopography ignores
 
 
-def _gwyddion_scan(path: FilePath, file: Any, wanted: str | None) -> Scan:
-    """Return the Scan of a Gwyddion field whose heights or lengths have no unit; a size without a unit is no size."""
+def _gwyddion_scan(path: FilePath, file: Any, name: str | None) -> Scan:
+    """Return the Scan of a Gwyddion field whose heights or lengths have no unit; a size without a unit is ignored.
+
+    name : name or number of the field; needed if there are several
+    """
     content = file._metadata
     numbers = [match[1] for match in map(re.compile(r"/(\d+)/data").fullmatch, content) if match]
     names = {number: content.get(f"/{number}/data/title", number) for number in numbers}
     maps = {number: content[f"/{number}/data"]["GwyDataField"] for number in numbers}
     units_of = {number: tuple(_gwyddion_unit(maps[number], axes) for axes in ("z", "xy")) for number in numbers}
     fields = [each for each in numbers if units_of[each][0] == units.UNKNOWN or units.is_length(units_of[each][0])]
-    chosen = [each for each in fields if wanted in (None, each, names[each])]
+    chosen = [each for each in fields if name in (None, each, names[each])]
     if not fields:
         raise ValueError("it holds no map of heights")
     if len(chosen) != 1:
@@ -193,11 +199,11 @@ def _gwyddion_scan(path: FilePath, file: Any, wanted: str | None) -> Scan:
 
 
 def _gwyddion_unit(field: dict[str, Any], axes: str) -> str:
-    """Return the unit of a Gwyddion field; "1" for none."""
+    """Return the unit of a Gwyddion field, "1" if it has none."""
     return field.get(f"si_unit_{axes}", {}).get("GwySIUnit", {}).get("unitstr", "").strip() or units.UNKNOWN
 
 
 def _gwyddion_numbers(path: FilePath, field: dict[str, Any]) -> Array:
-    """Return the numbers of a Gwyddion field, shape (rows, columns): double precision, after their count."""
+    """Return the numbers of a Gwyddion field, stored in double precision after their count, shape (rows, columns)."""
     shape = field["yres"], field["xres"]
     return np.fromfile(path, "<f8", shape[0] * shape[1], offset=field["data"]["offset"] + 4).reshape(shape)

@@ -1,4 +1,4 @@
-"""Media in YAML files: one mapping with the kind of medium and its parameters."""
+"""Read and write media as YAML files: one mapping with the kind of medium and its parameters."""
 
 import contextlib
 import dataclasses
@@ -20,7 +20,7 @@ from viscorough.viscous import media
 from viscorough.viscous.identification import IdentifiedMedium
 from viscorough.viscous.medium import Medium
 
-# Kinds of media. The keys of each are the parameters of its class, but for the table, which is in a file.
+# Classes of media by kind. The keys of a kind are the parameters of its class; a creep table is in a separate file.
 KINDS: dict[str, Any] = {
     "newtonian": media.Newtonian,
     "maxwell": media.Maxwell,
@@ -30,7 +30,7 @@ KINDS: dict[str, Any] = {
     "springpot": media.Springpot,
     "creep_table": media.CreepTable,
 }
-# Columns of the table of an identified medium, if the depth was measured and if the force was.
+# Columns of the table of an identified medium: common ones, and further ones by the measured quantity.
 _COMPLIANCE: dict[str, tuple[str, int | str]] = {
     "time": ("time since a step of the force", "s"),
     "compliance": ("creep compliance J", "1/Pa"),
@@ -52,16 +52,17 @@ _LARGEST_FILE = 1_000_000  # bytes
 
 
 def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
-    """The medium in a YAML file, which holds one mapping as `medium_from_mapping` takes it.
+    """Read a medium from a YAML file with one mapping: its kind and its parameters.
 
-    The file of a creep table is relative to the YAML file.
+    The path of a creep table is relative to the YAML file.
 
     Parameters
     ----------
     path : path
-        The YAML file.
+        YAML file. `viscorough kinetics --help` lists the kinds of media and their keys.
     length_unit : str, optional
-        Of the indenter; where it is known, values are converted to Pa and s.
+        Unit of length of the indenter, such as "um". Values are then in Pa and s, or have units. By default all values
+        are plain numbers in consistent units.
 
     Returns
     -------
@@ -70,7 +71,7 @@ def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
     Raises
     ------
     ValueError
-        In one line, with the file and what is wrong.
+        For a missing or damaged file, an unknown kind or key, and values out of range. The message has one line.
 
     Examples
     --------
@@ -88,16 +89,17 @@ def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
 
 
 def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, folder: Path = Path()) -> Medium:
-    """The medium of a mapping, in SI units where the unit of length of the indenter is known.
+    """Return the medium that a mapping describes.
 
-    mapping : `kind`, one of KINDS, and all parameters of that kind; Young's moduli (media.YOUNG), with the optional key
-        `poisson`, may stand in for the moduli. Where the unit of length is known, plain moduli are in
-        Pa, viscosities in Pa s and times in s, and any of them may be given with a unit ("2 MPa"), but for the
-        springpot's; where it is "1", plain numbers are in consistent units of the user's choice, and no others are
-        allowed. A creep table names a file of two columns, times and compliances, in s and 1/Pa or in the units that
-        its heading states, relative to `folder`
+    mapping : `kind`, one of KINDS, and all parameters of this kind. Young's moduli (media.YOUNG) may replace the moduli
+        in shear; `poisson` is then an optional key. The key `file` of a creep table names a file with the columns time
+        and compliance, in s and 1/Pa or in the units of its heading
+    length_unit : unit of length of the indenter. If it is known, plain moduli are in Pa, viscosities in Pa s and times
+        in s, and values may have units ("2 MPa"), except for a springpot. If it is "1", all values are plain numbers in
+        consistent units of the user's choice
+    folder : folder that the file of a creep table is relative to
 
-    Raises a one-line ValueError that says what is wrong.
+    Raises a one-line ValueError for an unknown kind or key, missing keys, and values out of range.
     """
     kind = mapping.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
@@ -119,25 +121,26 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
 
 
 def creep_table_of(path: FilePath) -> Path | None:
-    """The file that a medium in a YAML file names, which may be missing; None for a medium without one."""
+    """Return the path of the creep table that a YAML file names, which may not exist; None for other media."""
     name = _mapping(path).get("file")
     return Path(path).parent / name if isinstance(name, str) and name and "\0" not in name else None
 
 
 def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: Any) -> None:
-    """Write an IdentifiedMedium as YAML for `read_medium`, atomically; of a creep table, J stands in a table beside it.
+    """Write an IdentifiedMedium as YAML for `read_medium`, atomically.
 
-    The table, with the suffix .csv, has the columns time, compliance, and the ends of its interval, low and high, which
-    are empty if the scatter of the record is unknown.
+    A creep table is written to a second file in the same folder, with the suffix .csv. It has the columns time,
+    compliance, and low and high, the ends of the interval of the compliance, which are empty if the scatter of the
+    record is unknown.
 
     Parameters
     ----------
     identified : IdentifiedMedium
-        What `identify_medium` returned.
+        Result of `identify_medium`.
     path : path
-        File to write or replace.
+        YAML file to write or replace.
     **attributes : Any
-        What else the table says above its columns.
+        Further attributes of the table.
 
     Raises
     ------
@@ -173,7 +176,7 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
 
 
 def identified_to_content(identified: IdentifiedMedium) -> Content:
-    """Return the compliance of an IdentifiedMedium and the ends of its interval as a Content over time."""
+    """Convert an IdentifiedMedium to a Content: compliance and the ends of its interval over time."""
     quantities = _TABLES[identified.measured]
     values = {name: getattr(identified, name) for name in quantities}
     variables = described(("level",), values, quantities, identified.length_unit)
@@ -181,7 +184,7 @@ def identified_to_content(identified: IdentifiedMedium) -> Content:
 
 
 def check_medium_file(path: FilePath) -> Path:
-    """Path of the table beside a file of a medium. Raises ValueError for other suffixes than .yaml and .yml."""
+    """Return the path of the creep table of a YAML file. Raises ValueError for suffixes other than .yaml and .yml."""
     check_suffix(path, MEDIA)
     return Path(path).with_suffix(".csv")
 
@@ -204,12 +207,12 @@ def _mapping(path: FilePath) -> dict[str, Any]:
 
 
 def _values(key: str, value: object, length_unit: str) -> Any:
-    """A value for the class of a medium, which converts units, or a list of them."""
+    """Convert a value of a mapping, or a list of values, to an argument of the class of a medium."""
     if isinstance(value, list):
         return [_values(f"{key}[{i}]", entry, length_unit) for i, entry in enumerate(value)]
     if isinstance(value, str):
         with contextlib.suppress(ValueError):
-            return float(value)  # YAML takes 1e6, without a point, for a text
+            return float(value)  # YAML reads 1e6, without a point, as a text
         if length_unit == "1":
             text = "allowed: a plain number, since the unit of length is not known"
             raise ValueError(f"{key}: {repr(value)[:60]}; {text}")

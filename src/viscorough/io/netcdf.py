@@ -1,4 +1,4 @@
-"""CF NetCDF files read and written with netCDF4 alone, since xarray (`io.datasets`) takes long to import."""
+"""Read and write CF NetCDF files with netCDF4 alone, since xarray (`io.datasets`) takes long to import."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -16,14 +16,15 @@ from viscorough.io.unpacking import STORAGE, unpacked
 from viscorough.summaries import si_unit, unit_power
 from viscorough.types import Array, FilePath
 
-# {name of a variable: (long_name, unit)}, the unit being a power of that of length, "time", which is in s in any case,
-# "velocity", or an SI unit, such as "N", which is "1" where the unit of length is not known.
+# {name of a variable: (long_name, unit)}. The unit is a power of the unit of length, "time" (always in s), "velocity",
+# or an SI unit such as "N", which becomes "1" if the unit of length is not known.
 Quantities = Mapping[str, tuple[str, int | str]]
-COMPRESSED_FROM = 4096  # number of values; for fewer, chunks cost more than compression saves
+# Compress variables of at least so many values: for fewer, chunks cost more than compression saves.
+COMPRESSED_FROM = 4096
 
 
 class Variable(NamedTuple):
-    """A variable of a NetCDF file: names of its dimensions, array of values, attributes {name: value}."""
+    """Variable of a NetCDF file: names of its dimensions, array of values, attributes {name: value}."""
 
     dimensions: tuple
     values: np.ndarray
@@ -31,9 +32,9 @@ class Variable(NamedTuple):
 
 
 class Content(NamedTuple):
-    """The content of a NetCDF file: variables {name: Variable} and global attributes {name: value}.
+    """Content of a NetCDF file: variables {name: Variable} and global attributes {name: value}.
 
-    path : of the file that was read, for error messages
+    path : path of the file that was read, for error messages; None for other contents
     """
 
     variables: dict[str, Variable]
@@ -41,14 +42,14 @@ class Content(NamedTuple):
     path: FilePath | None = None
 
     def with_attributes(self, **attributes: Any) -> "Content":
-        """The same variables, with global attributes added or replaced."""
+        """Return the content with global attributes added or replaced."""
         return self._replace(attributes=self.attributes | attributes)
 
 
 def described(
     dimensions: tuple[str, ...], values: Mapping[str, Any], quantities: Quantities, length_unit: str
 ) -> dict[str, Variable]:
-    """Variables over the same dimensions, each with the long_name and the unit of the quantity of its name."""
+    """Return variables over the same dimensions, each with the long_name and the unit of its quantity."""
     spelled: dict[int | str, str] = {power: unit_power(length_unit, power) for power in (0, 1, 2)}
     spelled |= {"time": "s", "velocity": "s-1" if length_unit == "1" else f"{length_unit} s-1"}
     variables = {}
@@ -60,7 +61,7 @@ def described(
 
 
 def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: str) -> dict[str, Variable]:
-    """Coordinates of the points of a map or line, by dimension; they count from the centre."""
+    """Return the coordinates of the points of a map or line by dimension, counted from the centre."""
     axes = {}
     for (name, spacing), points in zip(spacings.items(), shape, strict=True):
         positions = spacing * (np.arange(points) - (points - 1) / 2)
@@ -69,7 +70,7 @@ def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: st
 
 
 def padded(rows: Sequence[Array]) -> Array:
-    """Rows of numbers as one array, nan beyond the end of those that are shorter than the longest."""
+    """Combine rows of numbers to one array, with nan beyond the ends of shorter rows."""
     table = np.full((len(rows), max(map(len, rows))), np.nan)
     for whole, row in zip(table, rows, strict=True):
         whole[: len(row)] = row
@@ -77,21 +78,21 @@ def padded(rows: Sequence[Array]) -> Array:
 
 
 def global_attributes() -> dict[str, str]:
-    """The attributes that every file gets; nothing in them depends on when or where it is written."""
+    """Return the attributes of every file; they do not depend on the time and place of writing."""
     program = f"viscorough {__version__}"
     return {"Conventions": "CF-1.11", "source": program, "history": f"written by {program}"}
 
 
 def compression(size: int) -> dict[str, Any]:
-    """Keyword arguments of netCDF4 that compress a variable of `size` values; none if it is small."""
+    """Return the arguments of netCDF4 that compress a variable of `size` values; small variables are not compressed."""
     return {"zlib": True, "complevel": 4, "shuffle": True} if size >= COMPRESSED_FROM else {}
 
 
 @contextmanager
 def written_with_digest(path: FilePath) -> Iterator[Path]:
-    """Context that yields a temporary path for a NetCDF file with global_attributes, which then replaces `path`.
+    """Yield a temporary path for a NetCDF file with global_attributes, which then replaces `path`.
 
-    Adds the digest of its content (io.digest), which `opened` checks. Raises what atomic_write raises.
+    The file gets the digest of its content (io.digest), which `opened` checks. Raises the errors of atomic_write.
     """
     with atomic_write(path) as temporary:
         yield temporary
@@ -100,10 +101,11 @@ def written_with_digest(path: FilePath) -> Iterator[Path]:
 
 
 def write(content: Content, path: FilePath) -> None:
-    """Write a Content of numbers as CF-1.11 NetCDF, atomically; nan is the fill value.
+    """Write a Content as CF-1.11 NetCDF, atomically; nan is the fill value.
 
-    Every variable needs the attribute `long_name`, and `units` unless it holds text. Adds global_attributes and a
-    digest, and compresses large arrays. Raises ValueError for a path that cannot be written, OSError if writing fails.
+    Every variable needs the attribute `long_name`, and `units` unless it holds text. The file gets global_attributes
+    and a digest, and large arrays are compressed. Raises ValueError for a path that cannot be written, OSError if
+    writing fails.
     """
     with written_with_digest(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
         file.setncatts(content.attributes | global_attributes())
@@ -122,9 +124,9 @@ def write(content: Content, path: FilePath) -> None:
 
 @contextmanager
 def opened(path: FilePath, *, checked: bool = True) -> Iterator[netCDF4.Dataset]:
-    """Context that yields the netCDF4.Dataset of a file; any fault of the file becomes a one-line ValueError.
+    """Yield the netCDF4.Dataset of a file. Every fault of the file becomes a one-line ValueError.
 
-    checked : whether to read the whole file and refuse it if its content does not have the digest in it (io.digest)
+    checked : True to read the whole file, and to refuse it if its content does not match its digest (io.digest)
     """
     with reading(path, "a whole NetCDF file is needed"), netCDF4.Dataset(path) as file:
         if checked:
@@ -140,7 +142,7 @@ def read(path: FilePath) -> Content:
     with opened(path) as file:
         variables = {}
         for name, variable in file.variables.items():
-            # Not those of its storage, which reading undoes.
+            # Attributes of the storage do not apply to unpacked values.
             attributes = {key: variable.getncattr(key) for key in variable.ncattrs() if key not in STORAGE}
             variables[name] = Variable(variable.dimensions, read_only(unpacked(variable)), attributes)
         return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()}, path)

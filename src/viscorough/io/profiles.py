@@ -1,6 +1,6 @@
-"""Heights of a profile, along a line, in text files: heights alone, or positions x and heights z in columns or rows.
+"""Read profiles from text files: heights along a line, with or without positions x, in columns or rows.
 
-Delimiters, decimal marks, marks of missing values, comments and headers are those of maps (io.text, io.headers).
+Delimiters, decimal marks, missing values, comments and headers are read as in maps (io.text, io.headers).
 """
 
 import re
@@ -14,25 +14,28 @@ from viscorough.io.scan import Scan
 from viscorough.io.text import Table, decoded_lines, is_own_table, parsed
 from viscorough.types import Array, FilePath
 
-_LEAST_POINTS = 3  # two rows of two numbers may be x and z in rows or in columns
-_STEPS_AGREE = 1e-3  # relative difference up to which positions agree with the spacing in a header
+# A profile has at least so many points: in two rows of two numbers, x and z could be rows or columns.
+_LEAST_POINTS = 3
+# Relative difference up to which positions agree with the spacing in a header.
+_STEPS_AGREE = 1e-3
 
 
 def read_profile(path: FilePath) -> Scan:
     """Read the Scan, with heights of shape (points,), in a text file; points are in increasing order of x.
 
-    A table of one column or row holds heights, a table of two columns or rows x and z. Under a heading that names x
-    and z, columns may have another order, and others are left out. Positions without a unit and a name that count from
-    0 or 1 are numbers of the points, and state no spacing.
+    A single column or row holds heights; two columns or rows hold x and z. If a heading names x and z, columns may have
+    any order, and others are ignored. Positions 0, 1, 2, … or 1, 2, 3, … without a unit and a name are numbers of the
+    points, and state no spacing.
 
-    Raises a one-line ValueError if the file holds no profile, or none for certain.
+    Raises a one-line ValueError if the file does not certainly hold a profile.
     """
     lines = decoded_lines(path)
     table = parsed(lines)
     texts = [*table.header, *table.comments]
     rows, count = table.values.shape
     points = count if rows <= 2 else rows
-    unit, stated, lateral_unit, columns = read_header(texts, (1, points), table.decimal, profile_columns=count)
+    header = read_header(texts, (1, points), table.decimal, profile_columns=count)
+    columns = header.columns
     if table.esri or (is_own_table(lines) and columns is None):
         raise ValueError("the file holds no heights along a line; one column, or columns x and z, are needed")
     if table.separated:
@@ -41,20 +44,20 @@ def read_profile(path: FilePath) -> Scan:
     if missing := np.count_nonzero(np.isnan(heights)):
         text = f"{missing} of {heights.size} heights are missing"
         raise ValueError(f"{text}; every point of a line needs a height, so cut it or fill the gaps first")
-    step = float("nan") if stated is None else stated[0]
-    if x is not None and not (columns is None and lateral_unit == units.UNKNOWN and _counts_points(x)):
+    step = float("nan") if header.spacing is None else header.spacing[0]
+    if x is not None and not (columns is None and header.lateral_unit == units.UNKNOWN and _counts_points(x)):
         spacing = _spacing(x)
         if abs(step - spacing) > _STEPS_AGREE * spacing:
             text = f"spacing {step:g} in the header, {spacing:g} between positions x"
             raise ValueError(f"{text}; statements that agree are needed")
         step, heights = spacing, heights if x[0] < x[-1] else heights[::-1]
-    return Scan(heights, unit, None if np.isnan(step) else (step, step), lateral_unit)
+    return Scan(heights, header.unit, None if np.isnan(step) else (step, step), header.lateral_unit)
 
 
 def holds_profile(path: FilePath) -> bool:
-    """Return True if a text file holds a profile rather than a map: one or two rows or columns, or headed x and z.
+    """Return True if a text file holds a profile and not a map: one or two rows or columns, or a heading of x and z.
 
-    Raises a one-line ValueError if it holds no table, or none for certain.
+    Raises a one-line ValueError if the file does not certainly hold a table.
     """
     lines = decoded_lines(path)
     if lines[0].startswith("Zygo XYZ Data File") or str(path).lower().endswith(".xyz"):
@@ -66,7 +69,9 @@ def holds_profile(path: FilePath) -> bool:
 
 
 def _positions_and_heights(table: Table, columns: tuple[str, ...] | None) -> tuple[Array | None, Array]:
-    """(x, or None if the table has none; heights) of a table whose columns may be named.
+    """Return (positions x or None, heights) of a table.
+
+    columns : names of the columns; None if they have no heading
 
     Raises ValueError for a table of another shape, and for columns whose meaning is not certain.
     """
@@ -86,7 +91,7 @@ def _positions_and_heights(table: Table, columns: tuple[str, ...] | None) -> tup
 
 
 def _check_not_named(table: Table) -> None:
-    """Raise ValueError if the line above the first row names two columns that are not known as x and z."""
+    """Raise ValueError if the line above the first row names two columns other than x and z."""
     filled = [line for line in table.header if line.strip()]
     line = filled[-1].strip("#%/;!| \t") if filled else ""
     names = [name.strip(' "') for name in line.split(table.delimiter)]
@@ -95,7 +100,7 @@ def _check_not_named(table: Table) -> None:
 
 
 def _counts_points(x: Array) -> bool:
-    """Return True if positions are the numbers of the points, from 0 or 1."""
+    """Return True if positions are 0, 1, 2, … or 1, 2, 3, …."""
     return any(np.array_equal(x, np.arange(first, first + x.size)) for first in (0, 1))
 
 

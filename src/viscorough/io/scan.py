@@ -1,4 +1,4 @@
-"""What a file states about a measured surface, and how that becomes an indenter."""
+"""Convert the heights, spacings and units that a file states to an indenter."""
 
 from typing import Any, NamedTuple
 
@@ -10,20 +10,22 @@ from viscorough.indenter import Indenter, positive
 from viscorough.types import Array
 
 Distance = float | units.Quantity
-_AGREEMENT = 1e-3  # relative difference up to which a spacing that is given agrees with the file's
-_UNIFORMITY = 1e-2  # deviation from equal spacing that rounding of coordinates may cause, relative to the spacing
+# Relative difference up to which a given spacing agrees with the spacing in the file.
+_AGREEMENT = 1e-3
+# Deviation from equal spacing that rounding of coordinates may cause, relative to the spacing.
+_UNIFORMITY = 1e-2
 
 
 class Scan(NamedTuple):
-    """A map of heights as its file states it; rows are along y, columns along x, larger is higher.
+    """Heights as a file states them; rows of a map are along y, columns along x, larger is higher.
 
-    heights : shape (rows, columns), nan or masked where nothing was measured
-    unit : of the heights, as in the file; "1" if the file states none
-    spacing : (dx, dy), distances between neighbouring columns and rows; None if the file states none, nan for a
-        direction of which it states none
-    spacing_unit : of the spacing, or of lengths along x and y, as in the file; "1" if the file states none
-    corners : (left, bottom, right, top), x and y of the outermost points, in no stated unit, in a format that holds
-        longitudes and latitudes as well; nan where the file states none, None for other formats
+    heights : shape (rows, columns), or (points,) for a line; nan or masked at points that were not measured
+    unit : unit of the heights, as in the file; "1" if the file states none
+    spacing : (dx, dy), distances between neighbouring columns and rows; nan for a direction that is not stated, None if
+        neither is
+    spacing_unit : unit of the spacing, or of positions x and y, as in the file; "1" if the file states none
+    corners : (left, bottom, right, top), x and y of the outermost points in a format without units that may hold
+        longitudes and latitudes; nan if the file does not state them, None for other formats
     """
 
     heights: np.ndarray
@@ -41,17 +43,18 @@ def to_indenter(
     *,
     dimensions: int = 2,
 ) -> Indenter:
-    """The Indenter of a Scan: heights in their unit, spacings converted to it.
+    """Convert a Scan to an Indenter: heights in their unit, spacings converted to it.
 
-    spacing : one distance, or (dx, dy), each a number in the unit of the heights, or what viscorough.units.with_unit
-        takes; needed where the file states none, must agree with the file's
-    unit : of the heights, and of a spacing without one, needed where the file states none; must agree with the file's
-    lateral_unit : of the file's spacing, and of a spacing without one, where it is not the unit of the heights; must
-        agree with the file's
-    dimensions : of the heights, 2 of a map or 1 of a line
+    spacing : one distance, or (dx, dy), each a number in the unit of the heights or a quantity for units.with_unit;
+        needed if the file states none, must agree with the file otherwise
+    unit : unit of the heights, and of a spacing in plain numbers; needed if the file states none, must agree with the
+        file otherwise
+    lateral_unit : unit of the spacing in the file, and of a spacing in plain numbers, if it is not the unit of the
+        heights; must agree with the file
+    dimensions : 2 for a map, 1 for a line
 
-    Raises ValueError where file and arguments contradict each other, where something is missing, for a unit that is
-    not one of length, for coordinates that may be degrees, and for heights that Indenter refuses.
+    Raises ValueError if file and arguments contradict each other, if spacing or unit is missing, for a unit that is not
+    a unit of length, for coordinates that may be degrees, and for heights that Indenter refuses.
     """
     if scan.heights.ndim != dimensions:
         needed = "a line" if dimensions == 1 else "a two-dimensional map"
@@ -95,9 +98,9 @@ def _may_be_degrees(left: float, bottom: float, right: float, top: float) -> boo
 
 
 def _given_spacing(scan: Scan, length_unit: str, spacing: Any, plain_unit: str | None) -> tuple[float, ...]:
-    """A given spacing as (dx, dy), in the unit of the heights.
+    """Convert a given spacing to (dx, dy) in the unit of the heights.
 
-    plain_unit : of numbers without a unit; None for the unit of the heights
+    plain_unit : unit of plain numbers; None for the unit of the heights
     """
     pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
     if len(pair) != 2:
@@ -114,14 +117,14 @@ def _given_spacing(scan: Scan, length_unit: str, spacing: Any, plain_unit: str |
 
 
 def _in_unit(distance: Any, unit: str) -> units.Quantity:
-    """A distance, which has this unit if it is a plain number."""
+    """Return a distance as a Quantity; a plain number gets the unit."""
     if isinstance(distance, units.Quantity):
         return distance if distance.unit else units.Quantity(distance.number, unit)
     return units.Quantity(positive(argument("spacing"), distance), unit)
 
 
 def _unit_of_heights(scan: Scan, given: str | None) -> str:
-    """The unit of the heights, stated by the file or given; "1" if it is not known."""
+    """Return the unit of the heights, from the file or the argument; "1" if it is not known."""
     try:
         _stated_unit(scan.unit)
     except ValueError as error:
@@ -131,12 +134,12 @@ def _unit_of_heights(scan: Scan, given: str | None) -> str:
 
 
 def _stated_unit(in_file: str) -> str | None:
-    """The unit of length that a file states, None if it states none. Raises ValueError for other units."""
+    """Return the unit of length that a file states, or None. Raises ValueError for other units."""
     return None if in_file.strip() in ("", units.UNKNOWN) else units.length_unit(in_file)
 
 
 def _agreed_unit(name: str, lengths: str, in_file: str, given: str | None) -> str:
-    """The unit of lengths, stated by the file or given by an argument, which must agree; "1" if it is not known."""
+    """Return the unit of lengths, from the file or the argument, which must agree; "1" if it is not known."""
     stated = _stated_unit(in_file)
     given = None if given is None or given == units.UNKNOWN else units.length_unit(given)
     if stated and given and units.metres(stated) != units.metres(given):
@@ -147,9 +150,9 @@ def _agreed_unit(name: str, lengths: str, in_file: str, given: str | None) -> st
 
 
 def _stated_spacing(scan: Scan, length_unit: str, is_given: bool) -> tuple[float, ...]:
-    """The spacing (dx, dy) that the file states, in the unit of the heights; nan where it states none.
+    """Return the spacing (dx, dy) that the file states, in the unit of the heights; nan if it states none.
 
-    is_given : whether a spacing is given, which then stands for one without a unit
+    is_given : True if the user gives a spacing, which then replaces a spacing without a unit in the file
     """
     if scan.spacing is None:
         return np.nan, np.nan
@@ -168,13 +171,13 @@ def _stated_spacing(scan: Scan, length_unit: str, is_given: bool) -> tuple[float
 
 
 def uniform_spacing(name: str, positions: Array) -> float:
-    """The distance between equally spaced positions, in either direction.
+    """Return the distance between equally spaced positions, which may rise or fall.
 
-    Raises ValueError unless there are at least two, and their distances are equal, as far as their precision tells.
+    Raises ValueError for fewer than two positions, and for distances that differ by more than rounding explains.
     """
     positions = np.ma.filled(np.ma.asarray(positions).astype(float), np.nan)
     if positions.size < 2:
-        raise ValueError(f"coordinate {name} has {positions.size} position; at least two are needed to tell a spacing")
+        raise ValueError(f"coordinate {name} has {positions.size} position; at least two are needed for a spacing")
     if not np.isfinite(positions).all():
         raise ValueError(f"coordinate {name} is not finite everywhere; equally spaced numbers are needed")
     with np.errstate(over="ignore"):

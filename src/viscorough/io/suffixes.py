@@ -1,4 +1,4 @@
-"""Suffixes of the files that are written, with their kinds, and the check of a name before anything is computed."""
+"""Suffixes of output files with the kinds of files, and their check before anything is computed."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # numpy, which it imports, takes long
+if TYPE_CHECKING:  # types imports numpy, which takes long
     from viscorough.types import FilePath
 
 RESULTS = {".nc": "NetCDF", ".csv": "table"}
@@ -16,7 +16,7 @@ FIGURES = {".png": "picture", ".pdf": "drawing", ".svg": "drawing"}
 
 
 def check_suffix(path: FilePath, allowed: Mapping[str, str]) -> str:
-    """Return the suffix of a file in small letters. Raises ValueError unless it is allowed.
+    """Return the suffix of a file in lower case. Raises ValueError unless it is allowed.
 
     allowed : {suffix: kind of file}, such as RESULTS
     """

@@ -1,8 +1,8 @@
-"""Tables as CSV: what a NetCDF file with one dimension holds, for spreadsheets and other programs.
+"""Write the content of a NetCDF file with one dimension as a CSV table, for spreadsheets and other programs.
 
 The first lines start with "#": a line "# name: value" for each global attribute, with texts in quotation marks, and a
-line "# column name: meaning" for each column. Then come a header with the names of the columns, each with its unit in
-parentheses, and a row for each level, in full precision. Where a value is missing, the field is empty.
+line "# column name: meaning" for each column. Then follow a header with the names and units of the columns, such as
+"depth (um)", and a row for each level, in full precision. The field of a missing value is empty.
 """
 
 import csv
@@ -16,9 +16,9 @@ from viscorough.types import FilePath
 
 
 def write(content: Content, path: FilePath) -> None:
-    """Write a Content, whose variables share one dimension, as CSV, atomically.
+    """Write a Content whose variables share one dimension as CSV, atomically.
 
-    Raises ValueError for other contents and a path that cannot be written, OSError if writing fails.
+    Raises ValueError for other contents and for a path that cannot be written, OSError if writing fails.
     """
     columns = content.variables
     dimensions = {variable.dimensions for variable in columns.values()}

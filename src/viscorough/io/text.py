@@ -1,12 +1,12 @@
-"""Maps of heights in text files: matrices, ESRI ASCII grids, and columns x, y, z of the points of a grid.
+"""Read maps of heights from text files: matrices, ESRI ASCII grids, and columns x, y, z of the points of a grid.
 
-A table of one or two rows or columns may be a profile (io.profiles). It is a map only if the user gives the distances
+A table of one or two rows or columns may be a profile (io.profiles). It is a map only if the user gives the spacings
 in both directions.
 
-Lines before the first row of numbers are a header, and lines that start with #, %, //, ! or ; are comments; ; starts a
-row where semicolons delimit the table. What they state about spacing and units is used (io.headers). A file is refused
-where its delimiter, its decimal mark or the number of its cells is not certain: every row has the same number of cells,
-and nothing is left out but comments.
+Lines before the first row of numbers are a header. Lines that start with #, %, //, ! or ; are comments, but a ; starts
+a row if semicolons delimit the table. Header and comments may state spacing and units (io.headers). Every row has the
+same number of cells, and only comments are left out. A file is refused if its delimiter, its decimal mark or the number
+of its cells is not certain.
 """
 
 import io
@@ -32,28 +32,33 @@ _MISSING = (
 _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
 _ALMOST_A_NUMBER = re.compile(rf"[^\w\s]*\s?\d.*|{_MISSING}", re.IGNORECASE)
-_HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # not that of a mark such as #N/A or #DIV/0!
+_HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # but not in marks such as #N/A or #DIV/0!
 _COMMENT = re.compile(rf"[ \t]*(?:[%;!]|//|{_HASH})", re.IGNORECASE)
 _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
-_QUOTED = re.compile(r'"([^".]*|[^",]*)"')  # commas are decimal, without points beside them
+_QUOTED = re.compile(r'"([^".]*|[^",]*)"')  # its commas are decimal marks, if it has no points
 _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
-_PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
+# Characters of numbers and delimiters. Other characters in the rows are marks of missing points.
+_PLAIN = b"0123456789.,;+-eE \t\n"
 _ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
-_CONTROLS = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))  # characters that no text holds; \x1a ends it under DOS
-_LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
-_LEAST_POSITIONS = 10  # the same for numbers that rise, or fall, in any steps
-_MOST_OF_PROFILES = 4  # columns of a table that may be x, z, a second quantity, and a number
+# Characters that no text contains. Under DOS, \x1a ends a text.
+_CONTROLS = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))
+# At least so many numbers in equal steps are taken for positions rather than heights.
+_LEAST_LABELS = 6
+# The same for numbers that rise or fall in any steps.
+_LEAST_POSITIONS = 10
+# A profile has at most so many columns: x, z, a second quantity, and the number of the point.
+_MOST_PROFILE_COLUMNS = 4
 
 
 class Table(NamedTuple):
-    """The numbers in a text file, and the lines that are no rows of numbers.
+    """Numbers in a text file, and its other lines.
 
-    values : shape (rows, columns); missing values are nan
+    values : numbers of the rows, shape (rows, columns); missing values are nan
     header : lines above the first row
     comments : lines between and below the rows
-    delimiter, decimal : of the rows; the delimiter is None for white space
-    separated : number of the first line that empty lines separate from the rows above; 0 if there is none
+    delimiter, decimal : delimiter of the cells, None for white space, and decimal mark
+    separated : number of the first row that empty lines separate from the rows above; 0 if there is none
     esri : keys of an ESRI grid and their numbers; empty for other files
     """
 
@@ -67,12 +72,12 @@ class Table(NamedTuple):
 
 
 def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
-    """The Scan in a text file.
+    """Read the Scan in a text file.
 
-    is_map : whether the user stated that the table is a map; else one of at most two rows or columns is refused as a
-        profile, unless it is an ESRI grid
+    is_map : True if the user stated that the table is a map; otherwise a table of one or two rows or columns is refused
+        as a profile, unless it is an ESRI grid
 
-    Raises a one-line ValueError if the file holds no map of heights, or none for certain.
+    Raises a one-line ValueError if the file does not certainly hold a map of heights.
     """
     lines = decoded_lines(path)
     if lines[0].startswith("Zygo XYZ Data File"):
@@ -82,24 +87,23 @@ def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
     table = parsed(lines)
     if table.esri:
         return _esri_scan(table.values, table.esri)
-    unit, spacing, lateral_unit, columns = read_header(
-        [*table.header, *table.comments], table.values.shape, table.decimal
-    )
-    points = table.values if columns is None else table.values[:, [columns.index(name) for name in "xyz"]]
-    grid = _grid(points, spacing, required=columns is not None or str(path).lower().endswith(".xyz"))
+    header = read_header([*table.header, *table.comments], table.values.shape, table.decimal)
+    names = header.columns
+    points = table.values if names is None else table.values[:, [names.index(name) for name in "xyz"]]
+    grid = _grid(points, header.spacing, required=names is not None or str(path).lower().endswith(".xyz"))
     if grid is not None:
         heights, spacing = grid
-        return Scan(heights, unit, spacing, lateral_unit)
+        return Scan(heights, header.unit, spacing, header.lateral_unit)
     if not is_map:
         _check_not_profile(table.values.shape)
     if table.separated:
         raise ValueError(f"line {table.separated}: empty lines separate it from the rows above; one map is needed")
     _check_positions(table.values)
-    return Scan(table.values, unit, spacing, lateral_unit)
+    return Scan(table.values, header.unit, header.spacing, header.lateral_unit)
 
 
 def parsed(lines: Sequence[str]) -> Table:
-    """The Table in the lines of a file. Raises a one-line ValueError if there is none, or none for certain."""
+    """Return the Table in the lines of a file. Raises a one-line ValueError unless they certainly hold a table."""
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
         almost = [f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)]
@@ -120,13 +124,13 @@ def is_own_table(lines: Sequence[str]) -> bool:
 
 
 def is_binary(path: FilePath) -> bool:
-    """Whether a file cannot be text: it has control characters. Raises a one-line ValueError if it cannot be read."""
+    """Return True if a file has control characters, unlike text. Raises a one-line ValueError if it is unreadable."""
     start = _content(path, 4096)
     return len(start.translate(None, _CONTROLS)) < len(start) and _utf16(start) is None
 
 
 def _utf16(start: bytes) -> str | None:
-    """The encoding of UTF-16 text, with or without a byte order mark; None for other text."""
+    """Return the encoding of UTF-16 text, with or without a byte order mark; None for other text."""
     if start.startswith((b"\xff\xfe", b"\xfe\xff")):
         return "utf-16"
     places = np.flatnonzero(np.frombuffer(start, np.uint8) == 0) % 2
@@ -136,13 +140,13 @@ def _utf16(start: bytes) -> str | None:
 
 
 def _content(path: FilePath, size: int = -1) -> bytes:
-    """The first bytes of a file."""
+    """Return the first `size` bytes of a file; all bytes by default."""
     with reading(path, "a text file of heights is needed"), open(path, "rb") as file:
         return file.read(size)
 
 
 def decoded_lines(path: FilePath) -> list[str]:
-    """The lines of a text file, in the encodings that instruments use, with ASCII minus signs."""
+    """Return the lines of a text file in an encoding that instruments use, with ASCII minus signs."""
     content = _content(path)
     if encoding := _utf16(content[:4096]):
         text = content.decode(encoding, errors="replace")
@@ -155,7 +159,7 @@ def decoded_lines(path: FilePath) -> list[str]:
 
 
 def _is_row(line: str) -> bool:
-    """Whether a line starts a table: numbers, marks of missing points and empty cells only, and at least one number."""
+    """Return True if a line has only numbers, marks of missing points and empty cells, and at least one number."""
     line = _REMARK.sub("", _MARK.sub("nan", line.replace('"', "").strip()))
     if (_COMMENT.match(line) and not line.startswith(";")) or not re.search(r"\d|nan", line, re.IGNORECASE):
         return False
@@ -163,12 +167,12 @@ def _is_row(line: str) -> bool:
 
 
 def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], int]:
-    """({number of a line: row}, comments, line of the first row that empty lines separate from those above, or 0).
+    """Return ({number of a line: row}, comments, number of the first separated row or 0).
 
-    Comments beside rows are removed from them; those that are returned have lines of their own. Empty lines separate
-    nothing where there are as many above every row.
+    A comment at the end of a row is removed; only comments on separate lines are returned. Empty lines separate a row
+    from the rows above, unless there are equally many above every row.
 
-    Raises ValueError for a comment between rows that states something, as between two maps.
+    Raises ValueError for a comment between rows that states a length or unit, as between two maps.
     """
     has_tabs = "\t" in lines[first].strip(" ")
     starts_row = (";",) * (";" in lines[first]) + ("\t",) * has_tabs
@@ -195,29 +199,35 @@ def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], 
 
 
 def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
-    """(delimiter, decimal mark) of rows; the delimiter is None for white space. Raises ValueError if not certain."""
+    """Return (delimiter, decimal mark) of rows; the delimiter is None for white space.
+
+    Raises ValueError if commas may be decimal marks or delimiters.
+    """
     body = "\n".join(rows.values())
     delimiter = ";" if ";" in body else "\t" if "\t" in body else None
     if "," not in body:
         return delimiter, "."
-    point, tight, spaced = "." in body, re.search(r"\d,\d", body), re.search(r", | ,", body)
-    if delimiter is not None:
-        doubt: object = point
-    elif point:
-        doubt = spaced and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body)
-    elif tight and re.search(r"[^,\s] +[^,\s]", body):
-        return None, ","
-    else:  # else one column with decimal commas, or columns of whole numbers
-        one_in_each = all(line.count(",") == 1 for line in rows.values())
-        doubt = tight and (spaced or one_in_each or re.search(r"(?<!\d)0\d", body))
-    if doubt:
-        where = next(f"line {number} ({line[:40]!r})" for number, line in rows.items())
+    if delimiter is None and "." not in body and re.search(r"\d,\d", body) and re.search(r"[^,\s] +[^,\s]", body):
+        return None, ","  # white space delimits
+    if "." in body if delimiter else _may_be_decimal_commas(body):
+        number, line = next(iter(rows.items()))
+        where = f"line {number} ({line[:40]!r})"
         raise ValueError(f"{where}: commas may be decimal marks or not; decimal points, or semicolons, are needed")
-    return delimiter or ",", "," if delimiter else "."
+    return (delimiter, ",") if delimiter else (",", ".")
+
+
+def _may_be_decimal_commas(body: str) -> bool:
+    """Return True if commas may be decimal marks, in rows without other delimiters between numbers."""
+    has_spaces = re.search(r", | ,", body) is not None
+    if "." in body:  # mixed, such as "1.5, 2,5"
+        return has_spaces and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body) is not None
+    # Rows hold one number with a decimal comma each, or several whole numbers, which do not start with 0.
+    may_be_one_number = has_spaces or all(line.count(",") == 1 for line in body.split("\n"))
+    return re.search(r"\d,\d", body) is not None and (may_be_one_number or re.search(r"(?<!\d)0\d", body) is not None)
 
 
 def _values(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
-    """The rows as an array of two dimensions; missing values are nan. Raises ValueError that names the line."""
+    """Convert rows to an array of two dimensions; missing values are nan. Raises ValueError, which names the line."""
     text = "\n".join(rows.values())
     if decimal == ",":
         text = text.replace(",", ".")
@@ -237,7 +247,7 @@ def _values(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
 
 
 def _fill_empty_cells(text: str, delimiter: str) -> str:
-    """A text with nan in empty cells; a delimiter that ends, or starts, every line is left out."""
+    """Write nan into empty cells of a text, and remove a delimiter that starts or ends every line."""
     lines = re.sub(rf"{delimiter} +", delimiter, text).split("\n")
     if all(line.endswith(delimiter) for line in lines):
         lines = [line[:-1] for line in lines]
@@ -250,8 +260,8 @@ def _fill_empty_cells(text: str, delimiter: str) -> str:
 
 
 def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) -> str:
-    """Which line is not a row of as many numbers as the first, in words; "" for none."""
-    wanted = len(lines[0].split(delimiter))
+    """Describe the first line that is not a row of as many numbers as the first row; "" if there is none."""
+    count = len(lines[0].split(delimiter))
     for number, line in zip(numbers, lines, strict=False):
         if not line.isascii():
             odd = next(letter for letter in line if not letter.isascii())
@@ -259,16 +269,18 @@ def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) 
         cells = line.split(delimiter)
         if odd := next((cell for cell in cells if not _FIELD.fullmatch(cell.strip(" "))), ""):
             return f"line {number}: {odd[:40]!r} is not a number; numbers, and nan for missing points, are needed"
-        if len(cells) != wanted:
-            return f"line {number}: {len(cells)} cells, {wanted} in line {numbers[0]}; rows of equal length are needed"
+        if len(cells) != count:
+            return f"line {number}: {len(cells)} cells, {count} in line {numbers[0]}; rows of equal length are needed"
     return ""
 
 
 def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], esri: dict[str, float]) -> None:
-    """Raise ValueError if a line above the first row may be a row itself: nothing of a map is left out for a misprint.
+    """Raise ValueError if a line above the first row may be a row with a misprint, so that no row is left out.
 
-    Such a line has as many cells as the table, with or without outer delimiters, and one of them is, or almost is, a
-    number, or all that are not empty are the same or without a letter.
+    Such a line has as many cells as the table, with or without outer delimiters. In addition, a cell is a number or
+    almost a number, or all filled cells are equal, or no cell contains a letter.
+
+    counts : numbers of cells of the table, with and without outer delimiters
     """
     for number, line in enumerate(lines, 1):
         is_comment = _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";"))
@@ -281,8 +293,8 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
             raise ValueError(f"line {number}: {text}; rows of equal length are needed")
         if len(cells) not in counts:
             continue
-        of_points = {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}
-        if len(cells) > 1 and _ROW_NUMBERS.fullmatch(cells[0]) and not of_points:
+        names_points = {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}
+        if len(cells) > 1 and _ROW_NUMBERS.fullmatch(cells[0]) and not names_points:
             raise ValueError(f"line {number} ({line[:40]!r}) heads a column of row numbers; heights alone are needed")
         filled = [cell for cell in cells if cell]
         alike = len(cells) > 1 and (len(filled) > len(set(filled)) == 1 or not re.search(r"\w", line))
@@ -303,14 +315,15 @@ def _check_not_profile(shape: tuple[int, ...]) -> None:
 def _check_positions(table: Array) -> None:
     """Raise ValueError if a column or row at an edge holds positions or numbers of points, unlike the others.
 
-    The first one does if it rises, or falls, in equal steps. A table of few columns may be a profile. There, so does
-    the last one, and one more column may be even (x and a number); steps may be unequal if no other column rises, or
-    falls, throughout. On a wide map, heights along an edge may do the same.
+    The first column or row holds positions if it rises or falls in equal steps. A table of few columns may be a
+    profile, so there the last column is checked as well, one other column may be even (the numbers of the points), and
+    the steps may be unequal if no other column rises or falls throughout. The heights of a wide map may do the same
+    along an edge.
     """
-    # Positions along both axes may have any number in the corner where they meet.
+    # Positions along both axes meet in a corner, which may hold any number.
     has_corner = min(table.shape) >= _LEAST_LABELS and _is_even(table[1:, 0]) and _is_even(table[0, 1:])
     for name, vectors in (("column", table.T), ("row", table)):
-        are_few = len(vectors) <= _MOST_OF_PROFILES
+        are_few = len(vectors) <= _MOST_PROFILE_COLUMNS
         edges = [("first", vectors[0], vectors[1:]), ("last", vectors[-1], vectors[:-1])]
         for place, vector, others in edges if are_few else edges[:1]:
             labels = vector[1:] if place == "first" and (has_corner or np.isnan(vector[0])) else vector
@@ -326,23 +339,24 @@ def _check_positions(table: Array) -> None:
 
 
 def _is_monotonic(values: Any) -> bool:
-    """Return True if values rise, or fall, from each to the next."""
+    """Return True if all values rise, or all fall."""
     with np.errstate(invalid="ignore", over="ignore"):
         steps = np.diff(values)
     return bool((steps > 0).all() or (steps < 0).all())
 
 
 def _is_even(values: Any) -> bool:
-    """Return True if values rise, or fall, in equal steps."""
+    """Return True if values rise or fall in equal steps."""
     return even_spacing(values) is not None
 
 
 def _grid(table: Array, stated: Spacing | None, required: bool) -> tuple[Array, Spacing] | None:
-    """(heights, (dx, dy)) of a table with columns x, y, z; None for a matrix of heights.
+    """Return (heights, (dx, dy)) of a table with columns x, y, z; None for a matrix of heights.
 
-    stated : spacing that a header states, in the unit of x and y
+    stated : spacing in the header, in the unit of x and y
 
-    Raises ValueError for points that form no grid or one of another spacing, and for a table that may be either.
+    Raises ValueError for points that form no grid, for a grid of another spacing, and for a table whose columns may be
+    positions or heights.
     """
     grid = gridded(table, required=required)
     if grid is None and 3 < table.shape[1] <= 6 and gridded(table[:, :3], required=False) is not None:
@@ -356,7 +370,7 @@ def _grid(table: Array, stated: Spacing | None, required: bool) -> tuple[Array, 
 
 
 def _esri(lines: Sequence[str]) -> dict[str, float]:
-    """The keys of an ESRI grid in lines, and their numbers. Raises ValueError for no number, and for two of a key."""
+    """Return {key: number} of an ESRI grid. Raises ValueError for a key without a number, and for a repeated key."""
     found: dict[str, float] = {}
     for number, line in enumerate(lines, 1):
         if match := _ESRI_KEY.match(line):
@@ -368,7 +382,7 @@ def _esri(lines: Sequence[str]) -> dict[str, float]:
 
 
 def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
-    """A grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value."""
+    """Return the Scan of an ESRI grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value."""
     columns, rows = esri["ncols"], esri["nrows"]
     if table.shape != (rows, columns):
         text = f"{len(table)} lines of {table.shape[1]} numbers contradict {rows:g} rows and {columns:g} columns"

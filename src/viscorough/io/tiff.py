@@ -1,4 +1,4 @@
-"""Maps of heights in TIFF files: of one channel, with the spacing that ImageJ states; GeoTIFF is for rasterio."""
+"""Read maps of heights from TIFF files of one channel, with the spacing that ImageJ states; rasterio reads GeoTIFF."""
 
 import logging
 import os
@@ -14,13 +14,13 @@ from viscorough.io.instruments import read_instrument
 from viscorough.io.scan import Scan
 from viscorough.types import FilePath
 
-_PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
+_PARK_SYSTEMS = 50432  # tag of atomic force microscopes whose files hold the heights outside the picture
 # Tags of GeoTIFF (scale, place and rotation of the pixels, keys) and of GDAL (metadata, value for missing data).
 _ELEVATION_TAGS = (33550, 33922, 34264, 34735, 42112, 42113)
 _MASK = 4  # bit of the tag NewSubfileType
-# GDAL keeps mask, units and the value for missing data of a TIFF file in files that end so.
+# Ends of the names of files in which GDAL keeps the mask, the units and the value for missing data of a TIFF file.
 _SIDECARS = (".msk", ".aux.xml")
-# What tifffile logs about a damaged file is not printed: the error says it in one line.
+# Do not print the log of tifffile about a damaged file: the error has the fault in one line.
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 

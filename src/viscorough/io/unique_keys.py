@@ -1,4 +1,4 @@
-"""YAML in which a key that occurs twice in a mapping is a fault: YAML itself would keep the last."""
+"""Load YAML and refuse repeated keys of a mapping; YAML itself would keep the last of them."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ import yaml
 
 
 class UniqueKeys(yaml.SafeLoader):
-    """A loader of yaml.load; raises a MarkedYAMLError at the second of two equal keys."""
+    """Loader for yaml.load that raises a MarkedYAMLError at the second of two equal keys."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> Any:
         seen = set()

@@ -1,7 +1,7 @@
-"""Values of NetCDF variables: what their attributes say about packing and missing values (CF-1.11, sections 2.5 and 8).
+"""Unpack NetCDF variables and mask their missing values by their attributes (CF-1.11, sections 2.5 and 8).
 
-netCDF4 and xarray ignore attributes whose type is not that of the variable, such as a missing value of 1e20 in double
-precision for a variable in single precision, so that a missing value would become the highest peak.
+netCDF4 and xarray ignore attributes of another type than the variable, such as a missing value of 1e20 in double
+precision for a variable in single precision. A missing value would then become the highest peak.
 """
 
 from typing import Any
@@ -12,20 +12,20 @@ from numpy.typing import NDArray
 
 from viscorough.types import Array
 
-# Attributes that describe how values are stored; they no longer hold for values that were read.
+# Attributes that describe how values are stored. They do not apply to unpacked values.
 MISSING = ("_FillValue", "missing_value", "valid_range", "valid_min", "valid_max")
 STORAGE = (*MISSING, "scale_factor", "add_offset", "_Unsigned")
 _DEFAULT_FILL = {kind: [fill] for kind, fill in netCDF4.default_fillvals.items() if kind not in ("i1", "u1")}
 
 
 def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
-    """The values of a netCDF4.Variable: unpacked, as a masked array if any are missing; text is returned unchanged.
+    """Return the unpacked values of a netCDF4.Variable, as a masked array if any are missing; text is unchanged.
 
-    Missing are those that equal _FillValue (without it, what the format writes where nothing was written, except for
-    single bytes, of which every value is valid) or missing_value, and those outside valid_range or valid_min and
-    valid_max. Whole numbers whose attribute _Unsigned is "true" are stored with a sign but have none, and the reverse
-    for "false". Raises ValueError where one of these attributes is not a number of the kind of those stored, or
-    _Unsigned is neither of both.
+    A value is missing if it equals _FillValue or missing_value, or lies outside valid_range or valid_min and valid_max.
+    Without _FillValue the default of the format counts, except for single bytes, all of whose values are valid. If
+    _Unsigned is "true", whole numbers are stored with a sign but have none, and the reverse for "false".
+
+    Raises ValueError if an attribute is not a number of the stored type, or if _Unsigned is another text.
     """
     variable.set_auto_maskandscale(False)
     stored = np.asarray(variable[...])
@@ -48,7 +48,7 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
 
 
 def _kind(variable: netCDF4.Variable, stored: np.dtype[Any]) -> np.dtype[Any]:
-    """Return the type of the values of a variable: the stored one, or with the sign that _Unsigned states."""
+    """Return the type of the values: the stored type, with or without a sign as _Unsigned states."""
     if "_Unsigned" not in variable.ncattrs() or stored.kind == "f":
         return stored
     text = str(variable.getncattr("_Unsigned")).lower()
@@ -58,7 +58,7 @@ def _kind(variable: netCDF4.Variable, stored: np.dtype[Any]) -> np.dtype[Any]:
 
 
 def _as_kind(numbers: Array, stored: np.dtype[Any], kind: np.dtype[Any]) -> Array:
-    """Return numbers of the stored type as those that their bytes are in another; others are returned unchanged."""
+    """Reinterpret the bytes of numbers of the stored type as another type; other numbers are returned unchanged."""
     if kind == stored or not numbers.size or numbers.dtype.kind not in "iu":
         return numbers
     limits = np.iinfo(stored)
@@ -68,16 +68,16 @@ def _as_kind(numbers: Array, stored: np.dtype[Any], kind: np.dtype[Any]) -> Arra
 
 
 def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any], kind: np.dtype[Any]) -> Array:
-    """An attribute as an array of numbers; those that are compared with stored values have their precision.
+    """Return an attribute as an array of numbers, in the precision of the stored values they are compared with.
 
-    kind : type of the values, which differs in the sign from the stored one
+    kind : type of the values, which may differ in the sign from the stored type
     """
     value = variable.getncattr(name)
     numbers = np.ravel(value)
-    wanted = {"valid_range": 2, "missing_value": numbers.size}.get(name, 1)
-    # Limits with a point beside whole numbers may be those of unpacked values.
+    count = {"valid_range": 2, "missing_value": numbers.size}.get(name, 1)
+    # A limit with a decimal point may apply to unpacked values if the stored values are whole numbers.
     odd_limit = name.startswith("valid") and stored.kind != "f" and numbers.dtype.kind == "f"
-    if numbers.dtype.kind not in "iuf" or numbers.size != wanted or odd_limit:
+    if numbers.dtype.kind not in "iuf" or numbers.size != count or odd_limit:
         needed = "two numbers" if name == "valid_range" else "a number"
         raise ValueError(f"attribute {name} of {variable.name} is {value!r}, not {needed} like those stored")
     if name in ("scale_factor", "add_offset"):

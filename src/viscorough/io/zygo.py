@@ -1,4 +1,4 @@
-"""Zygo's XYZ data files: a header of fixed lines, "#", and a line "column row height" or "column row No Data" each."""
+"""Read Zygo's XYZ data files: a fixed header, a line "#", and lines "column row height" or "column row No Data"."""
 
 from collections.abc import Sequence
 
@@ -8,13 +8,13 @@ from viscorough.io.scan import Scan
 
 
 def zygo_scan(lines: Sequence[str]) -> Scan:
-    """The Scan in the lines of a file of Format 1.
+    """Return the Scan in the lines of a file of Format 1.
 
-    Line 4 of the header holds the origin and size of the map in points, the seventh number of line 8 the distance of
-    the points in metres (0 if it is not known). Heights are commonly in micrometres, but the file does not state it.
-    Points that are left out are missing; a second line "#" ends them.
+    Line 4 of the header holds the origin and size of the map in points. The seventh number of line 8 is the spacing in
+    metres, 0 if it is not known. Heights are commonly in micrometres, but the file does not state their unit. Points
+    without a line are missing. A second line "#" ends the points.
 
-    Raises ValueError where a line is not of this form.
+    Raises ValueError for lines of another form.
     """
     try:
         left, top, columns, rows = map(int, lines[3].split()[:4])
@@ -37,8 +37,8 @@ def zygo_scan(lines: Sequence[str]) -> Scan:
             heights[row, column] = np.nan if words[2:] == ["No", "Data"] else float(*words[2:])
             seen[row, column] = True
         except (ValueError, IndexError, TypeError) as error:
-            wanted = f"column, row and height of one of {columns} by {rows} points are needed"
-            raise ValueError(f"line {number} ({line[:40]!r}); {wanted}") from error
+            needed = f"column, row and height of one of {columns} by {rows} points are needed"
+            raise ValueError(f"line {number} ({line[:40]!r}); {needed}") from error
     if not seen.all() and lines[start:].count("#") != 1:
         raise ValueError(f"the closing line '#' lacks, and {seen.size - seen.sum()} points do; a whole file is needed")
     stated = (spacing, spacing) if spacing > 0 else None

@@ -1,4 +1,4 @@
-"""The errors and warnings of the package that users may want to catch."""
+"""Errors and warnings that users may want to catch, and the messages of errors."""
 
 
 class ConvergenceError(RuntimeError):
@@ -22,3 +22,15 @@ class AccuracyWarning(UserWarning):
     >>> warnings.simplefilter("error", viscorough.AccuracyWarning)  # a doubtful result raises
     >>> warnings.simplefilter("default", viscorough.AccuracyWarning)
     """
+
+
+# Errors that are reported in one line. Any other error is a fault of viscorough.
+REPORTED = (ValueError, OSError, MemoryError, Warning, ConvergenceError)
+
+
+def message(error: BaseException) -> str:
+    """Return the message of an error without a full stop."""
+    text = str(error)
+    if isinstance(error, MemoryError):
+        text = f"not enough memory{f' ({text})' if text else ''}; a smaller map of heights is needed"
+    return text.strip().removesuffix(".")

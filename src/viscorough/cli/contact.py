@@ -18,6 +18,7 @@ from viscorough.units import Quantity
 @click.option("--depth", type=options.Increasing("m"), help="Depth from first contact, or several.")
 @options.elastic_constants
 @options.tolerance
+@options.grid_error
 @options.jobs
 @options.threads
 @options.progress
@@ -28,6 +29,7 @@ def contact(
     force: Sequence[Quantity] | None,
     depth: Sequence[Quantity] | None,
     tolerance: float,
+    grid_error: bool,
     jobs: int | None,
     threads: int,
     progress: bool | None,
@@ -49,9 +51,10 @@ def contact(
     the incompressible half-space with the same E/(1 - nu^2) = 4 G.
 
     If FILE ends in .csv, it is a table of one or more files of heights, with these numbers in one row for each file and
-    load: lengths in um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. A file
-    that cannot be evaluated has a row with the reason in the column error; the other files are evaluated, and the exit
-    code is 3. The same command again skips files that are unchanged, also after an interrupt.
+    load: lengths in um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With
+    --grid-error it has the estimated errors due to the spacing of the map, as viscorough indent, which takes several
+    times as long. A file that cannot be evaluated has a row with the reason in the column error; the other files are
+    evaluated, and the exit code is 3. The same command again skips files that are unchanged, also after an interrupt.
 
     \b
     Example, a map in micrometres under F/G of 2 and of 3 um2, and a folder of scans:
@@ -63,10 +66,13 @@ def contact(
     options.elasticity(length_unit="m", **constants)  # raises an error for options that exclude each other
     how: dict[str, Any] = {"force": force, "depth": depth, "tolerance": tolerance}
     if output.suffix.lower() == ".csv":
+        how["grid_error"] = grid_error
         evaluate = functools.partial(scans.rows_at_loads, **how, constants=constants, threads=threads)
-        settings = how | constants
+        settings = how | constants | {"grid_error": grid_error or None}
         scans.tabulate(surfaces, output, evaluate, settings=settings, jobs=jobs, threads=threads, progress=progress)
         return
+    text = "--grid-error is for tables; -o TABLE.csv, or viscorough indent --forces, is allowed"
+    options.require(not grid_error, text)
     surface = scans.only_one(surfaces, output)
     indenter = surface_options.read_indenter(surface, output)
     modulus, elastic_constants = options.elasticity(length_unit=indenter.length_unit, **constants)

@@ -1,12 +1,18 @@
 """`viscorough estimate`: estimate depth and velocity from the calibrated law."""
 
+from __future__ import annotations
+
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from viscorough import units
 from viscorough.cli import files, messages, options
 from viscorough.units import Quantity
+
+if TYPE_CHECKING:
+    from viscorough.estimates import Estimate
 
 
 @click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
@@ -16,7 +22,7 @@ from viscorough.units import Quantity
 @click.option("--force", type=options.QuantityOption("N"), required=True, help="Constant force F, applied at time 0.")
 @options.viscosity
 @options.medium
-@click.option("--times", type=options.Increasing(), required=True, help="Times at which depth and velocity are wanted.")
+@click.option("--times", type=options.Increasing(), required=True, help="Times of the output.")
 @options.output("FILE", required=False)
 def estimate(
     *,
@@ -52,36 +58,43 @@ def estimate(
     """
     import numpy as np
 
-    from viscorough.calibrated_law import ACROSS
     from viscorough.estimates import estimate
     from viscorough.io.motion_files import estimate_to_content
 
     options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
     if output:
         files.check_output(output, medium=medium)
-    one_has = f"--rms {rms}, --diameter {diameter}: one has a unit; both or none is allowed"
-    options.require(bool(rms.unit) == bool(diameter.unit), one_has)
+    same_kind = f"--rms {rms}, --diameter {diameter}: one has a unit; both or none is allowed"
+    options.require(bool(rms.unit) == bool(diameter.unit), same_kind)
     unit = "m" if rms.unit else units.UNKNOWN
     half_space, about = files.read_half_space(viscosity, medium, unit)
     stated = {"rms": (rms, "m"), "diameter": (diameter, "m"), "force": (force, "N")}
-    numbers = {name: units.number(given, of, unit, f"--{name}") for name, (given, of) in stated.items()}
+    numbers = {name: units.number(given, needed, unit, f"--{name}") for name, (given, needed) in stated.items()}
     result = estimate(hurst, medium=half_space, times=times, **numbers)
     law, outside = result.law, np.count_nonzero(result.where != "")
     if outside:
         text = f"{outside} of {len(times)} times are outside the range of the law"
         text += f", X from {law.x_low:.3g} to {law.x_high:.3g}; elsewhere indent a surface made by viscorough generate"
         messages.warn(text)
-    if not output:
-        (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
-        click.echo(
-            f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}, discs of {ACROSS} "
-            f"elements across; X^beta/zeta from {region[0]:.3g} to {region[1]:.3g}: "
-            f"beta {law.beta:.4g} [{low:.4g}, {high:.4g}], zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
-        )
-        si = "time [s], depth [m], velocity [m/s]"
-        plain = "time in the unit of --times, depth in the unit of --rms, velocity in that unit per unit of time"
-        click.echo(plain if unit == units.UNKNOWN else si)
-        click.echo(str(result))
-        return
-    files.write_output(estimate_to_content(result, unit), output, hurst=hurst, **numbers, **about)
-    messages.announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
+    if output:
+        files.write_output(estimate_to_content(result, unit), output, hurst=hurst, **numbers, **about)
+        messages.announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
+    else:
+        _print(result, unit)
+
+
+def _print(result: Estimate, unit: str) -> None:
+    """Write the law, the units of the table, and the table to standard output."""
+    from viscorough.calibrated_law import ACROSS
+
+    law = result.law
+    (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
+    click.echo(
+        f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}, discs of {ACROSS} "
+        f"elements across; X^beta/zeta from {region[0]:.3g} to {region[1]:.3g}: "
+        f"beta {law.beta:.4g} [{low:.4g}, {high:.4g}], zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
+    )
+    si = "time [s], depth [m], velocity [m/s]"
+    plain = "time in the unit of --times, depth in the unit of --rms, velocity in that unit per unit of time"
+    click.echo(plain if unit == units.UNKNOWN else si)
+    click.echo(str(result))

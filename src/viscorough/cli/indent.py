@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 @click.option("--forces", type=options.Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
 @options.tolerance
 @click.option("--error", type=options.Share(), help="Error of the velocity that is allowed, as 5%, on few points.")
-@click.option("--grid-error", is_flag=True, help="Estimate the error that is due to the spacing of the map.")
+@options.grid_error
 @options.until(0.9)
 @click.option("--until-force", type=options.QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
 @click.option("--audit", is_flag=True, help="Compare two integrals of the curve with their exact values.")
@@ -104,35 +104,15 @@ def indent(
         viscorough indent scans/*.txt --forces "1 mN,5 mN" --young "2 MPa" \\
             -o table.csv
     """
-    levels = {"--depths": depths, "--forces": forces}
-    others = {"--until-fraction": until_fraction, "--until-force": until_force, "--audit": audit or None}
-    stated = [name for name, value in (levels | others).items() if value is not None]
-    if len(stated) > 1:
-        exclusive = f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed"
-        options.require(stated[0] not in levels and not audit, exclusive)
     source = click.get_current_context().get_parameter_source("tolerance")
-    stated_tolerance = None if source is ParameterSource.DEFAULT else tolerance
-    for name, value in {"--tolerance": stated_tolerance, **levels, "--audit": audit or None}.items():
-        exclusive = f"--error and {name} exclude each other; one of them is allowed"
-        options.require(error is None or value is None, exclusive)
-    text = "--grid-error and --audit exclude each other: an audit checks the solution on the grid of the map"
-    options.require(not (grid_error and audit), text)
-    options.elasticity(length_unit="m", **constants)  # raises an error for options that exclude each other
-    accuracy = {"tolerance": tolerance if error is None else None, "error": error}
-    settings: dict[str, Any] = {"depths": depths, "forces": forces, **accuracy}
+    settings: dict[str, Any] = {"depths": depths, "forces": forces, "error": error, "grid_error": grid_error or None}
     settings |= {"until_fraction": until_fraction, "until_force": until_force}
-    given = settings | {"estimate_grid_error": grid_error}
-    settings["grid_error"] = grid_error or None
-    if until_fraction is None:
-        given["until_fraction"] = 0.9 if until_force is None else 1.0
-    if until_force is None:
-        given["until_force"] = math.inf
+    _check_exclusive(settings, has_tolerance=source is not ParameterSource.DEFAULT, audit=audit)
+    settings["tolerance"] = tolerance if error is None else None
+    options.elasticity(length_unit="m", **constants)  # raises an error for options that exclude each other
     if len(surfaces) > 1 and output.suffix.lower() == ".csv":
-        both = grid_error and not (depths is None and forces is None)
-        text = "--grid-error with --depths or --forces is for one file of heights; leave one of them out"
-        options.require(not both, text)
         options.require(not audit, "--audit is for one file of heights; leave it out, or audit one file at a time")
-        evaluate = functools.partial(_rows, given=given, constants=constants, threads=threads)
+        evaluate = functools.partial(_rows, settings=settings, constants=constants, threads=threads)
         settings |= constants
         scans.tabulate(surfaces, output, evaluate, settings=settings, jobs=jobs, threads=threads, progress=progress)
         return
@@ -151,37 +131,74 @@ def indent(
             if not result.agrees:
                 messages.warn(lines[0])
         else:
-            curve = viscorough.indent(indenter, **given, shear_modulus=modulus, **how)
+            curve = viscorough.indent(indenter, **_arguments(settings), shear_modulus=modulus, **how)
     files.write_output(curve_to_content(curve, modulus), output, **attributes)
+    lines += filter(None, [curve.choice, curve.grid_error_text])
+    messages.announce(output, "\n".join([_last_level(curve, indenter, modulus), *lines]))
+
+
+def _check_exclusive(settings: dict[str, Any], *, has_tolerance: bool, audit: bool) -> None:
+    """Raise UsageError for options that exclude each other.
+
+    settings : {option: value}; None for options that are not given
+    has_tolerance, audit : True if --tolerance, --audit is given
+    """
+    levels = {"--depths": settings["depths"], "--forces": settings["forces"]}
+    ends = {"--until-fraction": settings["until_fraction"], "--until-force": settings["until_force"]}
+    others = ends | {"--audit": audit or None}
+    stated = [name for name, value in (levels | others).items() if value is not None]
+    if len(stated) > 1:
+        exclusive = f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed"
+        options.require(stated[0] not in levels and not audit, exclusive)
+    for name, value in {"--tolerance": has_tolerance or None, **levels, "--audit": audit or None}.items():
+        exclusive = f"--error and {name} exclude each other; one of them is allowed"
+        options.require(settings["error"] is None or value is None, exclusive)
+    text = "--grid-error and --audit exclude each other: an audit checks the solution on the grid of the map"
+    options.require(not (settings["grid_error"] and audit), text)
+
+
+def _arguments(settings: dict[str, Any]) -> dict[str, Any]:
+    """Return the keyword arguments of viscorough.indent for options, {option: value, or None}."""
+    given = {name: settings[name] for name in ("depths", "forces", "tolerance", "error")}
+    given["estimate_grid_error"] = bool(settings["grid_error"])
+    fraction, force = settings["until_fraction"], settings["until_force"]
+    given["until_force"] = math.inf if force is None else force
+    if fraction is None:
+        fraction = 0.9 if force is None else 1.0
+    return given | {"until_fraction": fraction}
+
+
+def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, modulus: float | None) -> str:
+    """Return the number of levels and the numbers of the last level for the closing line."""
     text = f"{curve.depth.size} levels, the last at depth {with_unit(curve.depth[-1], curve.length_unit, 6)}"
     if modulus is not None:
         read, area = result_units(curve.length_unit, modulus), indenter.spacing * indenter.row_spacing
         area *= curve.sampling**2
         text += f", F {read['force'].text(curve.force[-1], 6)}, k {read['stiffness'].text(curve.stiffness[-1])}"
         text += f", contact area {read['area'].text(curve.contact_count[-1] * area)},"
-    text += f" with {curve.contact_count[-1]} of {curve.elements} elements in contact"
-    lines += filter(None, [curve.choice, curve.grid_error_text])
-    messages.announce(output, "\n".join([text, *lines]))
+    return f"{text} with {curve.contact_count[-1]} of {curve.elements} elements in contact"
 
 
 def _rows(
     indenter: viscorough.Indenter,
     *,
-    given: dict[str, Any],
+    settings: dict[str, Any],
     constants: dict[str, Any],
     threads: int,
     progress: Progress | None = None,
 ) -> Rows:
     """Return a row of a table for each level, and {column: unit}.
 
-    given : keyword arguments of viscorough.indent; constants : arguments of options.elasticity
+    settings : {option: value}, None for options that are not given; constants : arguments of options.elasticity
     """
     how: dict[str, Any] = {"threads": threads, "progress": progress}
-    if given["depths"] is not None or given["forces"] is not None:
-        where = {"depth": given["depths"], "force": given["forces"], "tolerance": given["tolerance"]}
-        return scans.rows_at_loads(indenter, **where, constants=constants, **how)
+    if settings["depths"] is not None or settings["forces"] is not None:
+        loads = {"depth": settings["depths"], "force": settings["forces"], "tolerance": settings["tolerance"]}
+        grid_error = bool(settings["grid_error"])
+        return scans.rows_at_loads(indenter, **loads, grid_error=grid_error, constants=constants, **how)
 
     from viscorough.io.load_tables import rows_of_curve
 
     modulus, _ = options.elasticity(length_unit=indenter.length_unit, **constants)
-    return rows_of_curve(viscorough.indent(indenter, **given, shear_modulus=modulus, **how), indenter, modulus)
+    curve = viscorough.indent(indenter, **_arguments(settings), shear_modulus=modulus, **how)
+    return rows_of_curve(curve, indenter, modulus)

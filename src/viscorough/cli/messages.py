@@ -10,11 +10,11 @@ from pathlib import Path
 
 import click
 
-from viscorough.errors import AccuracyWarning, ConvergenceError
+from viscorough.errors import REPORTED, AccuracyWarning, message
 
 _DELAY = 1.0  # seconds; shorter work shows no progress
-# Errors that are reported in one line; any other error is a fault of viscorough.
-ERRORS = (click.ClickException, ValueError, OSError, MemoryError, Warning, ConvergenceError)
+# Errors that are reported in one line. Any other error is a fault of viscorough.
+ERRORS = (click.ClickException, *REPORTED)
 
 
 def announce(output: Path, text: str) -> None:
@@ -52,10 +52,9 @@ def report(command: str, error: BaseException) -> None:
 
 def error_text(error: BaseException) -> str:
     """Return the message of an error without a full stop."""
-    text = error.format_message() if isinstance(error, click.ClickException) else str(error)
-    if isinstance(error, MemoryError):
-        text = f"not enough memory{f' ({text})' if text else ''}; a smaller map of heights is needed"
-    return text.strip().removesuffix(".")
+    if isinstance(error, click.ClickException):
+        return error.format_message().strip().removesuffix(".")
+    return message(error)
 
 
 def escape_unencodable_characters() -> None:
@@ -75,11 +74,12 @@ def discard_what_cannot_be_written() -> None:
 
 
 @contextlib.contextmanager
-def progress_bar(label: str, wanted: bool | None) -> Iterator[Callable[[float], object]]:
+def progress_bar(label: str, shown: bool | None) -> Iterator[Callable[[float], object]]:
     """Yield a function that shows the finished share, 0 to 1, from the first second on.
 
-    wanted : True or False; None: only if standard error is a terminal. The bar is erased at the end, so standard error
-        contains only warnings and messages
+    shown : True to show the bar, False to hide it, None to show it if standard error is a terminal
+
+    The bar is erased at the end, so standard error contains only warnings and messages.
     """
     from tqdm import tqdm
 
@@ -87,7 +87,7 @@ def progress_bar(label: str, wanted: bool | None) -> Iterator[Callable[[float], 
         total=1.0,
         desc=label,
         delay=_DELAY,
-        disable=sys.stderr is None or (None if wanted is None else not wanted),  # None if it was closed
+        disable=sys.stderr is None or (None if shown is None else not shown),  # standard error is None if it was closed
         leave=False,
         bar_format="{desc}: {percentage:3.0f} % |{bar:30}| {elapsed} elapsed, about {remaining} left",
     ) as bar:

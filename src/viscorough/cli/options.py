@@ -154,6 +154,9 @@ viscosity = click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear
 medium = click.option(
     "--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity."
 )
+grid_error = click.option(
+    "--grid-error", is_flag=True, help="Estimate the error that is due to the spacing of the map."
+)
 tolerance = click.option(
     "--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy, 1e-12 or more."
 )

@@ -16,7 +16,6 @@ import multiprocessing
 import os
 import signal
 import threading
-import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -33,7 +32,6 @@ from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.load_tables import LoadRows, Rows
-    from viscorough.types import Progress
 
 # Exit code if the table is complete, but some of several files have an error instead of numbers.
 SOME_FAILED = 3
@@ -133,26 +131,15 @@ def only_one(surfaces: Sequence[surface_options.Surface], output: Path) -> surfa
     return surfaces[0]
 
 
-def rows_at_loads(
-    indenter: viscorough.Indenter,
-    *,
-    depth: Sequence[Quantity] | None,
-    force: Sequence[Quantity] | None,
-    tolerance: float,
-    constants: dict[str, Any],
-    threads: int,
-    progress: Progress | None = None,
-) -> Rows:
-    """Return a row of a table for each depth or force, and {column: unit}. Raises errors like viscorough.contact_at.
+def rows_at_loads(indenter: viscorough.Indenter, *, constants: dict[str, Any], **how: Any) -> Rows:
+    """Return a row of a table for each depth or force, and {column: unit}.
 
-    constants : arguments of options.elasticity
+    constants : arguments of options.elasticity; how : arguments of io.scan_rows.rows_at_loads
     """
-    from viscorough.io.load_tables import rows_of_contacts
+    from viscorough.io import scan_rows
 
     modulus, _ = options.elasticity(length_unit=indenter.length_unit, **constants)
-    how: dict[str, Any] = {"depth": depth, "force": force, "tolerance": tolerance, "shear_modulus": modulus}
-    contacts: Any = viscorough.contact_at(indenter, **how, threads=threads, progress=progress)
-    return rows_of_contacts(contacts)
+    return scan_rows.rows_at_loads(indenter, shear_modulus=modulus, **how)
 
 
 def _close(output: Path, listed: Sequence[LoadRows], unchanged: int, label: str) -> None:
@@ -201,25 +188,10 @@ def _in_this_process(scan: Scan, progress: Callable[[float], object]) -> LoadRow
 def _in_a_process(scan: Scan) -> LoadRows:
     """Return the rows of a file, or its error."""
     from viscorough.io.load_tables import LoadRows
+    from viscorough.io.scan_rows import evaluated
 
-    result = LoadRows(scan.name, scan.digest)
-    with warnings.catch_warnings(record=True) as caught, spelled_as_options():
-        try:
-            rows, units = scan.evaluate(scan.surface.read())
-            result = result._replace(rows=rows, units=units)
-        except messages.ERRORS as error:
-            result = result._replace(error=_without_path(error, scan.surface.path))
-        except Exception as error:  # a fault of viscorough, which other files may not have
-            text = f"{type(error).__name__}: {_without_path(error, scan.surface.path)}"
-            result = result._replace(error=text)
-    texts = [_without_path(text, scan.surface.path) for text in messages.warning_texts(caught)]
-    return result._replace(warnings="; ".join(texts))
-
-
-def _without_path(text: object, path: Path) -> str:
-    """Return the text of an error or warning on one line, without the name of the file that has its own column."""
-    text = messages.error_text(text) if isinstance(text, BaseException) else str(text)
-    return " ".join(text.split()).removeprefix(f"{path}: ")
+    with spelled_as_options():
+        return evaluated(LoadRows(scan.name, scan.digest), scan.surface.path, scan.surface.read, scan.evaluate)
 
 
 def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:

@@ -1,8 +1,9 @@
-"""Tables with one row for each load of each file of heights: depth, force, stiffness, contact area and pressures.
+"""Write and read tables with one row for each load of each file of heights.
 
-Numbers are in the units of viscorough.units.result_units: um, um2, and with a modulus N, N/m and MPa. A file that could
-not be evaluated has one row, without numbers but with the error. Every row has a digest of its file and of the
-settings, so that a table can be continued: the rows of unchanged files are read from it instead of computed again.
+The columns are depth, force, stiffness, contact area, pressures and, on request, grid errors, in the units of
+viscorough.units.result_units: um, um2, and with a modulus N, N/m and MPa. A file that could not be evaluated has one
+row with the error and without numbers. Every row has a digest of its file and of the settings, so that a table can be
+continued: the rows of unchanged files are taken from it instead of being computed again.
 """
 
 import csv
@@ -25,7 +26,7 @@ from viscorough.io.netcdf import Content, Variable
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, FilePath
 
-# Kind of quantity in each column, a key of units.result_units; None for counts and shares.
+# {quantity: its kind, a key of units.result_units; None for counts and shares}.
 _MEASURES = {
     "depth": "length",
     "force": "force",
@@ -39,65 +40,85 @@ _MEASURES = {
     "patches": None,
     **dict.fromkeys(ABOUT_GRID),
 }
-# Names of columns if a modulus is given; F, k and p then take the place of F/G, k/G and p/G.
+# Names of columns if a modulus is given: F, k and p replace F/G, k/G and p/G.
 _WITH_MODULUS = {"force": "normal_force", "stiffness": "normal_stiffness"}
 _WITH_MODULUS |= {"mean_pressure": "mean_normal_pressure", "largest_pressure": "largest_normal_pressure"}
-_OF_CONTACTS = [name for name in _MEASURES if name not in ("contact_count", *ABOUT_GRID)]
-_OF_CURVES = ["depth", "force", "stiffness", "contact_count", "contact_fraction", "contact_area", "mean_pressure"]
+# Quantities of contacts and of loading curves.
+_CONTACT_QUANTITIES = [name for name in _MEASURES if name not in ("contact_count", *ABOUT_GRID)]
+_CURVE_QUANTITIES = [
+    "depth",
+    "force",
+    "stiffness",
+    "contact_count",
+    "contact_fraction",
+    "contact_area",
+    "mean_pressure",
+]
+# Columns of whole numbers.
 _COUNTS = ("contact_count", "patches")
-_GIVEN = ("depth", "force", "normal_force")  # quantities that users give, with six digits in texts
+# Quantities that users prescribe, with six digits in texts.
+_PRESCRIBED = ("depth", "force", "normal_force")
+# Number of digits of a digest.
+_DIGEST_DIGITS = 16
+# Columns of texts: {name: meaning}.
 _TEXTS = {
     "file": "file of heights",
     "error": "why the file has no numbers; empty if it has",
     "warnings": "doubts about the numbers; empty if there are none",
-    "digest": "SHA-256, first 16 digits, of the file, of the settings and of the version of viscorough",
+    "digest": f"SHA-256, first {_DIGEST_DIGITS} digits, of the file, of the settings and of the version of viscorough",
 }
 _MEANINGS = {
     name: text for name, (text, _) in (OVER_LEVELS | ABOUT_GRID | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()
 }
-# {column: (meaning, unit)} of rows_of_contacts if a modulus and the unit of length are known.
-SI_COLUMNS = {
-    _WITH_MODULUS.get(name, name): (
-        _MEANINGS[_WITH_MODULUS.get(name, name)],
-        "1" if measure is None else units.result_units("um", 1.0)[measure].name,
-    )
-    for name, measure in _MEASURES.items()
-    if name in _OF_CONTACTS
+# {column: (meaning, unit, or None for texts)} of a table of contacts with grid errors, in SI units.
+SI_COLUMNS: dict[str, tuple[str, str | None]] = {
+    "file": (_TEXTS["file"], None),
+    **{
+        _WITH_MODULUS.get(name, name): (
+            _MEANINGS[_WITH_MODULUS.get(name, name)],
+            "1" if measure is None else units.result_units("um", 1.0)[measure].name,
+        )
+        for name, measure in _MEASURES.items()
+        if name != "contact_count"
+    },
+    **{name: (text, None) for name, text in _TEXTS.items() if name != "file"},
 }
-_DIGITS = 16
-# Files that GDAL reads together with a scan: by another suffix, and by a suffix added to the name of the scan.
+# Suffixes of files that GDAL reads together with a scan: in place of its suffix, and added to its name.
 _COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")
 
 Row = dict[str, float | int]
-Rows = tuple[Sequence[Row], dict[str, str]]  # rows, and {column: unit}
+Rows = tuple[Sequence[Row], dict[str, str]]  # rows and {column: unit}
 
 
 class LoadRows(NamedTuple):
     """Rows of one file of heights in a table of loads.
 
     file : name of the file
-    digest : of the file and the settings
+    digest : digest of the file and the settings; "" if the file cannot be read
     rows : {column: number} for each load; empty if the file could not be evaluated
     units : {column: unit} of the rows
-    error : why there are no rows, or ""
+    error : reason for missing rows, or ""
     warnings : doubts about the numbers, or ""
     """
 
     file: str
     digest: str
     rows: Sequence[Row] = ()
-    units: dict[str, str] = {}  # noqa: RUF012  # of a tuple, which nobody changes
+    units: dict[str, str] = {}  # noqa: RUF012  # never changed
     error: str = ""
     warnings: str = ""
 
 
-def rows_of_contacts(contacts: Sequence[Contact]) -> Rows:
-    """Return a row of a table for each contact, and {column: unit}."""
-    values: dict[str, list[float]] = {name: [] for name in _OF_CONTACTS}
+def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] | None = None) -> Rows:
+    """Return a row of a table for each contact, and {column: unit}.
+
+    grid_errors : {quantity of io.curves.ABOUT_GRID: its value for each contact}; None for a table without them
+    """
+    values: dict[str, Any] = {name: [] for name in _CONTACT_QUANTITIES}
     for contact in contacts:
         for name in values:
             values[name].append(contact.patches().areas.size if name == "patches" else getattr(contact, name))
-    return _rows(values, contacts[0].length_unit, contacts[0].shear_modulus)
+    return _rows(values | (grid_errors or {}), contacts[0].length_unit, contacts[0].shear_modulus)
 
 
 def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float | None) -> Rows:
@@ -107,13 +128,13 @@ def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float 
     """
     area = curve.contact_count * curve.sampling**2 * indenter.spacing * indenter.row_spacing
     derived = {"contact_area": area, "mean_pressure": curve.force / area}
-    values = {name: derived[name] if name in derived else getattr(curve, name) for name in _OF_CURVES}
+    values = {name: derived[name] if name in derived else getattr(curve, name) for name in _CURVE_QUANTITIES}
     values |= {name: getattr(curve, name) for name in ABOUT_GRID if getattr(curve, name) is not None}
     return _rows(values, curve.length_unit, shear_modulus)
 
 
 def _rows(values: dict[str, Any], length_unit: str, shear_modulus: float | None) -> Rows:
-    """Convert {quantity: solver's numbers} to rows in the units of people who read them."""
+    """Convert {quantity: numbers of the solver} to rows in the units of readers."""
     read, stated = units.result_units(length_unit, shear_modulus), {}
     columns: dict[str, list[float | int]] = {}
     for quantity, numbers in values.items():
@@ -136,7 +157,7 @@ def text_of_row(row: Row, stated: dict[str, str]) -> str:
     """Return the numbers of a contact in one line, in the units of its table."""
 
     def text(name: str) -> str:
-        return units.ResultUnit(stated[name], 1.0).text(row[name], 6 if name in _GIVEN else 4)
+        return units.ResultUnit(stated[name], 1.0).text(row[name], 6 if name in _PRESCRIBED else 4)
 
     parts = [f"depth {text('depth')}"]
     if "normal_force" in row:
@@ -163,13 +184,13 @@ def digest_of_scan(path: FilePath, settings: str) -> str:
                 digest.update(hashlib.file_digest(opened, "sha256").digest())
     except ValueError:
         return ""
-    return digest.hexdigest()[:_DIGITS]
+    return digest.hexdigest()[:_DIGEST_DIGITS]
 
 
 def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
-    """Return the rows of files, sorted by name; those in no known unit of length become errors if others have one.
+    """Return the rows of files, sorted by name, with one unit in each column.
 
-    Numbers in one column have one unit.
+    A file without a unit of length becomes an error if other files have one.
     """
     listed = sorted(results, key=lambda result: result.file)
     if len({result.units["depth"] for result in listed if result.rows}) < 2:
@@ -181,28 +202,33 @@ def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
     ]
 
 
+def lines_of_files(results: Iterable[LoadRows]) -> list[dict[str, Any]]:
+    """Return {column: value} of all lines of a table: one for each load, or one with the error of a file."""
+    return [row | {name: getattr(result, name) for name in _TEXTS} for result in results for row in result.rows or [{}]]
+
+
 def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
-    """Return the rows of files, as `with_one_unit` gives them, as the Content of a table."""
+    """Convert the rows of files, which `with_one_unit` returned, to the Content of a table."""
     stated = next((result.units for result in results if result.rows), {})
-    lines: list[tuple[LoadRows, Row]] = [(result, row) for result in results for row in result.rows or [{}]]
-    texts = {name: [getattr(result, name) for result, _ in lines] for name in _TEXTS}
-    variables = {"file": _column(texts.pop("file"), _TEXTS["file"])}
+    lines = lines_of_files(results)
+    variables = {"file": _column([line["file"] for line in lines], _TEXTS["file"])}
     for name, unit in stated.items():
-        variables[name] = _column([row.get(name, np.nan) for _, row in lines], _MEANINGS[name], units=unit)
-    variables |= {name: _column(values, _TEXTS[name]) for name, values in texts.items()}
+        variables[name] = _column([line.get(name, np.nan) for line in lines], _MEANINGS[name], units=unit)
+    for name in ("error", "warnings", "digest"):
+        variables[name] = _column([line[name] for line in lines], _TEXTS[name])
     return Content(variables, {"title": "Contacts of rigid indenters with an elastic half-space"} | attributes)
 
 
 def _column(values: list[Any], meaning: str, **attributes: str) -> Variable:
-    column: Array = np.empty(len(values), dtype=object)  # whole numbers stay whole although others are missing
+    column: Array = np.empty(len(values), dtype=object)  # whole numbers stay whole if others are missing
     column[:] = values
     return Variable(("row",), column, {"long_name": meaning, **attributes})
 
 
 def finished_rows(path: FilePath) -> dict[str, LoadRows]:
-    """Return {file: its rows} of a table that `load_table` made, without the files that had an error.
+    """Return {file: its rows} in a table that `load_table` made, without the files that had an error.
 
-    Any other file, and a table that another program changed beyond recognition, gives no rows.
+    Other files, and tables that another program changed beyond recognition, give no rows.
     """
     found: dict[str, LoadRows] = {}
     try:
@@ -224,6 +250,6 @@ def finished_rows(path: FilePath) -> dict[str, LoadRows]:
 
 
 def _heading(text: str) -> tuple[str, str]:
-    """Return the name and the unit, by default "1", of a heading such as "depth (um)"."""
+    """Return the name and the unit in a heading such as "depth (um)"; the unit is "1" if there is none."""
     name, _, unit = text.removesuffix(")").partition(" (")
     return name, unit or units.UNKNOWN

@@ -1,13 +1,18 @@
 """Tables of measured surfaces: lengths, power laws of their groups, kinetics, and elastic contacts."""
 
 import json
+import logging
+from functools import partial
 from itertools import chain, product
+from pathlib import Path
 
 import pandas as pd
 
-from viscorough.contact.one_contact import contact_at
+from viscorough import __version__
+from viscorough.elasticity import young_over_shear
 from viscorough.io.curves import unstack_curves
-from viscorough.io.load_tables import SI_COLUMNS, rows_of_contacts
+from viscorough.io.load_tables import SI_COLUMNS, LoadRows, digest_of_scan, lines_of_files
+from viscorough.io.scan_rows import evaluated, rows_at_loads
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.comparisons.media_kinetics import named_media, reached_times
 from viscorough_study.ensembles.averages import abscissa
@@ -38,29 +43,45 @@ KINETICS = {
 CONTACTS = {
     "scan": ("name of the scan", None),
     "group": ("group of scans", None),
-    "file": ("file of heights", None),
     **SI_COLUMNS,
 }
+# Settings of a scan that determine its rows, apart from the file.
+_READING = ("spacing", "unit", "preparation")
+_LOADING = ("forces", "young_modulus", "poisson_ratio")
 
 
 def measured_contacts(scans):
     """Return the table of contacts of measured surfaces with an elastic half-space; its columns are `CONTACTS`.
 
-    The rows have the numbers of `viscorough contact` with the same modulus and forces.
+    The rows have the columns and numbers of `viscorough contact --grid-error` with the same modulus and forces. A scan
+    that cannot be evaluated has one row with the reason in the column `error`.
 
     scans : mappings with name, group, file, spacing, unit, preparation, forces [N], young_modulus [Pa] (None for no
         rows) and poisson_ratio
     """
-    rows = []
+    lines = []
     for scan in scans:
         if scan["young_modulus"] is None or not scan["forces"]:
             continue
-        indenter = measured_indenter(scan["file"], **{name: scan[name] for name in ("spacing", "unit", "preparation")})
-        modulus = scan["young_modulus"] / (1 - scan["poisson_ratio"] ** 2) / 4
-        contacts = contact_at(indenter, force=sorted(scan["forces"]), shear_modulus=modulus)
-        labels = {"scan": scan["name"], "group": scan["group"], "file": scan["file"]}
-        rows += [labels | row for row in rows_of_contacts(contacts)[0]]
-    return pd.DataFrame(rows, columns=list(CONTACTS))
+        result = _evaluated_scan(scan)
+        if result.error:
+            logging.warning("%s: %s", scan["file"], result.error)
+        labels = {"scan": scan["name"], "group": scan["group"]}
+        lines += [labels | line for line in lines_of_files([result])]
+    return pd.DataFrame(lines, columns=list(CONTACTS))
+
+
+def _evaluated_scan(scan):
+    """Return the LoadRows of a measured surface under its forces."""
+    reading, loading = ({name: scan[name] for name in names} for names in (_READING, _LOADING))
+    modulus = scan["young_modulus"] / young_over_shear(scan["poisson_ratio"])
+    settings = f"{__version__} {json.dumps(reading | loading, sort_keys=True)}"
+    return evaluated(
+        LoadRows(str(scan["file"]), digest_of_scan(scan["file"], settings)),
+        Path(scan["file"]),
+        partial(measured_indenter, scan["file"], **reading),
+        partial(rows_at_loads, force=sorted(scan["forces"]), shear_modulus=modulus, grid_error=True),
+    )
 
 
 def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):

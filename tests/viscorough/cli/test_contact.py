@@ -135,6 +135,11 @@ def test_curves_have_levels_at_forces_and_end_at_a_force(here):
     assert force[-1] >= 30 > force[-2]
 
 
+def test_grid_errors_need_a_table(here, complaint):
+    text = complaint("contact um.nc --force 2 --grid-error -o fields.nc")
+    assert "--grid-error is for tables; -o TABLE.csv, or viscorough indent --forces, is allowed" in text
+
+
 def test_kinetics_need_an_incompressible_half_space(complaint):
     command = "indent heights.npy --spacing 1 -o curve.nc --young 1 --forces 1,30"
     kinetics = "kinetics curve.nc --force 1 --viscosity 1 -o kin.nc"

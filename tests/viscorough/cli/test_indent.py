@@ -1,6 +1,7 @@
 """Loading curves with the error of the grid, and to a requested error, on the command line."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import viscorough
@@ -60,6 +61,12 @@ def test_table_has_grid_errors_and_areas_of_the_chosen_points(disc):
     assert curve.sampling > 1
 
 
-def test_grid_errors_of_several_files_need_curves(here, complaint):
-    line = "indent a.nc b.nc --grid-error --depths 1 -o table.csv"
-    assert "--grid-error with --depths or --forces is for one file of heights" in complaint(line)
+def test_table_at_given_loads_is_that_of_the_command_contact(disc):
+    viscorough.save(self_affine_disc(0.9, 65, rms=0.02, length_unit="um", seed=2), "other.nc")
+    assert run("indent disc.nc other.nc --forces 0.005,0.01 --grid-error -o curves.csv") == 0
+    assert run("contact disc.nc other.nc --force 0.005,0.01 --grid-error -o contacts.csv") == 0
+    (curves, units), (contacts, same_units) = (read_table(name) for name in ("curves.csv", "contacts.csv"))
+    assert units == same_units
+    assert len(curves) == 4
+    assert (curves["grid_error"] > 0).all()
+    pd.testing.assert_frame_equal(curves.drop(columns="digest"), contacts.drop(columns="digest"))

@@ -8,17 +8,38 @@ from support.tables import read_table
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.comparisons.measured import CONTACTS, measured_contacts
 
+SCAN = {"name": "ground_a", "group": "ground", "file": "a.npy", "digest": "", "spacing": [10.0], "unit": "um"}
+SCAN |= {"preparation": {"flip": True}, "forces": [1e-4, 1e-5], "young_modulus": 2e6, "poisson_ratio": 0.3}
 
-def test_rows_agree_with_the_command_line(tmp_path, monkeypatch):
+
+@pytest.fixture(autouse=True)
+def heights(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     np.save("a.npy", self_affine_disc(0.6, 17, rms=0.5, diameter=170.0, seed=1).heights)
-    scan = {"name": "ground_a", "group": "ground", "file": "a.npy", "digest": "", "spacing": [10.0], "unit": "um"}
-    scan |= {"preparation": {"flip": True}, "forces": [1e-4, 1e-5], "young_modulus": 2e6, "poisson_ratio": 0.3}
-    table = measured_contacts([scan, scan | {"young_modulus": None}, scan | {"forces": []}])
+
+
+def test_table_is_that_of_the_command_line():
+    table = measured_contacts([SCAN, SCAN | {"young_modulus": None}, SCAN | {"forces": []}])
     assert list(table) == list(CONTACTS)
     assert table["scan"].tolist() == ["ground_a", "ground_a"]
-    assert run("contact a.npy --spacing 10 --unit um --flip --force 1e-5,1e-4 --young 2e6 --poisson 0.3 -o a.csv") == 0
+    loads = "--force 1e-5,1e-4 --young 2e6 --poisson 0.3 --grid-error"
+    assert run(f"contact a.npy --spacing 10 --unit um --flip {loads} -o a.csv") == 0
     expected, units = read_table("a.csv")
+    assert list(expected) == list(CONTACTS)[2:]
     for name in set(units) - {"file", "error", "warnings", "digest"}:
         assert table[name].tolist() == pytest.approx(expected[name].tolist(), rel=1e-12), name
         assert CONTACTS[name][1] == units[name]
+
+
+def test_digest_changes_with_file_and_settings():
+    digests = {measured_contacts([SCAN | change])["digest"][0] for change in ({}, {"forces": [1e-4]}, {"unit": "nm"})}
+    np.save("a.npy", 2 * np.load("a.npy"))
+    assert len(digests | {measured_contacts([SCAN])["digest"][0]}) == 4
+
+
+def test_scan_that_fails_has_a_row_with_its_reason():
+    table = measured_contacts([SCAN | {"file": "missing.npy"}, SCAN])
+    assert table["file"].tolist() == ["missing.npy", "a.npy", "a.npy"]
+    assert "not readable (No such file" in table["error"][0]
+    assert table["error"][1:].tolist() == ["", ""]
+    assert np.isnan(table["depth"]).tolist() == [True, False, False]

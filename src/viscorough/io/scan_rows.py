@@ -1,0 +1,96 @@
+"""Evaluate files of heights for a table of loads (io.load_tables): contacts, grid errors, and failures as rows."""
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
+from viscorough.contact.sampling import part_of
+from viscorough.contact_maps import Contact
+from viscorough.errors import REPORTED, AccuracyWarning, message
+from viscorough.indenter import Indenter
+from viscorough.io.curves import ABOUT_GRID
+from viscorough.io.load_tables import LoadRows, Rows, rows_of_contacts
+from viscorough.loading_curve import LoadingCurve
+from viscorough.types import Array, Progress
+
+# Share of the contacts in the computation of contacts and their grid errors.
+_SHARE_OF_CONTACTS = 0.3
+# Further levels of the curve for grid errors, over the force of a load. The error is a mean over half a decade, and the
+# difference of two curves at a single force can be zero by chance.
+_FORCES_BELOW = (10**-0.5, 10**-0.25)
+# Levels whose forces differ by less than this share are one level: closer ones do not differ beyond the tolerance.
+_LEAST_DIFFERENCE = 0.02
+
+
+def rows_at_loads(
+    indenter: Indenter,
+    *,
+    force: Any = None,
+    depth: Any = None,
+    shear_modulus: float | None = None,
+    tolerance: float = 1e-3,
+    grid_error: bool = False,
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Rows:
+    """Return a row of a table for each load, and {column: unit}. Raises the errors of `contact_at`.
+
+    force, depth : increasing loads, one of the two; all arguments without a description are those of `contact_at`
+    grid_error : True for the columns grid_error, force_grid_error and area_change
+    """
+    loads: dict[str, Any] = {"force": force, "depth": depth, "shear_modulus": shear_modulus}
+    how: dict[str, Any] = {"tolerance": tolerance, "threads": threads}
+    if not grid_error:
+        return rows_of_contacts(contact_at(indenter, **loads, **how, progress=progress))
+    progress = progress or (lambda done: None)
+    contacts: list[Contact] = contact_at(indenter, **loads, **how, progress=part_of(progress, 0.0, _SHARE_OF_CONTACTS))
+    curve = _curve_with_grid_errors(indenter, contacts, progress=part_of(progress, _SHARE_OF_CONTACTS, 1.0), **how)
+    places = [int(np.argmin(np.abs(curve.force - contact.force))) for contact in contacts]
+    return rows_of_contacts(contacts, {name: getattr(curve, name)[places] for name in ABOUT_GRID})
+
+
+def _curve_with_grid_errors(indenter: Indenter, contacts: list[Contact], **how: Any) -> LoadingCurve:
+    """Return a curve with levels at the forces of contacts, and at the forces below them that grid errors need."""
+    forces = _with_forces_below(np.array([contact.force for contact in contacts]))
+    with warnings.catch_warnings(action="ignore", category=AccuracyWarning):  # the contacts gave the same warnings
+        return indent(indenter, forces=forces, estimate_grid_error=True, **how)
+
+
+def _with_forces_below(forces: Array) -> Array:
+    """Return increasing forces together with the forces of further levels below them."""
+    levels = list(forces)
+    for candidate in np.multiply.outer(forces, _FORCES_BELOW).ravel():
+        if all(abs(candidate - level) > _LEAST_DIFFERENCE * level for level in levels):
+            levels.append(candidate)
+    return np.sort(levels)
+
+
+def evaluated(
+    scan: LoadRows, path: Path, read: Callable[[], Indenter], evaluate: Callable[[Indenter], Rows]
+) -> LoadRows:
+    """Return a file's LoadRows with its rows and warnings, or with the error that reading or evaluation raised.
+
+    scan : name and digest of the file
+    path : file of heights; messages are kept without it, since the table has a column of files
+    read, evaluate : functions that return the indenter, and its rows and {column: unit}
+    """
+    with warnings.catch_warnings(record=True) as caught:
+        try:
+            rows, units = evaluate(read())
+            scan = scan._replace(rows=rows, units=units)
+        except REPORTED as error:
+            scan = scan._replace(error=_without_path(message(error), path))
+        except Exception as error:  # a fault of viscorough, which other files may not have
+            scan = scan._replace(error=f"{type(error).__name__}: {_without_path(message(error), path)}")
+    texts = dict.fromkeys(_without_path(str(warning.message), path) for warning in caught)
+    return scan._replace(warnings="; ".join(texts))
+
+
+def _without_path(text: str, path: Path) -> str:
+    """Return the text of an error or warning on one line, without the path in front."""
+    return " ".join(text.split()).removeprefix(f"{path}: ")

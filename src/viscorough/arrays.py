@@ -18,9 +18,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscorough.types import Array, Mask, Numbers
 
-_PLAIN = {float, int, bool, str, complex, type(None), np.float64, np.ndarray}  # types without units, for speed
+# Types without units: a test of the type is faster than a look-up of attributes.
+_PLAIN = {float, int, bool, str, complex, type(None), np.float64, np.ndarray}
+# Words for types of arrays that are not real numbers.
 _KINDS = {"b": "truth values", "c": "complex numbers", "U": "texts", "S": "texts", "m": "times", "M": "dates"}
-_NO_NUMBERS = (bool, np.timedelta64)  # although Python counts them as whole numbers
+# Types that Python counts as whole numbers although they are none.
+_NO_NUMBERS = (bool, np.timedelta64)
 _BEYOND = "a number beyond double precision; a number that double precision holds is needed"
 
 
@@ -107,7 +110,7 @@ def _float(name: str, value: Any) -> float:
 
 
 def float_or_array(name: str, values: Any) -> Numbers:
-    """Return real numbers for a formula: a float or an array; a Series of pandas or similar object stays what it is.
+    """Return real numbers for a formula: a float or an array; a Series of pandas or a similar object stays unchanged.
 
     Raises ValueError like `real_numbers`.
     """

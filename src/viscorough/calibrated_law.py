@@ -1,14 +1,14 @@
 """The recommended penetration law, calibrated with boundary elements on the paper's grid: region (b) and beyond.
 
-Two springs in series, the interface and the flat punch of the whole disc, have vt/h = X + g(X) with X =
-Ft/(4ηhL). The contribution of the interface is
+Interface and flat punch of the whole disc are two springs in series, so vt/h = X + g(X) with X = Ft/(4ηhL). The
+contribution of the interface is
 
     g = (g₁^(−3/2) + (cX)^(−3/2))^(−2/3),    g₁ = A X^b (1 + X/s)^(−m) (1 + (X/d)²)^(−4).
 
 At small X, g₁ is a power law with the exponent b. Around X = 1 it has a broad maximum: the stiffness of the interface
-is proportional to the force, like in elastic contacts with a force that is exponential in the separation. Beyond, it
-falls, and vanishes at complete contact, so vt/h = X. c belongs to region (a): while a single element touches, g = cX,
-with a c that the number of elements across determines.
+is then proportional to the force, as in elastic contacts with a force that is exponential in the separation. At larger
+X it falls, and it vanishes at complete contact, so that vt/h = X. While a single element touches (region a), g = cX,
+with a constant c that depends only on the number of elements across.
 
 The constants A, b, s, m, d are in data/law.csv, a copy of results/tables/law.csv from `make law`. With them the two
 integrals of g over ln X and over X equal the means of the exact integrals (sum_rules), and g is closest to the mean of
@@ -17,10 +17,10 @@ interval of single surfaces, data/law_scatter.csv, is a copy of results/tables/l
 and ζ of the paper's power law in region (b) are in data/calibration.csv, a copy of results/tables/calibration.csv from
 `make paper`.
 
-Conventions: h the rms height of the disc, L its diameter, no factor Γ. The law describes arithmetic means at fixed X,
-since compliances in series add; the power law is fitted to geometric means, as in the figures, over the whole region
-(b). Grids: 257 elements across; at small X the law contains their finest waves, and b is the exponent of these curves,
-not of an infinitely fine grid.
+Conventions: h is the rms height of the disc and L its diameter; there is no factor Γ. The law describes arithmetic
+means at fixed X, since compliances in series add. The power law is fitted to geometric means over the whole region (b),
+like in the figures. The grids have 257 elements across. At small X their finest waves determine the law, so b is the
+exponent of these curves and not of an infinitely fine grid.
 """
 
 import csv
@@ -38,11 +38,13 @@ from viscorough.arrays import real_number, real_numbers
 from viscorough.reference import one_element_stiffness
 from viscorough.types import Array, Numbers
 
-ACROSS = 257  # elements across the discs of the calibration
-LARGEST_DEVIATION = 0.05  # largest deviation of g from its mean over discs outside the calibration, in the law's range
-# Exponents of the law that are common to all H: of the transition from region (a), and of the last factor of g₁.
+# Elements across the discs of the calibration.
+ACROSS = 257
+# Largest deviation of g from its mean over discs outside the calibration, within the range of the law.
+LARGEST_DEVIATION = 0.05
+# Exponents that are common to all H: 3/2 of the transition from region (a), and 4 of the last factor of g₁.
 _ONSET, _LAST = 1.5, 4.0
-# Steps in ln X, and their number, for the integral of g: from e^-40 of the requested X on, far into region (a).
+# Length and number of steps in ln X for the integral of g: it starts at e^-40 X, far inside region (a).
 _STEP, _STEPS = 0.05, 800
 CONSTANTS = {
     "amplitude": "A of the law of g",
@@ -84,12 +86,15 @@ def interface_velocity(
     """
     x = np.asarray(x, dtype=float)
     interface = amplitude * x**exponent * (1 + x / bend) ** -fall * (1 + (x / cutoff) ** 2) ** -_LAST
-    of_one_element = x * (1 / one_element_stiffness(across) - 1)
-    return interface / (1 + (interface / of_one_element) ** _ONSET) ** (1 / _ONSET)
+    one_element = x * (1 / one_element_stiffness(across) - 1)
+    return interface / (1 + (interface / one_element) ** _ONSET) ** (1 / _ONSET)
 
 
 def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Array:
-    """Return ∫₀^X g dX/X, the interface's part of u/h, by Simpson's rule; constants : see `interface_velocity`"""
+    """Return ∫₀^X g dX/X, the interface's part of u/h, by Simpson's rule.
+
+    constants, across : arguments of `interface_velocity`
+    """
     from scipy.integrate import simpson  # this import takes long
 
     logarithm = _STEP * np.arange(-_STEPS, 1)
@@ -234,13 +239,13 @@ def penetration_law(hurst: float) -> PenetrationLaw:
 
     A further sample of discs of 257 elements across, also at exponents in between, had means of vt/h within 12 % of
     the law, of g within 16 % and of u/h within 7 %, with standard errors of 5 % at small X. The depth depends on the
-    grid: discs of 129 elements across have a mean u/h at X = 0.003 for which the law is 12 to 37 % too large from
-    H = 0.85 to 0.1 (docs/verification.md).
+    grid: at X = 0.003 the law exceeds the mean u/h of discs of 129 elements across by 12 % at H = 0.85 and by 37 % at
+    H = 0.1 (docs/verification.md).
 
     Parameters
     ----------
     hurst : float
-        Hurst exponent H, 0.1 to 1.
+        Hurst exponent H, from 0.1 to 1 [1].
 
     Returns
     -------

@@ -98,9 +98,9 @@ class _Cache(caching.NullCache):
 
 
 def _content(value: Any, callers: tuple[Any, ...]) -> Any:
-    """What determines the code of a compiled function, or what a value in it contributes, as nested tuples.
+    """Return all that determines the compiled code of a function, or the part of a value in it, as nested tuples.
 
-    callers : functions that are not described again, since they lead here
+    callers : functions that call this one and are already described
     """
     if isinstance(value, Dispatcher):
         function = value.py_func
@@ -115,18 +115,18 @@ def _content(value: Any, callers: tuple[Any, ...]) -> Any:
         return value.dtype.str, value.shape, value.tobytes()
     if isinstance(value, types.ModuleType):
         return value.__name__
-    if callable(value):  # a class may be that of a named tuple
+    if callable(value):  # the class of a named tuple has fields
         return getattr(value, "__module__", ""), getattr(value, "__qualname__", ""), getattr(value, "_fields", ())
     return type(value).__name__, repr(value)
 
 
 def _codes(code: types.CodeType) -> list[types.CodeType]:
-    """A code object and those nested in it."""
+    """Return a code object and all code objects nested in it."""
     return [code, *(each for const in code.co_consts if isinstance(const, types.CodeType) for each in _codes(const))]
 
 
 def _instructions(code: types.CodeType, docstring: str | None) -> tuple[Any, ...]:
-    """The instructions of a code object with their names and constants, but without line numbers and docstring."""
+    """Return the instructions of a code object, with names and constants but without line numbers and docstring."""
     constants = [each for each in code.co_consts if not isinstance(each, types.CodeType) and each != docstring]
     return code.co_code, code.co_names, code.co_varnames, code.co_freevars, repr(constants)
 
@@ -145,11 +145,11 @@ def njit(
     """Compile a function for the types of its arguments, and cache it on disk. Use as a decorator.
 
     All functions release the interpreter's lock, and divide by zero without an error, as numpy does. They share these
-    options because numba compiles what it provides (zeros, for example) once more for each set of options.
+    options because numba compiles its own functions (zeros, for example) once for each set of options.
 
-    inner : whether only other compiled functions call it, which contain its code: it is neither cached nor callable
-        from Python, which saves half the time that a short function takes to compile
-    fastmath : whether the compiler may reorder sums and assume that numbers are finite
+    inner : True if only other compiled functions call it. Its code becomes part of theirs, so it is neither cached nor
+        callable from Python, which saves half of the compile time of a short function
+    fastmath : True if the compiler may reorder sums and assume that numbers are finite
     """
     if function is None:
         return functools.partial(njit, inner=inner, fastmath=fastmath)
@@ -170,7 +170,7 @@ def njit(
     compile_types = uninterrupted()(compiled.compile)
 
     def compile_once(argument_types: Any) -> Any:
-        # A number that a caller passes as it stands in the source needs no variant of its own.
+        # A literal number in a call needs no separate variant of the function.
         with _no_garbage_collection():
             return compile_types(tuple(map(unliteral, argument_types)))
 

@@ -1,4 +1,4 @@
-"""One contact of an indenter: maps of pressure, gap and contact, and what follows from them."""
+"""The result of one contact: maps of pressure, gap and contact, with areas, pressures and patches."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -10,7 +10,8 @@ from viscorough.summaries import span, unit_power, with_unit
 from viscorough.types import Mask
 from viscorough.units import in_metres, result_units, square_metres
 
-# Mean area by which a whole element exceeds the contact, per change of contact between two elements, over dx dy.
+# Whole elements exceed the contact at its edge. Mean excess area per change of contact between two neighbouring
+# elements, over the area dx dy of an element.
 EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 
 
@@ -20,56 +21,56 @@ class _Patches(NamedTuple):
 
 
 class Patches(ReadOnlyTuple, _Patches):
-    """The contact patches of a map: connected regions of elements in contact.
+    """Contact patches of a map: connected regions of elements in contact.
 
     Attributes
     ----------
     labels : array
-        Map, 0 where there is no contact and 1 … n in the patches, the largest first.
+        Number of the patch of each element, from 1 for the largest patch; 0 for elements without contact.
     areas : array
-        Of the patches in this order, shape (n,) [length²].
+        Areas of the patches in this order, shape (patches,) [length²].
     """
 
     __slots__ = ()
 
     def __repr__(self) -> str:
-        """Number and areas of the patches, instead of the map."""
+        """Return the number and areas of the patches, not the map."""
         areas = f", areas {span(self.areas)}" if len(self.areas) else ""
         return f"Patches: {len(self.areas)} of the contact{areas}"
 
 
 @dataclass(frozen=True)
 class Contact(ReadOnlyArrays):
-    """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
+    """Contact of a rigid indenter with an elastic half-space at one depth, the result of `contact_at`.
 
     Arrays are copied and read-only.
 
     Attributes
     ----------
     pressure : array
-        p/G, G the shear modulus of the incompressible half-space; zero outside the contact, nan outside the indenter;
-        shape (rows, columns) of the heights [1].
+        Pressure p/G, with G the shear modulus of the incompressible half-space, shape (rows, columns) [1]. It is zero
+        outside the contact and nan outside the indenter.
     gap : array
-        Between the deformed surface and the indenter; nan outside the indenter [length]. In contact it is zero within
-        `residual` times the depth, and nowhere is it below zero by more than that.
+        Gap between the deformed surface and the indenter, nan outside the indenter [length]. Its magnitude in contact,
+        and its overlap elsewhere, are at most `residual` times the depth.
     contact : array
-        Whether an element is in contact, which is where the pressure is above zero.
+        True for elements in contact, whose pressure is above zero.
     depth : float
-        u, from first contact [length].
+        Depth u from first contact [length].
     force : float
-        F/G, the sum of the pressures times the area of an element [length²].
+        Force F/G, the sum of the pressures times the area of an element [length²].
     stiffness : float
-        k/G = d(F/G)/du, of the elements in contact [length].
+        Tangent stiffness k/G = d(F/G)/du of the elements in contact [length].
     residual : float
-        Largest gap in contact or overlap outside it, rounding included, over the depth [1].
+        Largest gap in contact, or overlap outside it, over the depth, rounding included [1].
     tolerance : float
-        Requested bound of the residual.
+        Requested bound of the residual [1].
     spacing, row_spacing : float
-        Distances between neighbouring columns and rows, dx and dy [length].
+        Distances dx and dy between neighbouring columns and rows [length].
     length_unit : str
         Unit of all lengths; "1" if it is not known.
     shear_modulus : float or None
-        G [Pa], or in consistent units if the unit of length is not known; None if it is not known.
+        Shear modulus G [Pa], or in consistent units if the unit of length is not known; None if it was not given.
 
     Examples
     --------
@@ -104,7 +105,7 @@ class Contact(ReadOnlyArrays):
             raise ValueError(f"Contact: pressure, gap and contact have the shapes {shapes}; one shape is needed")
 
     def __str__(self) -> str:
-        """What it is; depth, force and stiffness; contact and pressure."""
+        """Return a summary: elements in contact; depth, force and stiffness; area and pressure."""
         unit, area = self.length_unit, unit_power(self.length_unit, 2)
         text = (
             f"Contact of {self.contact_count} of {self.elements} elements\n"
@@ -123,65 +124,65 @@ class Contact(ReadOnlyArrays):
 
     @property
     def normal_force(self) -> float | None:
-        """Force F [N], or in consistent units if the unit of length is not known; None without a shear modulus."""
+        """Return the force F [N], in consistent units if the unit of length is not known; None without a modulus."""
         if self.shear_modulus is None:
             return None
         return self.force * self.shear_modulus * square_metres(self.length_unit)
 
     @property
     def normal_stiffness(self) -> float | None:
-        """Stiffness k = dF/du [N/m], or in consistent units as `normal_force`; None without a shear modulus."""
+        """Return the stiffness k = dF/du [N/m], in consistent units like `normal_force`; None without a modulus."""
         if self.shear_modulus is None:
             return None
         return self.stiffness * self.shear_modulus * in_metres(self.length_unit)
 
     @property
     def elements(self) -> int:
-        """Number of elements of the indenter."""
+        """Return the number of elements of the indenter."""
         return int(np.count_nonzero(~np.isnan(self.pressure)))
 
     @property
     def contact_count(self) -> int:
-        """Number of elements in contact."""
+        """Return the number of elements in contact."""
         return int(np.count_nonzero(self.contact))
 
     @property
     def contact_fraction(self) -> float:
-        """Share of the indenter's elements that are in contact."""
+        """Return the share of the indenter's elements that are in contact [1]."""
         return self.contact_count / self.elements
 
     @property
     def contact_area(self) -> float:
-        """Area of the elements in contact [length²]."""
+        """Return the area of the elements in contact [length²]."""
         return self.contact_count * self.spacing * self.row_spacing
 
     @property
     def corrected_contact_area(self) -> float:
-        """Area of the contact, whose edge cuts elements that `contact_area` counts whole [length²].
+        """Return the contact area without the excess of whole elements at its edge [length²].
 
-        A* = A − ((π − 1 + ln 2)/24) M dx dy, with M the number of changes between contact and no contact along all rows
-        and columns of the indenter; its own edge counts none. A stretch that makes squares of the elements leaves M
-        and ratios of areas as they are, hence dx dy.
+        A* = A − ((π − 1 + ln 2)/24) M dx dy, with the contact area A of whole elements, and the number M of changes
+        between contact and no contact along all rows and columns. The edge of the indenter counts no changes. The
+        formula of square elements holds for rectangular ones, too: stretching a map changes neither M nor A/(dx dy).
 
         Source: V. A. Yastrebov, G. Anciaux, J.-F. Molinari, Tribology International 114, 161 (2017).
         """
         inside, changes = ~np.isnan(self.pressure), 0
-        for contact, known in ((self.contact, inside), (self.contact.T, inside.T)):
-            changes += np.count_nonzero((contact[1:] != contact[:-1]) & known[1:] & known[:-1])
+        for contact, within in ((self.contact, inside), (self.contact.T, inside.T)):
+            changes += np.count_nonzero((contact[1:] != contact[:-1]) & within[1:] & within[:-1])
         return self.contact_area - float(EXCESS_PER_CHANGE * changes * self.spacing * self.row_spacing)
 
     @property
     def mean_pressure(self) -> float:
-        """Mean of p/G over the contact [1]."""
+        """Return the mean of p/G over the contact [1]."""
         return self.force / self.contact_area
 
     @property
     def largest_pressure(self) -> float:
-        """Largest p/G [1]."""
+        """Return the largest p/G [1]."""
         return float(np.nanmax(self.pressure))
 
     def patches(self) -> Patches:
-        """The Patches of the contact: regions of elements in contact that are connected by their sides."""
+        """Return the Patches of the contact: regions of elements in contact that are connected by their sides."""
         from scipy import ndimage  # takes long to import
 
         labels, count = ndimage.label(self.contact)

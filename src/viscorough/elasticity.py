@@ -1,7 +1,7 @@
 """Elastic constants: from Young's modulus E and Poisson ratio ν to the shear modulus that the solvers use.
 
-Contact without friction depends on E/(1 − ν²) alone. A half-space is therefore as stiff as an incompressible one with
-the shear modulus
+Contact without friction depends on E/(1 − ν²) alone. A half-space is therefore as stiff as an incompressible
+half-space with the shear modulus
 
     G = E/(1 − ν²)/4,    E/3 if ν = 1/2.
 

@@ -2,7 +2,7 @@
 
 
 class ConvergenceError(RuntimeError):
-    """A solver did not reach the accuracy asked for; no result is returned.
+    """A solver did not reach the requested accuracy; no result is returned.
 
     Examples
     --------
@@ -13,7 +13,7 @@ class ConvergenceError(RuntimeError):
 
 
 class AccuracyWarning(UserWarning):
-    """A result may be less accurate than expected; the message says why and what helps.
+    """A result may be less accurate than expected; the message states the reason and the remedy.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Depth and velocity of a rough indenter without a simulation, from the calibrated penetration law alone.
+"""Estimate depth and velocity of a rough indenter from the calibrated penetration law, without a simulation.
 
 A constant force F on a medium of creep compliance J(t) acts as the elastic force F/G = F·J(t) (viscous.kinetics).
 With X = F·J(t)/(4hL) the law gives
@@ -24,14 +24,15 @@ from viscorough.viscous.medium import Medium
 
 @dataclass(frozen=True)
 class Estimate(ReadOnlyArrays):
-    """Depth and velocity over time by the penetration law; arrays of shape (times,), nan where the law does not hold.
+    """Depth and velocity over time by the penetration law, arrays of shape (times,); nan outside the range of the law.
 
-    time : t; x : X = F·J(t)/(4hL)
+    time : times t
+    x : dimensionless force X = F·J(t)/(4hL)
     depth, velocity : u and v = du/dt, arithmetic means over many surfaces at the same X, with h of each surface in X;
         u in the unit of the rms height, v in that unit per unit of time
-    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals in which 95 % of single surfaces lie
-    law : the PenetrationLaw, which holds from law.x_low to law.x_high; the mean over many surfaces lies within
-        law.depth_error and law.velocity_error of depth and velocity, relative to them
+    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that contain 95 % of single surfaces
+    law : PenetrationLaw, which holds from law.x_low to law.x_high. The relative differences between its depth and
+        velocity and the means over many surfaces are at most law.depth_error and law.velocity_error
     """
 
     time: np.ndarray
@@ -46,16 +47,16 @@ class Estimate(ReadOnlyArrays):
 
     @property
     def where(self) -> NDArray[Any]:
-        """For every time: "" in the range of the law, else "below" or "above" it."""
+        """Return for every time "" in the range of the law, "below" or "above" outside it."""
         return np.select([self.x < self.law.x_low, self.x > self.law.x_high], ["below", "above"], "")
 
     def __repr__(self) -> str:
-        """Number of times, and the ranges of times, X, depths and velocities, instead of the table."""
+        """Return the number of times, and the ranges of times, X, depths and velocities."""
         ranges = (f"{name} {span(getattr(self, name))}" for name in ("time", "x", "depth", "velocity"))
         return f"Estimate at {self.time.size} times, {', '.join(ranges)}"
 
     def __str__(self) -> str:
-        """A table: time, X, depth and velocity with the intervals of a single surface, and the interval of the mean."""
+        """Return a table of time, X, depth and velocity with intervals of single surfaces, and the errors of means."""
         head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
         columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)
         columns += (self.velocity, self.velocity_low, self.velocity_high)
@@ -75,22 +76,22 @@ class Estimate(ReadOnlyArrays):
 def estimate(
     hurst: float, rms: float, diameter: float, force: float, medium: Medium | float, times: "ArrayLike"
 ) -> Estimate:
-    """Depth and velocity of a self-affine indenter under a constant force, by the calibrated law, without a simulation.
+    """Estimate depth and velocity of a self-affine indenter under a constant force by the calibrated law.
 
     Parameters
     ----------
     hurst : float
-        Hurst exponent H, 0.1 to 1.
+        Hurst exponent H, from 0.1 to 1 [1].
     rms : float
-        Rms height h.
+        Rms height h [length].
     diameter : float
-        L, in the same unit [length].
+        Diameter L of the indenter [length].
     force : float
-        F > 0, constant from time 0 on.
+        Force F > 0, constant from time 0 on, in units such that F·J is a length².
     medium : Medium or float
-        Medium, as viscorough.Maxwell, or the viscosity of a Newtonian one; in units such that F·J is a length².
+        Medium such as viscorough.Maxwell, or the viscosity of a Newtonian medium.
     times : array_like
-        Above 0, increasing.
+        Times above 0, increasing.
 
     Returns
     -------

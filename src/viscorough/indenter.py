@@ -12,36 +12,35 @@ from viscorough.arrays import ReadOnlyArrays, is_whole, named, read_only, real_n
 from viscorough.summaries import with_unit
 from viscorough.types import Array
 
-LARGEST_ASPECT = 5  # of the sides of an element, either way
-_LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double precision
+# Largest ratio of the sides of an element.
+LARGEST_ASPECT = 5
+# Double precision cannot represent all whole numbers above this one.
+_LARGEST_WHOLE = 2**53
 
 
 @dataclass(frozen=True)
 class Indenter(ReadOnlyArrays):
-    """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
+    """Rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
     Parameters
     ----------
     heights : array
-        a map of shape (rows, columns), nan outside the indenter, or a line of shape (points,); larger is higher, and
-        the highest point touches first [length]. They are copied and read-only; masked entries become nan, and numbers
-        other than those of single precision are kept in double precision.
+        Map of shape (rows, columns), nan outside the indenter, or line of shape (points,) [length]. Larger is higher,
+        and the highest point touches first. The array is copied and read-only. Masked entries become nan. Single
+        precision is kept; all other numbers become double precision.
     spacing : float
-        Distance between neighbouring columns of a map, or points of a line, dx [length]; a pair (dx, dy) stands for
-        both spacings of a map.
+        Distance dx between neighbouring columns of a map, or points of a line [length]; or the pair (dx, dy).
     row_spacing : float
-        Distance between neighbouring rows of a map, dy, at most five times dx or dx five times it; by default equal to
-        `spacing` [length].
+        Distance dy between neighbouring rows of a map, from a fifth of dx to five times dx; by default dx [length].
     length_unit : str
         Unit of heights and spacings, as UDUNITS spells it ("um"); "1" if it is not known.
 
     Raises
     ------
     ValueError
-        If the heights are not real numbers in one or two dimensions, are whole numbers beyond 2**53, are infinite,
-        differ by more than double precision holds, have no element or, on a line, have a nan; if a spacing is not a
-        positive number, or the two differ by more than a factor of five, or on a line at all; or if the unit is no
-        text.
+        For heights that are not real numbers in one or two dimensions, are whole numbers beyond 2**53, are infinite,
+        differ by more than double precision can represent, are all nan, or are nan on a line; for spacings that are
+        not positive, differ by more than a factor of five, or differ on a line; and for a unit that is not a text.
 
     Examples
     --------
@@ -75,12 +74,12 @@ class Indenter(ReadOnlyArrays):
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
         if heights.ndim not in (1, 2):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
-        whole = np.ma.asanyarray(self.heights)  # masked entries do not matter
+        whole = np.ma.asanyarray(self.heights)  # masked entries are ignored
         if whole.dtype.kind in "iu" and whole.count() and max(-int(whole.min()), int(whole.max())) > _LARGEST_WHOLE:
             raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
         # Single or double precision, in rows and in the byte order of this machine.
         precision = np.float32 if heights.dtype == np.float32 else np.float64
-        with np.errstate(over="ignore"):  # what does not fit becomes infinite
+        with np.errstate(over="ignore"):  # numbers that are too large become infinite
             heights = np.ascontiguousarray(heights, dtype=precision)
         heights.flags.writeable = False
         if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
@@ -99,7 +98,7 @@ class Indenter(ReadOnlyArrays):
         object.__setattr__(self, "row_spacing", row_spacing)
 
     def __str__(self) -> str:
-        """What it is; distances of its points; the difference of its heights."""
+        """Return a summary: kind and numbers of points; spacings; difference of the heights."""
         points, unit = " x ".join(map(str, self.heights.shape)), self.length_unit
         difference = np.nanmax(self.heights) - np.nanmin(self.heights)
         text = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements\n"
@@ -109,7 +108,7 @@ class Indenter(ReadOnlyArrays):
         return f"{text}highest over lowest point {with_unit(difference, unit)}"
 
     def to(self, unit: str) -> "Indenter":
-        """The same indenter with lengths in another unit, such as "m". Raises ValueError if its own is not known."""
+        """Convert lengths to another unit, such as "m". Raises ValueError if the unit of the indenter is not known."""
         if self.length_unit == units.UNKNOWN:
             raise ValueError(f"indenter: its unit of length is not known, so that it cannot be converted to {unit}")
         unit = units.length_unit(unit)
@@ -118,40 +117,40 @@ class Indenter(ReadOnlyArrays):
 
     @property
     def aspect(self) -> float:
-        """Aspect dy/dx of an element, its side along the columns over that along the rows; 1 for squares."""
+        """Return the aspect dy/dx of an element; 1 for squares."""
         return self.row_spacing / self.spacing
 
     @property
     def element_side(self) -> float:
-        """Side d = √(dx dy) of the square with the area of an element [length]."""
+        """Return the side d = √(dx dy) of a square with the area of an element [length]."""
         return self.spacing * math.sqrt(self.aspect)
 
     @property
     def elements(self) -> int:
-        """Number of elements, which are the points that are not nan."""
+        """Return the number of elements, which are the points that are not nan."""
         return int(np.count_nonzero(~np.isnan(self.heights)))
 
     @property
     def rms_slope(self) -> float:
-        """Root mean square of the slope `|∇h|` [1], from differences between neighbours; 0 for a single element."""
+        """Return the rms slope, √⟨|∇h|²⟩ from differences of neighbours [1]; 0 for a single element."""
         slopes = [0.0]
         with np.errstate(over="ignore", under="ignore"):  # a slope that overflows is infinite
             for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):
                 slope = np.abs(np.diff(self.heights.astype(float), axis=axis)) / spacing
                 largest = np.fmax.reduce(slope, axis=None, initial=0.0)
-                # Squares are of the slope over the largest: those of slopes below 1e-162 would be 0.
+                # Slopes are divided by the largest before squaring: the square of a slope below 1e-162 would be 0.
                 relative = slope / largest if 0 < largest < np.inf else np.ones(1)
                 slopes.append(largest * np.sqrt(np.nanmean(relative**2)))
         return float(np.hypot.reduce(slopes))
 
     @property
     def initial_gap(self) -> Array:
-        """Initial gap, the depth below the highest element [length], in double precision; shape (rows, columns)."""
+        """Return the depth of each element below the highest element, shape of the heights [length]."""
         return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
 
 
 def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, float]:
-    """Both spacings (dx, dy) as floats, in the unit of length."""
+    """Convert both spacings to (dx, dy) in the unit of length."""
     if unit_attribute(spacing):
         spacing = units.numbers(spacing, length_unit, length_unit, "indenter spacing")
     if unit_attribute(row_spacing):
@@ -162,7 +161,7 @@ def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, 
     row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
     if min(spacing, row_spacing) < sys.float_info.min:
         raise ValueError(f"indenter spacing: {spacing:g} is too small to represent; a smaller unit of length is needed")
-    largest = LARGEST_ASPECT * (1 + 1e-9)  # spacings that were computed may miss it by rounding
+    largest = LARGEST_ASPECT * (1 + 1e-9)  # computed spacings may exceed it by rounding
     if not 1 / largest <= row_spacing / spacing <= largest:
         raise ValueError(
             f"indenter spacing: {spacing:g} between columns and {row_spacing:g} between rows differ by more than "
@@ -185,7 +184,7 @@ def check_indenter(caller: str, indenter: object, dimensions: int | None = None)
 
 
 def positive(name: str, value: float) -> float:
-    """The value as a float. Raises ValueError with the name unless it is finite and above 0."""
+    """Return the value as a float. Raises ValueError with the name unless it is finite and above 0."""
     try:
         number = float(real_numbers(name, value))
     except (TypeError, ValueError):

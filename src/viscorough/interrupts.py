@@ -1,4 +1,4 @@
-"""Handling of interrupts (Ctrl-C) while a block of code runs."""
+"""Handle interrupts (Ctrl-C) while a block of code runs."""
 
 import contextlib
 import signal
@@ -9,9 +9,9 @@ from typing import Any
 
 @contextlib.contextmanager
 def on_interrupt(handler: Callable[..., Any] | signal.Handlers) -> Iterator[None]:
-    """Context in which an interrupt calls handler(signal number, frame).
+    """Let an interrupt within this context call handler(signal number, frame).
 
-    Outside the main thread, which interrupts never reach, nothing is changed.
+    Outside the main thread nothing changes, since interrupts never reach other threads.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -25,10 +25,10 @@ def on_interrupt(handler: Callable[..., Any] | signal.Handlers) -> Iterator[None
 
 @contextlib.contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Context in which an interrupt is deferred: it is handled at the end.
+    """Defer interrupts within this context to its end.
 
-    In LLVM's callbacks into Python an interrupt would be lost or crash the process, and a compiled function that was
-    interrupted crashes when it returns its results.
+    During the callbacks of LLVM into Python an interrupt would be lost or crash the process. A compiled function that
+    was interrupted crashes when it returns its results.
     """
     arrived = []
     try:

@@ -1,10 +1,10 @@
-"""The random waves of a self-affine line: complex Gaussian coefficients from a counter-based random generator.
+"""Compute the random waves of a self-affine line from a counter-based random generator.
 
-Wave k gets its two 32-bit random numbers from the counter k alone (Philox2x32 with ten rounds, J. K. Salmon et al.,
-Parallel random numbers: as easy as 1, 2, 3, 2011), so that they depend neither on the order nor on the number of waves
-computed at a time. From them follow a phase φ and a number U in (0, 1), and the wave's coefficient (Box and Muller)
-    X_k = A_k √(-2 ln U) exp(iφ),
-complex Gaussian with the modulus A_k of the spectrum; or A_k exp(iφ), if amplitudes are fixed.
+Wave k gets two 32-bit random numbers from the counter k alone (Philox2x32 with ten rounds, J. K. Salmon et al.,
+Parallel random numbers: as easy as 1, 2, 3, 2011). They depend neither on the order nor on the number of waves computed
+at a time. They determine a phase φ and a number U in (0, 1), and the complex Gaussian coefficient (Box and Muller)
+    X_k = A_k √(-2 ln U) exp(iφ)
+with the modulus A_k of the spectrum. With fixed amplitudes the coefficient is A_k exp(iφ).
 `waves` is this formula in double precision. The compiled functions compute it in single precision for lines of an even
 number of points, with polynomials for logarithm, sine and cosine, because the compiler can vectorize those.
 """
@@ -14,9 +14,12 @@ import numpy as np
 from viscorough.compilation import njit
 from viscorough.types import Array, Complex, Integers
 
-MOST_WAVES = 2**32 - 1  # the largest counter
-_BLOCK = 1024  # waves computed at a time: their arrays stay in the fastest cache
-_U64, _U32, _I32, _F32 = np.uint64, np.uint32, np.int32, np.float32  # numba computes in the types stated
+# Largest counter of the generator.
+MOST_WAVES = 2**32 - 1
+# Waves computed at a time, so that their arrays stay in the fastest cache.
+_BLOCK = 1024
+# Numba computes in exactly these types.
+_U64, _U32, _I32, _F32 = np.uint64, np.uint32, np.int32, np.float32
 
 _ROUNDS, _MULTIPLIER, _WEYL, _LOW = 10, _U64(0xD256D193), _U64(0x9E3779B9), _U64(0xFFFFFFFF)
 # Polynomials of S. Moshier's Cephes library for single precision, relative errors of 1e-7: (ln(1+z) - z + z²/2) / z³,
@@ -39,21 +42,22 @@ _SINE = tuple(_F32(c) for c in (-1.9515295891e-4, 8.3321608736e-3, -1.6666654611
 _COSINE = tuple(_F32(c) for c in (2.443315711809948e-5, -1.388731625493765e-3, 4.166664568298827e-2, -0.5))
 _LN2, _ONE, _HALF, _TWO, _BITS = _F32(np.log(2)), _F32(1), _F32(0.5), _F32(2), _F32(32)
 _EIGHTH_TURN = _F32(np.pi / 4 * 2.0**-31)
-_ROOT_HALF, _MANTISSA = _I32(0x3F3504F3), _I32(23)  # bits of √(1/2) in single precision; bits of a mantissa
+# Bits of √(1/2) in single precision, and number of bits of a mantissa.
+_ROOT_HALF, _MANTISSA = _I32(0x3F3504F3), _I32(23)
 
 
 def key_of(seed_sequence: np.random.SeedSequence) -> Integers:
-    """Key of the random numbers: two 32-bit numbers."""
+    """Return the key of the random numbers: two 32-bit numbers."""
     return seed_sequence.generate_state(2, np.uint32).astype(np.uint64)
 
 
 def waves(first: int, key: Integers, amplitude: Array, *, fixed: bool) -> Complex:
-    """Coefficients X_k of the waves k = first, first + 1, ..., in double precision; shape of `amplitude`.
+    """Return the coefficients X_k of the waves k = first, first + 1, ... in double precision, shape of `amplitude`.
 
-    first : at least 0, whole
-    key : of the realization, from `key_of`
+    first : number of the first wave, at least 0
+    key : key of the realization, from `key_of`
     amplitude : moduli A_k of the waves
-    fixed : whether moduli are exactly A_k, not random
+    fixed : True if the moduli of X_k are exactly A_k, False if they are random
     """
     direction, size = np.empty((2, len(amplitude)), np.uint32)
     random_words(first, key, direction, size)
@@ -65,7 +69,7 @@ def waves(first: int, key: Integers, amplitude: Array, *, fixed: bool) -> Comple
 def random_words(first, key, low, high):
     """Fill `low` and `high` with the random numbers of the counters first, first + 1, ... (Philox2x32-10).
 
-    key : the generator's key and the upper half of its counter
+    key : key of the generator, and upper half of its counter
     """
     for i in range(low.size):
         left, right, round_key = _U64(first + i), key[1], key[0]
@@ -79,24 +83,25 @@ def random_words(first, key, low, high):
 
 
 def shortest_wave(points: int, key: Integers, amplitude: float, *, fixed: bool) -> float:
-    """Real coefficient of wave n/2 of a line of an even number n of points.
+    """Return the real coefficient of wave n/2 of a line of an even number n of points.
 
-    The wave is its own mirror image: only a cosine, of the same mean power as if it were not.
-    amplitude : its modulus
+    This wave equals its mirror image, so it is a cosine. Its mean power is the same as with a random phase.
+
+    amplitude : modulus of the wave
     """
     wave = waves(points // 2, key, np.array([amplitude]), fixed=fixed)[0]
     return np.copysign(abs(wave), wave.real) if fixed else np.sqrt(2) * wave.real
 
 
 def fill_packed_spectrum(spectrum: Complex, key: Integers, amplitude: Array, *, fixed: bool) -> float:
-    """Fill `spectrum` with that of a line whose points are taken in pairs; returns the mean square of the heights.
+    """Fill `spectrum` with the spectrum of a line of pairs of points; return the mean square of the heights.
 
     spectrum : Z, shape (m,), complex, single precision, for a line of n = 2m points
-    key, fixed : as in `waves`
+    key, fixed : arguments of `waves`
     amplitude : moduli A_k of the waves k = 0, 1, ..., m in single precision; there is no wave k = 0
 
-    The transform of Z, complex and of length m, with positive exponents and no factor, is y_2j + i y_2j+1, where y is
-    the real line of the waves X_k:
+    The complex transform of Z of length m, with positive exponents and without a factor, is y_2j + i y_2j+1 for the
+    real line y of the waves X_k:
         Z_k = X_k + X*_(m-k) + i exp(iπk/m) (X_k - X*_(m-k)).
     """
     half = len(spectrum)
@@ -112,7 +117,7 @@ def fill_packed_spectrum(spectrum: Complex, key: Integers, amplitude: Array, *, 
 
 @njit
 def _fill_pairs(spectrum, key, amplitude, fixed):
-    """Fill Z_k and Z_(m-k) for 0 < k < m/2, block by block; returns the sum of the squares of the moduli."""
+    """Fill Z_k and Z_(m-k) for 0 < k < m/2 block by block; return the sum of the squares of the moduli."""
     half, square = spectrum.size, 0.0
     turn = _U64(2.0**63 / half)  # half a turn over m
     longer, shorter = np.empty((2, _BLOCK), np.float32), np.empty((2, _BLOCK), np.float32)
@@ -131,7 +136,7 @@ def _fill_pairs(spectrum, key, amplitude, fixed):
 
 @njit(inner=True)
 def _draw(first, key, amplitude, fixed, parts):
-    """Real and imaginary parts of X_k for k = first, first + 1, ...; returns the sum of the squares of the moduli."""
+    """Compute the parts of X_k for k = first, first + 1, ...; return the sum of the squares of the moduli."""
     direction, size = np.empty(amplitude.size, np.uint32), np.empty(amplitude.size, np.uint32)
     random_words(first, key, direction, size)
     if fixed:
@@ -143,14 +148,14 @@ def _draw(first, key, amplitude, fixed, parts):
 
 @njit(fastmath=True)
 def _moduli(size, amplitude, modulus):
-    """A √(-2 ln U) with U = (size + 1/2) / 2^32."""
+    """Compute the moduli A √(-2 ln U) with U = (size + 1/2) / 2^32."""
     for i in range(size.size):
         modulus[i] = amplitude[i] * np.sqrt(_TWO * _minus_log(size[i]))
 
 
 @njit(inner=True, fastmath=True)
 def _polar(direction, modulus, parts):
-    """Real and imaginary parts of numbers of this modulus and direction; returns the sum of the squared moduli."""
+    """Compute the parts of numbers of this modulus and direction; return the sum of the squared moduli."""
     square = _F32(0)
     for i in range(direction.size):
         cosine, sine = _cos_sin(direction[i])
@@ -161,14 +166,14 @@ def _polar(direction, modulus, parts):
 
 @njit(inner=True, fastmath=True)
 def _unit_vectors(first, turn, parts):
-    """Real and imaginary parts of exp(2πi (first + i) turn / 2^64)."""
+    """Compute the real and imaginary parts of exp(2πi (first + i) turn / 2^64)."""
     for i in range(parts.shape[1]):
         parts[0, i], parts[1, i] = _cos_sin(_U32(_U64(first + i) * turn >> _U64(32)))
 
 
 @njit(inner=True, fastmath=True)
 def _pack(longer, shorter, rotation, size):
-    """Overwrite the parts of X_k and of X_(m-k), the latter in reverse, by those of Z_k and Z_(m-k).
+    """Overwrite the parts of X_k and of X_(m-k), the latter in reverse order, by the parts of Z_k and Z_(m-k).
 
     With S = X_k + X*_(m-k) and W = i exp(iπk/m) (X_k - X*_(m-k)): Z_k = S + W and Z_(m-k) = (S - W)*.
     """
@@ -190,7 +195,7 @@ def _store(parts, numbers):
 
 @njit
 def twiddle(spectrum, factor):
-    """Multiply spectrum[j, k] by factor exp(2πi jk/m), where m is its size, in place.
+    """Multiply spectrum[j, k] in place by factor exp(2πi jk/m), with m the size of the spectrum.
 
     spectrum : complex, single precision, as pairs of real numbers; shape (rows, 2 columns)
     """
@@ -203,7 +208,7 @@ def twiddle(spectrum, factor):
 
 @njit(inner=True, fastmath=True)
 def _rotate(pairs, rotation, factor):
-    """Multiply complex numbers, stored as pairs of real numbers, by others."""
+    """Multiply complex numbers, stored as pairs of real numbers, by other complex numbers."""
     for i in range(rotation.shape[1]):
         j, k = _U64(2 * i), _U64(2 * i + 1)
         cosine, sine = factor * rotation[0, i], factor * rotation[1, i]
@@ -213,7 +218,7 @@ def _rotate(pairs, rotation, factor):
 
 @njit(inner=True, fastmath=True)
 def _cos_sin(direction):
-    """Cosine and sine of the angle direction / 2^32 of a turn, from those within an eighth of a turn of an axis."""
+    """Return cosine and sine of the angle direction / 2^32 of a turn, from an angle within an eighth of a turn."""
     quadrant = _U32(_U32(direction + _U32(1 << 29)) >> _U32(30))
     x = _F32(_I32(_U32(direction << _U32(2)))) * _EIGHTH_TURN
     square = x * x
@@ -228,7 +233,7 @@ def _cos_sin(direction):
 
 @njit(inner=True, fastmath=True)
 def _minus_log(size):
-    """-ln((size + 1/2) / 2^32), from the exponent and the mantissa of size + 1/2."""
+    """Return -ln((size + 1/2) / 2^32) from the exponent and the mantissa of size + 1/2."""
     bits = np.float32(_F32(size) + _HALF).view(np.int32)
     exponent = (bits - _ROOT_HALF) >> _MANTISSA  # with mantissas from √(1/2) to √2
     z = np.int32(bits - (exponent << _MANTISSA)).view(np.float32) - _ONE

@@ -1,11 +1,11 @@
-"""Self-affine lines, one after the other: what does not depend on the realization is computed once.
+"""Generate realizations of self-affine lines; quantities that do not depend on the realization are computed once.
 
-Heights are the transform of random waves (`line_waves`). Those of an even number n of points in single precision are a
-complex transform of half the length, m = n/2, over points taken in pairs. It is done in four steps (D. H. Bailey, FFTs
-in external or hierarchical memory, 1990): with m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂,
+Heights are the Fourier transform of random waves (`line_waves`). For an even number n of points in single precision,
+the heights are a complex transform of half the length, m = n/2, over pairs of points. The transform has four steps
+(D. H. Bailey, FFTs in external or hierarchical memory, 1990): with m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂,
     z_j = Σ_k₂ exp(2πi j₂k₂/N₂) exp(2πi j₁k₂/m) Σ_k₁ exp(2πi j₁k₁/N₁) Z_k,
-so that every transform fits in the cache. Pairs are then stored in the order of (j₁, j₂), which does not matter to the
-method of dimensionality reduction. All other lines are an ordinary real transform.
+so that every transform fits in the cache. Pairs are then stored in the order of (j₁, j₂), which is irrelevant to the
+method of dimensionality reduction. All other lines are computed by an ordinary real transform.
 """
 
 import math
@@ -20,17 +20,20 @@ from viscorough.arrays import whole_number
 from viscorough.indenter import positive
 from viscorough.types import Array, Integers, Seed
 
-_ROOM = 1000  # between the rms height and the limits of the floating-point type
-_BLOCK = 16384  # waves computed at a time in double precision
-# Memory that must be available, in multiples of the heights of a line, since the Fourier transform copies them; and if
-# the number of points has large prime factors, for which more is needed, up to this (tests/viscorough/test_memory.py).
+# Factor between the rms height and the limits of the floating-point type.
+_ROOM = 1000
+# Waves computed at a time in double precision.
+_BLOCK = 16384
+# Memory that must be available, in multiples of the heights of a line, since the Fourier transform copies them. The
+# second number is for numbers of points with large prime factors (tests/viscorough/test_memory.py).
 _COPIES, _MOST_COPIES = 2.6, 17
 
 
 class SelfAffineLines:
-    """Periodic self-affine lines of one spectrum, of as many realizations as wanted.
+    """Generator of periodic self-affine lines with one spectrum.
 
-    All arguments, and the errors raised, are those of `surfaces.self_affine_line`.
+    Takes the arguments of `surfaces.self_affine_line` and raises the same errors.
+
     spacing : distance between neighbouring points, length/points [length]
     """
 
@@ -72,16 +75,16 @@ class SelfAffineLines:
             self._packed = np.empty((rows, pairs // rows), np.complex64)
 
     def heights(self, seed: Seed) -> Array:
-        """Heights of the realization of this seed, in order; shape (points,), read-only."""
+        """Return the heights of the realization of a seed, in order, shape (points,), read-only [length]."""
         heights = self.heights_in_any_order(seed)
         if self._in_pairs:  # y_2j + i y_2j+1 at [j₁, j₂]
             ordered = heights.view(np.complex64).reshape(self._packed.shape).T.copy()
-            ordered.flags.writeable = False  # so that an indenter need not copy them
+            ordered.flags.writeable = False  # so that an Indenter does not copy them
             heights = ordered.reshape(-1).view(np.float32)
         return heights
 
     def heights_in_any_order(self, seed: Seed) -> Array:
-        """The same heights, read-only, in unspecified order; valid until the next call of a method."""
+        """Return the same heights in unspecified order, read-only; the next call of a method overwrites them."""
         key = line_waves.key_of(spectrum.seed_sequence(seed))
         if not self._in_pairs:
             return self._by_real_transform(key)
@@ -117,5 +120,5 @@ class SelfAffineLines:
         return heights
 
     def _moduli(self, first: int, count: int, dtype: DTypeLike = np.float32) -> Array:
-        """Moduli of the waves first, first + 1, ...; that of wave 0 has no meaning."""
+        """Return the moduli of the waves first, first + 1, ...; the modulus of wave 0 has no meaning."""
         return spectrum.amplitude(np.arange(first, first + count, dtype=dtype), self._exponent, *self._roll_off)

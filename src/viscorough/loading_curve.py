@@ -1,4 +1,4 @@
-"""The loading curve: the common result of all contact computations.
+"""The loading curve, the common result of all contact computations.
 
 The elastic loading curve determines the solution of the viscous problem (paper, Eqs. 1-3): other forces, viscosities
 and times only rescale it.
@@ -15,70 +15,71 @@ from viscorough.arrays import ReadOnlyArrays, increasing, read_only
 from viscorough.summaries import span, unit_power
 from viscorough.types import Array, Integers, Pair, Scalar
 
-# Relative rounding error of forces and depths that is allowed for.
+# Allowed relative rounding error of forces and depths.
 _ROUNDING = 1e-12
-# Rounding error of the difference of two depths, over the larger one.
+# Rounding error of the difference of two depths, over the larger depth.
 _CANCELLATION = 4 * np.finfo(float).eps
-# Halvings of the interval between two levels that find a force to rounding: forces differ by up to 1e10 times, 2**34.
+# Halvings of the interval between two levels that find a force to rounding, if their forces differ by up to 1e10.
 _HALVINGS = 90
 
 
-# Arrays over levels about the error of the grid, which a curve has if it was requested.
-_OF_GRID = ("grid_error", "force_grid_error", "area_change")
+# Optional arrays over levels that state the error of the grid.
+_GRID_QUANTITIES = ("grid_error", "force_grid_error", "area_change")
 
 
 @dataclass(frozen=True)
 class LoadingCurve(ReadOnlyArrays):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
-    Arrays are copied and read-only. Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem
-    (Radok; paper, Sec. III).
+    Arrays are copied and read-only. If G is replaced by the viscosity η and F by ∫F dt, the curve is the solution of
+    the linearly viscous problem (Radok; paper, Sec. III).
 
     Attributes
     ----------
     depth : array
-        u, shape (levels,), strictly increasing and positive [length].
+        Depth u from first contact, strictly increasing and positive, shape (levels,) [length].
     force : array
-        F/G, shape (levels,) [length²], G the shear modulus of the incompressible half-space.
+        Force F/G, with G the shear modulus of the incompressible half-space, shape (levels,) [length²].
     stiffness : array
-        k/G = d(F/G)/du, shape (levels,) [length], of the elements in contact at that level.
+        Tangent stiffness k/G = d(F/G)/du of the elements in contact at the level, shape (levels,) [length].
     contact_count : array
-        Elements in contact, shape (levels,) [1].
+        Number of elements in contact, shape (levels,) [1].
     elements : int
         Number of elements of the indenter.
     method : str
-        How the curve was obtained.
+        Method that computed the curve.
     tolerance : float
-        Requested relative accuracy.
+        Requested relative accuracy [1].
     operator_applications : int
         Number of applications of the half-space operator on the grid.
     residual : array
-        Largest gap in contact or overlap outside it that remains, over the depth, shape (levels,) [1].
+        Largest remaining gap in contact, or overlap outside it, over the depth, shape (levels,) [1].
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
     grid_error : array
-        Estimated relative error of the velocity that is due to the spacing of the map, at the force of each level,
-        shape (levels,) [1]. None unless it was requested, as the four quantities that follow;
+        Estimated relative error of the velocity due to the spacing of the map, at the force of each level, shape
+        (levels,) [1]. This and the four following quantities are None unless they were requested;
         `viscorough.contact.grid_error` has the formulas.
     force_grid_error : array
-        The same of the force at the depth of each level, counted from the highest point of the map.
+        Estimated relative error of the force due to the spacing, at the depth of each level, counted from the highest
+        point of the map, shape (levels,) [1].
     area_change : array
-        Relative change of the contact area when the spacing of the map is halved. The contact area of a rough surface
-        has no limit and therefore no error.
+        Relative change of the contact area when the spacing of the map is halved, shape (levels,) [1]. The contact area
+        of a rough surface has no limit and therefore no error.
     mean_grid_error, mean_area_change : float
-        `grid_error` and `area_change` over all forces from F/G = hL/25 on, with the rms height h of the map and the
-        diameter L of a disc of its area, or over the last decade if the curve ends before 0.4 hL.
+        Means of `grid_error` and `area_change` over all forces from F/G = hL/25 on, with the rms height h of the map
+        and the diameter L of a disc of its area, or over the last decade if the curve ends before 0.4 hL.
     sampling : int
-        n, if the curve is the one on every n-th point of the map in both directions. Depths are then counted from the
-        highest point of the full map.
+        n for a curve on every n-th point of the map in both directions. Depths are counted from the highest point of
+        the full map.
     choice : str
-        Reason for the sampling and the tolerance, if these were chosen to meet a requested error.
+        Reason for the sampling and the tolerance, if they were chosen to meet a requested error.
 
     Raises
     ------
     ValueError
-        Without levels, for depths or forces that do not increase or are not finite, and for stiffnesses that are not
-        finite and positive, as overflow or a damaged file can produce.
+        For a curve without levels, for depths or forces that do not increase or are not finite, and for stiffnesses
+        that are not finite and positive.
 
     Examples
     --------
@@ -113,14 +114,14 @@ class LoadingCurve(ReadOnlyArrays):
         for name in ("depth", "force"):
             values = increasing(f"loading curve: {name}", getattr(self, name), above_zero=True)
             object.__setattr__(self, name, read_only(values))
-        of_grid = [name for name in _OF_GRID if getattr(self, name) is not None]
-        for name in ("force", "stiffness", "contact_count", "residual", *of_grid):
+        grid_quantities = [name for name in _GRID_QUANTITIES if getattr(self, name) is not None]
+        for name in ("force", "stiffness", "contact_count", "residual", *grid_quantities):
             if (shape := getattr(self, name).shape) != self.depth.shape:
                 text = f"loading curve: {name} has the shape {shape} and depth {self.depth.shape}"
                 raise ValueError(f"{text}; one value for each level is needed")
             if not np.isfinite(getattr(self, name)).all():
                 raise ValueError(f"loading curve: {name} must be finite")
-        for name in (*of_grid, "mean_grid_error", "mean_area_change"):
+        for name in (*grid_quantities, "mean_grid_error", "mean_area_change"):
             value, least = getattr(self, name), -1 if name.endswith("change") else 0
             if value is not None and not ((value >= least) & np.isfinite(value)).all():
                 raise ValueError(f"loading curve: {name} must be finite and not below {least}")
@@ -133,7 +134,7 @@ class LoadingCurve(ReadOnlyArrays):
             raise ValueError(f"loading curve: {text}; at least 1 and a finite number from 0 on are needed")
 
     def __str__(self) -> str:
-        """What it is; the range of depths, forces and stiffnesses; that of the contact fraction."""
+        """Return a summary: method and levels; ranges of depth, force, stiffness and contact fraction; grid error."""
         unit, levels = self.length_unit, self.depth.size
         lines = [
             f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements",
@@ -147,12 +148,12 @@ class LoadingCurve(ReadOnlyArrays):
 
     @property
     def contact_fraction(self) -> Array:
-        """Share of the indenter's elements that are in contact, shape (levels,)."""
+        """Return the share of the indenter's elements that are in contact, shape (levels,) [1]."""
         return self.contact_count / self.elements
 
     @property
     def grid_error_text(self) -> str:
-        """Meaning of the error of the grid in one line; "" if it was not requested."""
+        """Return the error of the grid and its meaning in one line; "" if it was not requested."""
         if self.mean_grid_error is None or self.mean_area_change is None:
             return ""
         grid = "a scan" if self.sampling == 1 else "a sampling"
@@ -163,11 +164,11 @@ class LoadingCurve(ReadOnlyArrays):
 
     @property
     def starts_straight(self) -> bool:
-        """Whether the tangent of the first level passes through the origin, as with all contacts at one height."""
+        """Return True if the tangent of the first level passes through the origin: its contacts have one height."""
         return bool(abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0])
 
     def normalised(self, rms: Scalar, diameter: Scalar) -> tuple[Array, Array]:
-        """X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) for rms height h and diameter L; both of shape (levels,)."""
+        """Return X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3), for rms height h and diameter L, of shape (levels,)."""
         unit = self.length_unit
         rms, diameter = units.number(rms, unit, unit, "rms"), units.number(diameter, unit, unit, "diameter")
         if not (rms > 0 and diameter > 0):
@@ -175,24 +176,25 @@ class LoadingCurve(ReadOnlyArrays):
         return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
 
     def at_force(self, force: "ArrayLike") -> tuple[Array, Array]:
-        """Depth u and stiffness k/G at given F/G, interpolated between the levels; nan beyond the last one.
+        """Interpolate depth u and stiffness k/G at given forces F/G; nan beyond the last level.
 
-        Where at most one element joined the contact from one level to the next, the curve is made of the two
-        tangents, exactly. Elsewhere ln u is a cubic Hermite interpolant in ln F (a power law is met exactly),
-        kept inside the triangle of chord and tangents to which convexity of F(u) confines the curve.
-        Before the first level the curve is the straight line through the origin if the elements in contact there are
-        of one height, so that the tangent passes through the origin to rounding; otherwise depth and stiffness are
-        nan, except that at zero force the depth is zero.
+        If at most one element joins the contact between two levels, the curve consists of the two tangents, exactly.
+        Otherwise ln u is a cubic Hermite interpolant in ln F, which is exact for a power law. Since F(u) is convex, the
+        interpolant is kept inside the triangle of chord and tangents.
+
+        Before the first level the curve is a straight line through the origin if all elements in contact there have one
+        height, so that the tangent passes through the origin. Otherwise depth and stiffness are nan, but the depth at
+        zero force is zero.
 
         Parameters
         ----------
         force : array_like
-            F/G, any shape [length²].
+            Forces F/G, any shape [length²].
 
         Returns
         -------
         depth, stiffness : array
-            Of the same shape [length].
+            u and k/G, both of the shape of `force` [length].
         """
         unit = self.length_unit
         force = units.numbers(force, unit_power(unit, 2), unit, "force")
@@ -212,20 +214,20 @@ class LoadingCurve(ReadOnlyArrays):
         return depth, stiffness
 
     def at_depth(self, depth: "ArrayLike") -> tuple[Array, Array]:
-        """Force F/G and stiffness k/G at given depths u, interpolated between the levels; nan beyond the last one.
+        """Interpolate force F/G and stiffness k/G at given depths u; nan beyond the last level.
 
-        The inverse of `at_force`: the same curve, read the other way round. Before the first level force and stiffness
-        are nan where `at_force` gives nan; at zero depth the force is zero.
+        This is the inverse function of `at_force`. Before the first level force and stiffness are nan if `at_force`
+        gives nan, but the force at zero depth is zero.
 
         Parameters
         ----------
         depth : array_like
-            u, any shape [length].
+            Depths u, any shape [length].
 
         Returns
         -------
         force, stiffness : array
-            F/G [length²] and k/G [length], of the same shape.
+            F/G [length²] and k/G [length], both of the shape of `depth`.
 
         Examples
         --------
@@ -255,9 +257,9 @@ class LoadingCurve(ReadOnlyArrays):
         return np.where(np.isnan(at_force), np.nan, force), stiffness
 
     def _levels_around(self, after: Integers) -> tuple[Pair, Pair, Pair, Array]:
-        """Forces, depths and stiffnesses at the levels before and after, and the number of elements that join.
+        """Return pairs of forces, depths and stiffnesses at two successive levels, and the number of joining elements.
 
-        after : indices of the levels after
+        after : indices of the second levels
         """
         forces, depths, stiffnesses = ((at[after - 1], at[after]) for at in (self.force, self.depth, self.stiffness))
         return forces, depths, stiffnesses, self.contact_count[after] - self.contact_count[after - 1]
@@ -271,24 +273,26 @@ def check_curve(caller: str, curve: object) -> None:
 
 
 def interpolate_between(
-    forces: Pair, depths: Pair, stiffnesses: Pair, joined: Any, wanted: Array
+    forces: Pair, depths: Pair, stiffnesses: Pair, joined: Any, force: Array
 ) -> tuple[Array, Array]:
-    """Depth and tangent stiffness at forces between two levels; see LoadingCurve.at_force.
+    """Return depth and tangent stiffness at forces between two levels, as LoadingCurve.at_force.
 
-    forces, depths, stiffnesses : pairs of those at the level before and at the level after: numbers, or arrays (n,)
-    joined : number of elements that join the contact from one level to the other, likewise
-    wanted : forces, shape (n,). Returns (depth, stiffness) of that shape.
+    forces, depths, stiffnesses : pairs of values at the first and at the second level, numbers or arrays of shape (n,)
+    joined : number of elements that join the contact between the levels, number or array of shape (n,)
+    force : forces F/G between the levels, shape (n,) [length²]
+
+    Returns (depth, stiffness), both of shape (n,).
     """
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
-    # Far below the level after, its tangent is lost in rounding: it must not be the lower one there.
-    left, right = u0 + (wanted - f0) / k0, u1 - (f1 - wanted) / k1 + _CANCELLATION * u1
+    # Far below the second level its tangent is inaccurate, by rounding. Then it must not be the lower tangent.
+    left, right = u0 + (force - f0) / k0, u1 - (f1 - force) / k1 + _CANCELLATION * u1
     is_left = left <= right
     tangents = np.clip(np.minimum(left, right), u0, u1)
-    chord = u0 + (u1 - u0) * (wanted - f0) / (f1 - f0)
-    cubic, cubic_stiffness = _hermite_in_logarithms(wanted, forces, depths, stiffnesses)
-    tangent_stiffness = np.where(is_left & (wanted < f1), k0, k1)
+    chord = u0 + (u1 - u0) * (force - f0) / (f1 - f0)
+    cubic, cubic_stiffness = _hermite_in_logarithms(force, forces, depths, stiffnesses)
+    tangent_stiffness = np.where(is_left & (force < f1), k0, k1)
 
-    # Tangents where at most one element joined; elsewhere the cubic, or the side of the triangle that it crosses.
+    # Use the tangents if at most one element joined, otherwise the cubic or the side of the triangle that it crosses.
     on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
     where = [on_tangents, cubic < chord * (1 - 1e-12)]
     stiffness = np.select(where, [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness)
@@ -296,7 +300,7 @@ def interpolate_between(
 
 
 def _hermite_in_logarithms(force: Array, forces: Pair, depths: Pair, stiffnesses: Pair) -> tuple[Array, Array]:
-    """Depth and stiffness of the cubic Hermite interpolant of ln u over ln F between two levels."""
+    """Return depth and stiffness of the cubic Hermite interpolant of ln u over ln F between two levels."""
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
     span = np.log(f1 / f0)
     x = np.log(force / f0) / span

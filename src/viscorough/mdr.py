@@ -1,9 +1,9 @@
 """The method of dimensionality reduction (MDR): a line of independent springs instead of the half-space.
 
-Springs of stiffness 4G Δx, one per point of the line with spacing Δx, carry F/G = 4 Δx Σ(u - g)₊ at depth u, where g
-are the initial gaps, measured from the highest point. With η for G they are dashpots of damping 4η Δx that carry
-∫F dt/η (paper, Sec. V). No equation has to be solved or integrated in time: the loading curve follows from the sorted
-gaps, and it is enough to count and add them in narrow bins.
+Each point of a line with spacing Δx is a spring of stiffness 4G Δx. At depth u the springs carry F/G = 4 Δx Σ(u - g)₊,
+with the initial gaps g below the highest point. If G is replaced by the viscosity η, they are dashpots of damping 4η Δx
+that carry ∫F dt/η (paper, Sec. V). No equation has to be solved or integrated in time: the loading curve follows from
+the sorted gaps, and it suffices to count and add gaps in narrow bins.
 """
 
 from typing import Any
@@ -21,36 +21,42 @@ from viscorough.spectrum import seed_sequence
 from viscorough.summaries import unit_power
 from viscorough.types import Array, Integers, Seed
 
-_BINS_PER_OCTAVE = 64  # a power of 2; bins are 0.8 to 1.6 % wide
-_OCTAVES = 128  # octaves below the largest gap that are divided into bins; smaller gaps share one bin
-_SPOILED = 3  # longest waves of a map that a window changes
-_LANES = 4  # neighbouring points often fall into one bin: separate counters avoid waiting for the last update
-_BLOCK = 512  # points whose bins are found at a time
+# Bins per octave of gaps, a power of 2. Bins are then 0.8 to 1.6 % wide.
+_BINS_PER_OCTAVE = 64
+# Octaves below the largest gap that are divided into bins. Smaller gaps share one bin.
+_OCTAVES = 128
+# Number of the longest waves of a map, which a window changes.
+_SPOILED = 3
+# Counters per bin. Neighbouring points often fall into one bin, and separate counters avoid waiting for an update.
+_LANES = 4
+# Points whose bins are found at a time.
+_BLOCK = 512
 
 
 def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | None = None) -> LoadingCurve:
-    """Loading curve of a line by the method of dimensionality reduction (MDR).
+    """Compute the loading curve of a line by the method of dimensionality reduction (MDR).
 
-    Levels are the edges of the bins in which contact grows. There force and stiffness::
+    Levels are the edges of bins of gaps, if contact grows in the bin. Force and stiffness at a level::
 
         F/G = 4 Δx Σ(u - g)₊,   k/G = 4 Δx (number of g < u)
 
-    are exact, up to the rounding of gaps and sums in double precision.
-    From one level to the next either at most one point comes into contact, and LoadingCurve.at_force is exact, or the
-    levels are one bin apart, 0.8 to 1.6 % in depth, and its depth has an error that is a small part of the bin's width.
+    are exact, up to the rounding of gaps and sums in double precision. If at most one point comes into contact between
+    two levels, LoadingCurve.at_force is exact there. Otherwise the levels are one bin apart, 0.8 to 1.6 % in depth, and
+    the error of the interpolated depth is a small part of this width.
+
     At the first level only the highest points touch. The last level is the first to reach `until_fraction` or
-    `until_force`, but at least the second. A flat line, which sets no scale of depth, has levels at half a spacing and
-    at one spacing.
+    `until_force`, but at least the second level. A flat line has no scale of depth; its levels are at half a spacing
+    and at one spacing.
 
     Parameters
     ----------
     line : Indenter
         Indenter with one-dimensional heights.
     until_fraction : float, optional
-        Contact fraction at which to stop, in (0, 1].
+        Contact fraction of the last level, in (0, 1] [1].
     until_force : float, optional
-        F/G at which to stop [length²]; if the line is in full contact before, one more level is added at exactly this
-        force, unless `until_fraction` stops the curve.
+        Force F/G of the last level [length²]. If the line is in full contact before, a level at exactly this force is
+        added, unless `until_fraction` ends the curve.
 
     Returns
     -------
@@ -59,8 +65,12 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
     Raises
     ------
     ValueError
-        For a map instead of a line, or for values outside these ranges. Source: V. L. Popov and M. Heß, Method of
-        Dimensionality Reduction in Contact Mechanics and Friction (2015); paper, Sec. V.
+        For a map instead of a line, and for values outside these ranges.
+
+    Notes
+    -----
+    Source: V. L. Popov and M. Heß, Method of Dimensionality Reduction in Contact Mechanics and Friction (2015); paper,
+    Sec. V.
 
     Examples
     --------
@@ -83,13 +93,13 @@ def reduce_heights(
     until_force: float | None = None,
     length_unit: str = "1",
 ) -> LoadingCurve:
-    """As `reduce`, for heights in any order: springs are independent, so that the order does not matter.
+    """Compute the loading curve of a line like `reduce`, from heights in any order, since springs are independent.
 
-    heights : shape (points,), in single or double precision [length]
+    heights : heights in single or double precision, shape (points,) [length]
     spacing : distance between neighbouring points [length]
-    length_unit : of both, as in Indenter
+    length_unit : unit of heights and spacing, as in Indenter
 
-    Raises ValueError as `reduce`, and for heights that are not finite.
+    Raises the errors of `reduce`, and ValueError for heights that are not finite.
     """
     until_fraction = fraction("reduce: until_fraction", until_fraction)
     if until_force is not None:
@@ -122,10 +132,10 @@ def reduce_heights(
 
 
 def _levels(heights: Array, spacing: float) -> tuple[Array, Array, Array, Integers]:
-    """Depth, force F/G, stiffness k/G and contact count at the edges of the bins in which contact grows."""
+    """Return depth, force F/G, stiffness k/G and contact count at the edges of all bins with contact growth."""
     edges, counts, sums = _binned_gaps(heights)
     grown = 1 + np.flatnonzero(counts[1:])
-    levels = np.union1d(grown, grown + 1)  # edge r is the lower one of bin r
+    levels = np.union1d(grown, grown + 1)  # edge r is the lower edge of bin r
     depth, below = edges[levels], levels - 1
     if levels.size == 0:
         depth, below = np.array([0.5, 1.0]) * spacing, np.array([0, 0])
@@ -136,7 +146,7 @@ def _levels(heights: Array, spacing: float) -> tuple[Array, Array, Array, Intege
 
 
 def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
-    """Line with the power spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
+    """Generate a line with the power spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
 
     The wave with wavenumber k per period of the line has the power of all waves of the map with wavenumbers from k -
     1/2 to k + 1/2, up to the Nyquist wavelength.
@@ -144,16 +154,16 @@ def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
     Parameters
     ----------
     square : array
-        Heights, shape (n, n) [length].
+        Heights of the map, shape (n, n) [length].
     spacing : float
-        Distance between the points of both map and line [length].
-    seed : Seed
-        Int or SeedSequence.
+        Distance between the points of the map and of the line [length].
+    seed : int or SeedSequence
+        Seed of the phases. The same seed gives the same line.
 
     Returns
     -------
     Indenter
-        With heights of shape (n,).
+        Line of n points.
 
     Raises
     ------
@@ -179,20 +189,23 @@ def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
 
 
 def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
-    """Line with the radially averaged power spectrum of a map that is not periodic, and with its rms height.
+    """Generate a line with the radially averaged power spectrum and the rms height of a map that is not periodic.
 
-    As `line_of_surface`, after multiplication of the heights over their mean by a Hann window, cos²(πr/2) at the
-    relative distance r from the centre to the edge of the inscribed ellipse: otherwise the edges of the map, which are
-    steps of a periodic map, would add to the short waves. The window spoils the three longest waves: they are those of
-    the heights without it, multiplied so that the mean square of the heights is that of the map. The line is as long as
-    the longer side of the map, at the larger of its two spacings.
+    1. Multiply the deviations of the heights from their mean by a Hann window, cos²(πr/2) at the relative distance r
+       from the centre to the edge of the inscribed ellipse. Without a window the edges of the map, which are steps of a
+       periodic map, would add to the short waves.
+    2. Take the power spectrum of the line from the windowed map, as `line_of_surface`.
+    3. Take the three longest waves, which the window changes, from the heights without a window, and scale them so that
+       the line has the rms height of the map.
+
+    The line is as long as the longer side of the map, with the larger of its two spacings.
 
     Parameters
     ----------
     surface : Indenter
         Indenter with two-dimensional heights; elements that are nan count as having the mean height.
-    seed : Seed
-        Int or SeedSequence.
+    seed : int or SeedSequence
+        Seed of the phases. The same seed gives the same line.
 
     Returns
     -------
@@ -215,7 +228,7 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     check_indenter("line_of_map", surface, 2)
     heights = surface.heights.astype(float)
     (rows, columns), spacing = heights.shape, max(surface.spacing, surface.row_spacing)
-    dx, dy = surface.spacing / spacing, surface.row_spacing / spacing  # as the length, in units of the larger one
+    dx, dy = surface.spacing / spacing, surface.row_spacing / spacing  # like the length, in units of the larger spacing
     length = max(rows * dy, columns * dx)
     points = round(length)
     y, x = ((np.arange(n) - (n - 1) / 2) / (n / 2) for n in heights.shape)
@@ -235,23 +248,23 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
 
 
 def _power_of_piece(heights: Array, weights: Array) -> Array:
-    """Power of the waves of the heights over their mean, multiplied by weights; per mean square of the weights."""
+    """Return the power of the waves of weighted deviations from the mean, over the mean square of the weights."""
     over_mean = np.where(weights > 0, heights - np.sum(weights * np.nan_to_num(heights)) / weights.sum(), 0)
     return np.abs(np.fft.fft2(weights * over_mean)) ** 2 / (weights.size * np.sum(weights**2, dtype=float))
 
 
 def _ring_sums(power: Array, wavenumber: Array, points: int) -> NDArray[Any]:
-    """Sums of the power of the waves whose wavenumber per length rounds to 0, 1, ..., points // 2."""
+    """Sum the power of all waves whose wavenumber per length rounds to 0, 1, ..., points // 2."""
     ring = np.rint(wavenumber).astype(int)
     most = points // 2 + 1
     return np.bincount(ring.ravel(), weights=power.ravel(), minlength=most)[:most]
 
 
 def _random_line(power: Array, points: int, seed: Seed) -> Array:
-    """Heights, shape (points,), of waves of this power and of random phases; without the zero mode."""
+    """Return heights, shape (points,), of waves with this power and random phases, without the zero mode."""
     amplitude = np.sqrt(power / 2)
     if points % 2 == 0:
-        amplitude[-1] *= np.sqrt(2)  # its own mirror image
+        amplitude[-1] *= np.sqrt(2)  # equals its mirror image
     phase = np.random.default_rng(seed_sequence(seed)).uniform(0, 2 * np.pi, amplitude.size)
     spectrum = amplitude * (np.exp(1j * phase) if points % 2 else np.append(np.exp(1j * phase[:-1]), 1.0))
     spectrum[0] = 0
@@ -259,15 +272,15 @@ def _random_line(power: Array, points: int, seed: Seed) -> Array:
 
 
 def _binned_gaps(heights: Array) -> tuple[Array, Integers, Array]:
-    """Initial gaps sorted into bins: the edges of the bins, and the number and the sum of the gaps in every bin.
+    """Sort initial gaps into bins; return the edges of the bins, and number and sum of the gaps in every bin.
 
-    Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The leading bits of a floating-point number
-    (exponent and first bits of the mantissa) are the number of its bin, so that bins divide every octave evenly.
+    Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The number of a bin consists of the leading bits
+    (exponent and first bits of the mantissa) of the floating-point numbers in it, so bins divide every octave evenly.
     """
     highest, lowest = np.float64(heights.max()), np.float64(heights.min())
-    if not np.isfinite([highest, lowest]).all():  # their bins would lie outside of the table
+    if not np.isfinite([highest, lowest]).all():  # their bins would lie outside the table
         raise ValueError("reduce: heights must be finite")
-    highest += 0.0  # turns -0.0 into 0.0; else gaps could have their sign bit set
+    highest += 0.0  # turns -0.0 into 0.0, which otherwise sets the sign bit of gaps
     shift = np.uint64(52 - (_BINS_PER_OCTAVE.bit_length() - 1))
     top = int((highest - lowest).view(np.uint64) >> shift)
     base = max(0, top - _OCTAVES * _BINS_PER_OCTAVE)
@@ -288,6 +301,9 @@ def _bin_gaps(heights, highest, shift, base, table):
             gaps[i] = highest - np.float64(block[i])
             bins[i] = max(np.float64(gaps[i]).view(np.uint64) >> shift, base) - base
         for i in range(block.size):
-            bin_, lane = np.uint64(bins[i]), np.uint64(i % _LANES)  # unsigned: without a check for negative indices
+            bin_, lane = (
+                np.uint64(bins[i]),
+                np.uint64(i % _LANES),
+            )  # unsigned numbers need no check for negative indices
             table[bin_, lane, 0] += 1
             table[bin_, lane, 1] += gaps[i]

@@ -1,6 +1,6 @@
-"""Figures of what the command line writes: surfaces, fields of a contact, loading curves, motions, estimates.
+"""Draw results: surfaces, fields of a contact, loading curves, motions, estimates, compliances.
 
-The only module of the library that imports matplotlib, which is not needed for anything else.
+Only this module of the library imports matplotlib.
 """
 
 import re
@@ -23,12 +23,18 @@ from viscorough.summaries import with_unit
 from viscorough.types import Array, FilePath
 
 Variables = dict[str, Variable]
-_METADATA: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}  # no dates
-_BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told apart with any colour vision
-_FEW = 40  # points below which a curve has markers
-_FEW_DECADES = 80  # ratio of the ends of a logarithmic axis
-_PERCENTILE = 99  # of the pressures in contact, at which their colours end: a single element may have far more
-_MOST_MAPS = 4  # contacts of one file that are drawn
+# Metadata without dates, so that the same result gives the same file.
+_METADATA: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+# Colours of Okabe and Ito, which people with any colour vision can distinguish.
+_BLUE, _VERMILION = "#0072b2", "#d55e00"
+# Curves of fewer points have markers.
+_FEW = 40
+# Ratio of the ends of a logarithmic axis below which ticks at decades are too few.
+_FEW_DECADES = 80
+# Percentile of the pressures in contact at the end of their colours: single elements may have far larger pressures.
+_PERCENTILE = 99
+# Largest number of contacts of one file that are drawn.
+_MOST_MAPS = 4
 _STYLE: dict[Any, Any] = {"font.size": 8, "axes.titlesize": 8, "lines.linewidth": 1.2, "lines.markersize": 3}
 _STYLE |= {"savefig.dpi": 200, "svg.hashsalt": "viscorough"}
 _COLOURS = {"heights": "cividis", "gap": "cividis", "pressure": "inferno"}
@@ -43,11 +49,11 @@ _SYMBOLS = {
     "compliance": "J",
     "relaxation_modulus": r"\psi",
 }
-# Name of a variable: what stands on its axis.
+# {name of a variable: label of its axis}.
 _LABELS = {name: f"{name.replace('_', ' ')} ${symbol}$" for name, symbol in _SYMBOLS.items()}
 _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x": "$x$", "y": "$y$"}
 _LABELS |= {"normal_force": "force $F$", "normal_stiffness": "stiffness $k$", "normal_pressure": "pressure $p$"}
-# Name of a number of a contact: its label above the maps.
+# {name of a number of a contact: its label above the maps}.
 _STATE = {"depth": "$u$", "force": "$F/G$", "normal_force": "$F$", "largest_normal_pressure": "largest $p$"}
 _STATE |= {"contact_fraction": "contact fraction", "corrected_contact_area": "contact area", "patches": "patches"}
 _PRESSURES = ("normal_pressure", "mean_normal_pressure", "largest_normal_pressure")
@@ -60,20 +66,21 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     Parameters
     ----------
     result : Content or Indenter or LoadingCurve or Contact or Motion or Estimate or IdentifiedMedium
-        One of these, or the io.netcdf.Content of a file.
+        Result of the library, or the io.netcdf.Content of a file. Needs matplotlib: pip install "viscorough[plot]".
     path : path, optional
-        .png, .pdf or .svg to write, atomically; the same result gives the same bytes. By default nothing is written.
+        File to write atomically (.png, .pdf or .svg). The same result gives the same bytes. By default no file is
+        written.
 
     Returns
     -------
     Figure
-        The matplotlib Figure. Needs matplotlib: pip install "viscorough[plot]". Maps have the first row at the top and
-        the coordinates of the file, or count from the centre; colours of pressures end at their 99th percentile.
+        Figure of matplotlib. Maps have the first row at the top. Their coordinates are those of the file or count from
+        the centre. Colours of pressures end at the 99th percentile.
 
     Raises
     ------
     ValueError
-        For another suffix, and for a content that is none of these.
+        For another suffix, and for a Content of another kind.
 
     Examples
     --------
@@ -94,8 +101,8 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
 
 
 def kind_of(content: Content) -> tuple[Callable[[Variables], Figure], Variables]:
-    """The function that draws a Content, by its names and dimensions, and its numbers. Raises ValueError as `plot`."""
-    if set(STORED) <= set(content.variables):  # of a loading curve, also in files of motions that follow from one
+    """Return the function that draws a Content, and its numbers. Raises ValueError for a Content of another kind."""
+    if set(STORED) <= set(content.variables):  # checks the curve, also in files of motions
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
     dimensions = {name: variable.dimensions for name, variable in numbers.items()}
@@ -139,14 +146,14 @@ def _fields(variables: Variables) -> Figure:
 
 
 def _with_modulus(variables: Variables, name: str) -> str:
-    """Name of the variable in N, N/m or Pa, which a file has if a modulus was given; otherwise the name itself."""
+    """Return the name of the variable in N, N/m or Pa if a modulus was given; otherwise the name itself."""
     return f"normal_{name}" if f"normal_{name}" in variables else name
 
 
 def _in_readable_units(variables: Variables) -> Variables:
     """Convert positions, gap, heights and depth to units that suit their size, pressures to MPa and areas to um2.
 
-    Positions along x and y have one unit. Quantities whose unit of length is not known stay as they are.
+    Positions along x and y have one unit. Quantities without a unit of length are not changed.
     """
     changed = dict(variables)
     for names, unit in ((_PRESSURES, "MPa"), (_AREAS, "um2")):
@@ -155,26 +162,26 @@ def _in_readable_units(variables: Variables) -> Variables:
                 values = variables[name].values * units.factor(stated, unit)
                 changed[name] = variables[name]._replace(values=values, attributes={"units": unit})
     for names in (("x", "y"), ("gap",), ("heights",), ("depth",)):
-        known = [name for name in names if _stated_unit(variables, name) != "1"]
-        largest = max((np.nanmax(np.abs(variables[name].values)) for name in known), default=0)
-        if len({variables[name].attributes["units"] for name in known}) != 1 or not 0 < largest < np.inf:
+        with_units = [name for name in names if _stated_unit(variables, name) != "1"]
+        largest = max((np.nanmax(np.abs(variables[name].values)) for name in with_units), default=0)
+        if len({variables[name].attributes["units"] for name in with_units}) != 1 or not 0 < largest < np.inf:
             continue
-        stated = variables[known[0]].attributes["units"]
+        stated = variables[with_units[0]].attributes["units"]
         metres = units.metres(stated)
         unit = next((unit for unit in ("m", "mm", "um") if largest * metres >= 2 * units.metres(unit)), "nm")
-        for name in known:
+        for name in with_units:
             values = variables[name].values * units.factor(stated, unit)
             changed[name] = variables[name]._replace(values=values, attributes={"units": unit})
     return changed
 
 
 def _stated_unit(variables: Variables, name: str) -> str:
-    """Unit of a variable as its file states it; "1" if there is no such variable."""
+    """Return the unit of a variable as its file states it; "1" if there is no such variable."""
     return str(variables[name].attributes.get("units", "1")) if name in variables else "1"
 
 
 def _state(variables: Variables, index: int) -> str:
-    """Numbers of one of the contacts in a file, as text; F stands for F/G if a modulus was given."""
+    """Return the numbers of a contact in a file as text, with F instead of F/G if a modulus was given."""
     texts = []
     for name, symbol in _STATE.items():
         if name in variables and variables[name].values.size > index and _with_modulus(variables, name) == name:
@@ -183,7 +190,7 @@ def _state(variables: Variables, index: int) -> str:
 
 
 def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Array) -> None:
-    """Image of a map, grey outside the indenter, where it is nan; with a bar of colours unless it is of the contact."""
+    """Draw a map, grey outside the indenter, with a bar of colours unless it shows the contact."""
     extent: list[float] = []
     for position in (variables["x"].values, variables["y"].values):
         step = (position[-1] - position[0]) / max(len(position) - 1, 1) or 1.0
@@ -208,7 +215,7 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
 
 
 def _motion(variables: Variables) -> Figure:
-    """Depth and velocity over time; if the contact unloads, depth and force over time, and force over depth."""
+    """Draw depth and velocity over time, or a loop if force or depth decreases."""
     time = variables["time"].values
     if not (np.diff(time) >= 0).all():
         raise ValueError("time must not decrease; a file that viscorough wrote is needed")
@@ -228,8 +235,8 @@ def _motion(variables: Variables) -> Figure:
 
 
 def _loop(variables: Variables) -> Figure:
-    """Depth and force over time, and force over depth, on linear axes."""
-    variables = variables | {"normal_force": variables["force"]}  # F, not F/G as in a loading curve
+    """Draw depth and force over time, and force over depth, on linear axes."""
+    variables = variables | {"normal_force": variables["force"]}  # the label of `force` is F/G
     pairs = [
         ("time", "depth", "depth"),
         ("time", "normal_force", "force"),
@@ -259,7 +266,7 @@ def _relaxation(variables: Variables) -> Figure:
 
 
 def _with_interval(panel: Axes, variables: Variables, name: str) -> None:
-    """Draw a function of an identified medium over time with its interval, where both ends of it are above 0."""
+    """Draw a function of an identified medium over time with its interval, on logarithmic axes."""
     time, values, low, high = (variables[key].values for key in ("time", name, "low", "high"))
     after = (time > 0) & (values > 0)  # logarithmic axes
     least = values[after].min() / 10 if after.any() else 0.0
@@ -288,10 +295,10 @@ def _panels(count: int, width: float = 3.1, height: float = 2.7) -> tuple[Figure
 
 
 def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
-    """A curve on logarithmic axes, where both values are positive."""
+    """Draw the positive values of a curve on logarithmic axes."""
     shown = (x > 0) & (y > 0)
     axes.set(xscale="log", yscale="log")
-    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # are not wanted, but would be measured
+    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # not shown, but they would take room
     look = {"linewidth": 0.5, "alpha": 0.5} if thin else {"marker": "o" if shown.sum() < _FEW else ""}
     axes.plot(x[shown], y[shown], color=_BLUE, **look)
 
@@ -300,7 +307,7 @@ def _label(axes: Axes, variables: Variables, x: str, y: str, title: str) -> None
     axes.set(xlabel=_label_of(variables, x), ylabel=_label_of(variables, y), title=title.replace("_", " "))
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        if axis.get_scale() == "log" and high < _FEW_DECADES * low:  # ticks at decades alone would be too few
+        if axis.get_scale() == "log" and high < _FEW_DECADES * low:  # ticks only at decades would be too few
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
             axis.set_major_formatter("{x:.3g}")
 
@@ -311,7 +318,7 @@ def _label_of(variables: Variables, name: str) -> str:
 
 
 def _unit(variable: Variable) -> str:
-    """The unit of a variable as people write it: µm², µm/s, N/m; "1" without one."""
+    """Return the unit of a variable in common spelling: µm², µm/s, N/m; "1" without a unit."""
     unit = str(variable.attributes.get("units") or "1").replace("um", "µm")
     unit = re.sub(r"(?<=[^\W\d])-?\d", lambda power: power[0].translate(_SUPERSCRIPTS), unit)
     return re.sub(r" (s|m)⁻¹", r"/\1", unit)
@@ -319,7 +326,7 @@ def _unit(variable: Variable) -> str:
 
 _X = {"x": ("x",)}
 _XY = _X | {"y": ("y",)}
-# What draws the variables of these dimensions; the first that suits.
+# (function that draws, variables and dimensions that it needs); the first that suits is used.
 _KINDS: tuple[tuple[Callable[[Variables], Figure], dict[str, tuple[str, ...]]], ...] = (
     (_fields, {"pressure": ("y", "x"), **_XY}),
     (_fields, {"pressure": ("level", "y", "x"), **_XY}),

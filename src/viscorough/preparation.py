@@ -1,6 +1,6 @@
-"""Measured maps of heights made ready for contact: missing values, cropping, sign, tilt or form, holes.
+"""Prepare measured maps of heights for contact: missing values, cropping, sign, tilt or form, holes.
 
-And warnings about defects of unprepared maps, which make the results of a contact wrong without an error.
+`doubts` describes defects of unprepared maps, which would make the results of a contact wrong without an error.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,14 +14,21 @@ from viscorough.types import Array, Mask
 
 DETREND = ("none", "mean", "plane", "sphere")
 FILL = ("none", "harmonic")
-_NOTABLE_TILT = 6  # rise of the fitted plane over the rms height about it
-_FAR = 10  # distance of a suspicious value from all others, over the range of those; 1 for a usual mark
+# Rise of the fitted plane over the rms height about it, from which on a map is called tilted.
+_NOTABLE_TILT = 6
+# Distance of a suspicious value from all other values, over their range. It is 1 for a common mark.
+_FAR = 10
+# Common marks of missing values.
 _MARKS = (9999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
-_SPIKE = 20  # height of a point above all its neighbours over the usual distance of neighbours
-_LARGEST_SLOPE = 0.99  # of a fitted sphere within the map
-_MAX_ITERATIONS = 20  # of the fit of a sphere
+# Height of a spike above all its neighbours, over the usual difference of neighbours.
+_SPIKE = 20
+# Largest slope of a fitted sphere within the map.
+_LARGEST_SLOPE = 0.99
+# Largest number of iterations of the fit of a sphere.
+_MAX_ITERATIONS = 20
 
-Crop = Sequence[Sequence[int]]  # ((first column, end), (first row, end))
+# ((first column, end), (first row, end))
+Crop = Sequence[Sequence[int]]
 
 
 def prepare(
@@ -33,30 +40,35 @@ def prepare(
     detrend: str = "none",
     fill: str = "none",
 ) -> Indenter:
-    """A map of heights made ready, as a new Indenter; each step is done only if asked for, in this order.
+    """Prepare a map of heights: missing values, crop, sign, form and holes, in this order.
 
-    A sphere of curvature k is a + bx + cy + k r²/(1 + √(1 − k²r²)), with r the distance from the middle of the map.
+    Each step is optional. A sphere of curvature k is a + bx + cy + k r²/(1 + √(1 − k²r²)), with r the distance from the
+    middle of the map.
 
     Parameters
     ----------
     indenter : Indenter
-        A map of heights.
+        Map of heights.
     nodata : Sequence[float], optional
-        A value, or several, that mark points that were not measured; these become nan.
+        Value, or several values, of points that were not measured; these points become nan.
     crop : pairs of int, optional
         ((first column, end), (first row, end)), numbers of points from 0; ends are not included.
     flip : bool, optional
-        Change the sign, for data in which larger is lower.
+        Change the sign, for maps of depths instead of heights.
     detrend : str, optional
-        "mean", "plane" or "sphere": subtract what fits best in least squares over all points that are not nan; a sphere
-        includes a plane.
+        "mean", "plane" or "sphere": subtract this form, fitted by least squares to all points that are not nan. A
+        sphere includes a plane.
     fill : str, optional
-        "harmonic": heights for nan regions that are enclosed, from the Laplace equation with the heights around them.
+        "harmonic": fill enclosed nan regions by the Laplace equation with the heights around them.
+
+    Returns
+    -------
+    Indenter
 
     Raises
     ------
     ValueError
-        For a line, an unknown option, a crop beyond the map, and where no sphere fits.
+        For a line, an unknown option, a crop beyond the map, and if no sphere fits.
 
     Examples
     --------
@@ -97,11 +109,11 @@ def prepare(
 
 
 def doubts(indenter: Indenter) -> list[str]:
-    """Texts, one line each, about tilt, enclosed nan regions, suspicious values and spikes of a map; empty for none."""
+    """Describe tilt, enclosed nan regions, suspicious values and spikes of a map, in one line each."""
     if indenter.heights.ndim != 2 or min(indenter.heights.shape) < 3:
         return []
     heights = indenter.heights
-    # Suspicious values would explain tilt and spikes.
+    # Suspicious values cause tilt and spikes, so these are not described as well.
     texts = [*_suspicious_values(heights)] or [*_tilt(indenter), *_spikes(heights)]
     return [*texts, *_holes(heights)]
 
@@ -110,27 +122,28 @@ def doubts(indenter: Indenter) -> list[str]:
 
 
 def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
-    """The form that fits a map best in least squares, at its points; that of a sphere by Gauss-Newton.
+    """Return the form (mean, plane or sphere) at the points of a map, fitted by least squares.
 
-    All lengths are divided by the distance of the corners from the middle, `reach` times the larger spacing.
+    A sphere is fitted by the Gauss-Newton method. All lengths are divided by the distance of the corners from the
+    middle, `reach` times the larger spacing.
     """
-    (rows, columns), known, largest = heights.shape, ~np.isnan(heights), max(dx, dy)
-    dx, dy = dx / largest, dy / largest  # else the size of the map could overflow
+    (rows, columns), measured, largest = heights.shape, ~np.isnan(heights), max(dx, dy)
+    dx, dy = dx / largest, dy / largest  # the size of the map could overflow
     reach = np.hypot(dx * columns, dy * rows) / 2
     x = dx * (np.arange(columns) - (columns - 1) / 2) / reach
     y = dy * (np.arange(rows)[:, None] - (rows - 1) / 2) / reach
     plane = np.stack(np.broadcast_arrays(1.0, x, y)[: 1 if form == "mean" else 3])
-    target = heights[known].astype(float)
+    target = heights[measured].astype(float)
     if form != "sphere":
-        return np.tensordot(_factors(plane[:, known], target), plane, 1)
+        return np.tensordot(_factors(plane[:, measured], target), plane, 1)
     target = target / reach / largest
     curvature, squared = 0.0, x**2 + y**2
     for _ in range(_MAX_ITERATIONS):
         root = np.sqrt(1 - curvature**2 * squared)
         slope = squared / (root * (1 + root))  # of the sag with respect to the curvature
-        functions = np.concatenate([plane, [slope]])[:, known]
+        functions = np.concatenate([plane, [slope]])[:, measured]
         tangent = _sag(curvature, squared) - curvature * slope
-        values, last = _factors(functions, target - tangent[known]), curvature
+        values, last = _factors(functions, target - tangent[measured]), curvature
         curvature = float(values[3])
         if not abs(curvature) < _LARGEST_SLOPE:
             raise ValueError(
@@ -142,20 +155,20 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
 
 
 def _factors(functions: Array, target: Array) -> Array:
-    """Factors of functions, shape (functions, points), whose sum is closest to the target."""
+    """Return the factors of functions, shape (functions, points), whose weighted sum is closest to the target."""
     return np.linalg.lstsq(functions @ functions.T, functions @ target, rcond=1e-13)[0]
 
 
 def _sag(curvature: float, squared: Array) -> Array:
-    """Height of a sphere above its lowest point (k > 0), k r²/(1 + √(1 − k²r²))."""
+    """Return the height of a sphere above its lowest point (k > 0), k r²/(1 + √(1 − k²r²))."""
     return curvature * squared / (1 + np.sqrt(1 - curvature**2 * squared))
 
 
 def _tilt(indenter: Indenter) -> Iterator[str]:
-    """A text if the map is tilted by much more than its roughness explains."""
-    heights, known = indenter.heights, ~np.isnan(indenter.heights)
-    plane = _fitted(heights, indenter.spacing, indenter.row_spacing, "plane")[known]
-    rise, rms = np.ptp(plane), np.sqrt(np.mean((heights[known] - plane) ** 2))
+    """Yield a text if the map is tilted by much more than its roughness explains."""
+    heights, measured = indenter.heights, ~np.isnan(indenter.heights)
+    plane = _fitted(heights, indenter.spacing, indenter.row_spacing, "plane")[measured]
+    rise, rms = np.ptp(plane), np.sqrt(np.mean((heights[measured] - plane) ** 2))
     if rise > _NOTABLE_TILT * rms and rise > 1e-9 * np.nanmax(np.abs(heights)):
         about = (
             f"{rise / rms:.3g} times the rms height about it" if rms > 1e-9 * rise else "and nothing is left about it"
@@ -168,7 +181,7 @@ def _tilt(indenter: Indenter) -> Iterator[str]:
 
 
 def _suspicious_values(heights: Array) -> Iterator[str]:
-    """Texts about extreme values that are repeated and far from all others."""
+    """Yield texts about extreme values that are repeated and far from all other values."""
     for extreme in (np.fmin, np.fmax):
         value = float(extreme.reduce(heights, axis=None))
         is_value = heights == value
@@ -190,13 +203,13 @@ def _suspicious_values(heights: Array) -> Iterator[str]:
 
 
 def _spikes(heights: Array) -> Iterator[str]:
-    """A text about single points that stand high above all their neighbours."""
+    """Yield a text about single points that are far higher than all their neighbours."""
     from scipy import ndimage
 
     neighbours = np.array([[1, 1, 1], [1, 0, 1], [1, 1, 1]])
-    known = np.where(np.isnan(heights), -np.inf, heights)
+    without_nan = np.where(np.isnan(heights), -np.inf, heights)
     with np.errstate(invalid="ignore"):
-        above = (heights - ndimage.maximum_filter(known, footprint=neighbours))[1:-1, 1:-1]
+        above = (heights - ndimage.maximum_filter(without_nan, footprint=neighbours))[1:-1, 1:-1]
         steps = np.abs(np.diff(heights[:: max(1, len(heights) // 256)], axis=1))
         usual, relief = np.nanmedian(steps) if np.isfinite(steps).any() else 0.0, np.nanstd(heights)
         spikes = np.isfinite(above) & (above > _SPIKE * usual) & (above > relief)
@@ -214,7 +227,7 @@ def _spikes(heights: Array) -> Iterator[str]:
 
 
 def _enclosed(heights: Array) -> tuple[Mask, int]:
-    """Where nan regions are that do not reach the edge, and their number."""
+    """Return a mask of all nan regions that do not reach the edge, and their number."""
     from scipy import ndimage
 
     missing = np.isnan(heights)
@@ -236,9 +249,11 @@ def _holes(heights: Array) -> Iterator[str]:
 
 
 def _filled(heights: Array, aspect: float) -> Array:
-    """The heights with enclosed holes filled: each point is the mean of its neighbours, those along x and y weighted.
+    """Fill enclosed holes by the five-point Laplace equation: each point is a weighted mean of its four neighbours.
 
-    aspect : dy/dx. The five-point Laplace equation on rectangles: weights 1/dx² and 1/dy².
+    The weights are 1/dx² along x and 1/dy² along y.
+
+    aspect : dy/dx
     """
     from scipy import sparse
     from scipy.sparse.linalg import spsolve

@@ -1,12 +1,12 @@
-"""Exact solutions and the paper's laws, with which computations are compared.
+"""Exact solutions and the laws of the paper, for comparison with computations.
 
 Elastic quantities are normalised with the shear modulus G of an incompressible half-space (ν = 1/2, E* = 4G):
 force is F/G [length²], stiffness is k/G = d(F/G)/du [length]. The contact is frictionless and non-adhesive.
 
 The laws are dimensionless: X = F/(4GhL) (elastic) or Ft/(4ηhL) (viscous), κ = k/(4GL), with rms height h and
-indenter diameter L. Laws that the paper prints with a factor 1/Γ(2−α) exist in two forms: with `gamma=False` the
-result of integrating Eq. 1 with Eq. 3, with `gamma=True` the law as printed, which results from a Laplace transform
-of a relation that is nonlinear in F/G.
+indenter diameter L. Laws with a printed factor 1/Γ(2−α) exist in two forms. With `gamma=False` they result from
+integrating Eq. 1 with Eq. 3. With `gamma=True` they are the printed laws, which result from a Laplace transform of a
+relation that is nonlinear in F/G.
 
 Sources: Hertz 1882; Love 1929 and 1939 (square element, cone); Sneddon 1965 (bodies of revolution);
 Johnson 1985, Contact Mechanics (flat ellipse); Popov and Heß 2015 (method of dimensionality reduction, MDR).
@@ -36,9 +36,9 @@ class PowerLawBody:
     Parameters
     ----------
     coefficient : float
-        c > 0 [length^(1−n)].
+        Coefficient c > 0 [length^(1−n)].
     exponent : float
-        n > 0; 1 is a cone, 2 a sphere (as a paraboloid).
+        Exponent n > 0 [1]; 1 is a cone, 2 a sphere (as a paraboloid).
 
     Raises
     ------
@@ -61,39 +61,39 @@ class PowerLawBody:
             object.__setattr__(self, name, positive(f"{name} of a power-law body", getattr(self, name)))
 
     def mdr_profile(self, x: Numbers) -> Numbers:
-        """One-dimensional profile `g(x) = κₙ c |x|ⁿ` with κₙ = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
+        """Return the one-dimensional profile `g(x) = κₙ c |x|ⁿ` with κₙ = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
         n = self.exponent
         kappa = np.sqrt(np.pi) * gamma_function(n / 2 + 1) / gamma_function((n + 1) / 2)
         return kappa * self.coefficient * np.abs(x) ** n
 
     def contact_radius(self, depth: Numbers) -> Numbers:
-        """Contact radius a at depth u: the root of g(a) = u; the depth at radius a is `mdr_profile(a)`."""
+        """Return the contact radius a at depth u, the root of g(a) = u; the depth at radius a is `mdr_profile(a)`."""
         return (depth / self.mdr_profile(1.0)) ** (1 / self.exponent)
 
     def force(self, depth: Numbers) -> Numbers:
-        """F/G [length²] at depth u."""
+        """Return F/G at depth u [length²]."""
         return 8 * self.exponent / (self.exponent + 1) * depth * self.contact_radius(depth)
 
     def depth(self, force: Numbers) -> Numbers:
-        """Depth u at F/G: the inverse of `force`."""
+        """Return the depth u at F/G [length], the inverse of `force`."""
         n = self.exponent
         return self.mdr_profile((force * (n + 1) / (8 * n * self.mdr_profile(1.0))) ** (1 / (n + 1)))
 
     def stiffness(self, depth: Numbers) -> Numbers:
-        """k/G = 8a [length] at depth u."""
+        """Return k/G = 8a at depth u [length]."""
         return 8 * self.contact_radius(depth)
 
     def indenter(self, elements_across: int, width: float = 1.0, rows: int | None = None) -> Indenter:
-        """Indenter of this shape on a square of the given width, its tip (height 0) at the centre of the square.
+        """Return a map of this body on a square, with its tip (height 0) at the centre.
 
         Parameters
         ----------
         elements_across : int
-            Columns of elements.
+            Number of columns of elements.
         width : float
             Side of the square [length].
         rows : int, optional
-            Rows of elements, by default as many as columns.
+            Number of rows of elements, by default the number of columns.
         """
         rows = rows or elements_across
         x, y = _element_centres(elements_across, width), _element_centres(rows, width)
@@ -101,12 +101,12 @@ class PowerLawBody:
         return Indenter(heights, width / elements_across, width / rows)
 
     def mdr_line(self, points: int, width: float = 1.0) -> Indenter:
-        """Indenter on a line of the given width that represents this body in the MDR."""
+        """Return the line of the given width that represents this body in the MDR."""
         return Indenter(np.negative(self.mdr_profile(_element_centres(points, width))), width / points)
 
 
 def sphere(radius: float) -> PowerLawBody:
-    """Sphere z = r²/(2R), R = `radius`: F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz).
+    """Return the sphere z = r²/(2R), R = `radius`: F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz).
 
     Examples
     --------
@@ -118,7 +118,7 @@ def sphere(radius: float) -> PowerLawBody:
 
 
 def cone(slope: float) -> PowerLawBody:
-    """Cone z = r tanθ with `slope` = tanθ: F = 2E*u²/(π tanθ), u = (π/2) a tanθ (Love).
+    """Return the cone z = r tanθ with `slope` = tanθ: F = 2E*u²/(π tanθ), u = (π/2) a tanθ (Love).
 
     Examples
     --------
@@ -130,7 +130,7 @@ def cone(slope: float) -> PowerLawBody:
 
 
 def flat_ellipse_stiffness(major: float, minor: float) -> float:
-    """k/G [length] of a flat elliptical punch with semi-axes a = `major` ≥ b = `minor` (Johnson): k = πE*a/K(m).
+    """Return k/G of a flat elliptical punch with semi-axes a = `major` ≥ b = `minor` (Johnson): k = πE*a/K(m) [length].
 
     K is the complete elliptic integral of the first kind of parameter m = 1 − b²/a². The force is k u at every depth u.
     Equal semi-axes give the flat disc, k = 2E*a.
@@ -153,7 +153,7 @@ def flat_ellipse_stiffness(major: float, minor: float) -> float:
 
 
 def flat_disc_stiffness(radius: float) -> float:
-    """k/G = 8a [length] of a flat disc of radius a; the force is k u at every depth u.
+    """Return k/G = 8a of a flat disc of radius a [length]; the force is k u at every depth u.
 
     Examples
     --------
@@ -168,7 +168,7 @@ def flat_disc_stiffness(radius: float) -> float:
 
 
 def zeta_elastic(hurst: Numbers) -> Numbers:
-    """ζ ≈ π(3 − H)/10, the paper's fit to elastic contact (Eq. 4).
+    """Return ζ ≈ π(3 − H)/10, the paper's fit to elastic contact (Eq. 4).
 
     Examples
     --------
@@ -180,7 +180,7 @@ def zeta_elastic(hurst: Numbers) -> Numbers:
 
 
 def exponent_alpha(hurst: Numbers) -> Numbers:
-    """α = 1/(1 + H), which the paper states for H in (0.4, 1) (Eq. 5).
+    """Return α = 1/(1 + H), which the paper states for H in (0.4, 1) (Eq. 5).
 
     Examples
     --------
@@ -192,7 +192,7 @@ def exponent_alpha(hurst: Numbers) -> Numbers:
 
 
 def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
-    """u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8).
+    """Return u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8).
 
     Raises
     ------
@@ -212,7 +212,7 @@ def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False)
 
 
 def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
-    """vt/h = X^(1−α)/ζ = X/κ (Eq. 1), as κ = ζ X^α (Eq. 3); with `gamma` divided by Γ(2−α) (Eq. 9).
+    """Return vt/h = X^(1−α)/ζ = X/κ (Eq. 1), since κ = ζ X^α (Eq. 3); with `gamma` divided by Γ(2−α) (Eq. 9).
 
     Examples
     --------
@@ -227,7 +227,7 @@ def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = Fal
 
 
 def exponent_beta(hurst: Numbers) -> Numbers:
-    """β = 1 − α = H/(1 + H) (Eq. 10).
+    """Return β = 1 − α = H/(1 + H) (Eq. 10).
 
     Examples
     --------
@@ -240,7 +240,7 @@ def exponent_beta(hurst: Numbers) -> Numbers:
 
 
 def zeta_viscous(hurst: Numbers) -> Numbers:
-    """ζ ≈ 2 − H, the paper's fit of the law with the factor 1/Γ(2−α) to viscous indentation (Eq. 11).
+    """Return ζ ≈ 2 − H, the paper's fit of the law with the factor 1/Γ(2−α) to viscous indentation (Eq. 11).
 
     Examples
     --------
@@ -252,7 +252,7 @@ def zeta_viscous(hurst: Numbers) -> Numbers:
 
 
 def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
-    """vt/h with Eqs. 5 and 11 for α and ζ; with `gamma` this is Eq. 12, Γ(2−α) = Γ((1+2H)/(1+H)).
+    """Return vt/h with Eqs. 5 and 11 for α and ζ; with `gamma` this is Eq. 12, Γ(2−α) = Γ((1+2H)/(1+H)).
 
     Examples
     --------
@@ -264,9 +264,9 @@ def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
 
 
 def line_spectrum(wavenumber: Numbers, spectrum: Numbers, transfer: Numbers = np.pi) -> Numbers:
-    """C1D(q) = λ q C2D(q), the two-sided spectrum of the line that represents a surface; λ = `transfer` is π in Eq. 13.
+    """Return C1D(q) = λ q C2D(q), the two-sided spectrum of a line that represents a surface; λ = `transfer`.
 
-    λ = π gives line and surface the same rms height; in general λ = π (h1D/h2D)².
+    λ = π (Eq. 13) gives line and surface the same rms height; in general λ = π (h1D/h2D)².
 
     Examples
     --------
@@ -279,7 +279,7 @@ def line_spectrum(wavenumber: Numbers, spectrum: Numbers, transfer: Numbers = np
 
 
 def one_element_stiffness(elements_across: int) -> float:
-    """κ while one square element is in contact (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ has slope 1.
+    """Return κ while one square element is in contact (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ.
 
     A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
 
@@ -293,7 +293,7 @@ def one_element_stiffness(elements_across: int) -> float:
 
 
 def _hurst_exponent(hurst: Numbers) -> Numbers:
-    """H as a float or an array. Raises ValueError for negative numbers."""
+    """Return H as a float or an array. Raises ValueError for negative numbers."""
     exponent = float_or_array("hurst", hurst)
     if np.any(np.asarray(exponent) < 0):
         raise ValueError(f"hurst: {shown(hurst)}; allowed: numbers of at least 0")
@@ -301,5 +301,5 @@ def _hurst_exponent(hurst: Numbers) -> Numbers:
 
 
 def _element_centres(number: int, width: float) -> Array:
-    """Centres of equal elements that fill an interval of the given width around 0, shape (number,)."""
+    """Return the centres of equal elements that fill an interval of the given width around 0, shape (number,)."""
     return (np.arange(number) - (number - 1) / 2) * width / number

@@ -1,4 +1,4 @@
-"""The power-law spectrum of self-affine surfaces and lines, and checks of the arguments that describe it."""
+"""Compute the power-law spectrum of self-affine surfaces and lines, and check the arguments that describe it."""
 
 from typing import Any
 
@@ -11,10 +11,11 @@ from viscorough.types import Array, Seed
 
 
 def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) -> Array:
-    """Modulus k^-exponent of waves with wavenumber k per period; for k < longest √level times that of k = longest.
+    """Return the moduli of waves: k^-exponent, and √level longest^-exponent for k < longest.
 
-    longest : wavenumber per period of the roll-off, 0 if there is none
-    level : spectral density of longer waves relative to that at the roll-off
+    wavenumber : wavenumbers k per period
+    longest : wavenumber per period of the roll-off, 0 without a roll-off
+    level : spectral density of longer waves, relative to the spectral density at the roll-off
 
     The zero mode gets a finite value, which the caller must remove.
     """
@@ -26,7 +27,11 @@ def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) 
 
 
 def roll_off(wavelength: float | None, level: float, period: float) -> tuple[float, float]:
-    """Wavenumber per period (0 if there is no roll-off) and level of the roll-off at a wavelength, in one unit."""
+    """Return wavenumber per period and level of the roll-off; the wavenumber is 0 without a roll-off.
+
+    wavelength, period : wavelength of the roll-off (None without one) and period, in one unit of length
+    level : spectral density of longer waves, relative to the spectral density at the roll-off
+    """
     level = real_number("roll_off_level", level)
     if level < 0:
         raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
@@ -41,14 +46,14 @@ def _name_of_wavelength() -> str:
 
 
 def scale_factor(rms: float, mean_square: Any) -> float:
-    """Scale factor to the requested rms height."""
+    """Return the scale factor to the requested rms height."""
     if mean_square == 0:
         raise ValueError(f"{_name_of_wavelength()}: must leave at least one wave of two spacings or more")
     return rms / np.sqrt(mean_square)
 
 
 def seed_sequence(seed: Seed) -> np.random.SeedSequence:
-    """The SeedSequence of a whole number or of several, or the one given."""
+    """Return the SeedSequence of one or several whole numbers; a SeedSequence is returned unchanged."""
     if isinstance(seed, np.random.SeedSequence):
         return seed
     parts = seed if isinstance(seed, list | tuple) and seed else [seed]
@@ -56,7 +61,7 @@ def seed_sequence(seed: Seed) -> np.random.SeedSequence:
 
 
 def hurst_exponent(hurst: float) -> float:
-    """The Hurst exponent as a float. Raises ValueError unless it is from 0 to 1."""
+    """Return the Hurst exponent as a float. Raises ValueError unless it is from 0 to 1."""
     hurst = real_number("hurst", hurst)
     if not 0 <= hurst <= 1:
         raise ValueError(f"hurst: must be from 0 to 1, not {hurst!r}")
@@ -64,7 +69,7 @@ def hurst_exponent(hurst: float) -> float:
 
 
 def fixed_amplitudes(amplitudes: str) -> bool:
-    """Whether only phases are random."""
+    """Return True if only phases are random. Raises ValueError for unknown texts."""
     if amplitudes not in ("random", "fixed"):
         raise ValueError(f"amplitudes: must be 'random' or 'fixed', not {amplitudes!r}")
     return amplitudes == "fixed"

@@ -1,15 +1,15 @@
-"""Two exact integrals of every loading curve, from two linear solutions, and the audit of curves by them.
+"""Compare loading curves with two exact integrals, which follow from two linear solutions.
 
 Let all elements touch and stay joined to the surface, under tension as well. The pressures are then p/G = u q − s with
-K q = 1 and K s = g₀, where K is the displacement per p/G and g₀ the initial gap. By reciprocity F = k_c (u − ⟨g₀⟩_q),
+K q = 1 and K s = g₀, with K the displacement per p/G and g₀ the initial gap. By reciprocity F = k_c (u − ⟨g₀⟩_q),
 with k_c the stiffness of the flat punch of the whole outline and ⟨·⟩_q the mean with the weights q. The frictionless
 curve ends on this straight line, and du = dF/k on the way to it. Hence
 
     ∫₀^∞ (1/k − 1/k_c) dF = ⟨g₀⟩_q        ∫₀^∞ (⟨g₀⟩_q + F/k_c − u) dF = ∫ F (1/k − 1/k_c) dF = U
 
-where U is the elastic energy of the joined surface at zero mean force. In units of h and 4GhL the integrands are the
-interface's part of vt/h, g(X) = X/κ − X/κ_c, over ln X and over X. No contact problem enters the right-hand sides, so
-that they check levels, stiffness and interpolation of a curve together.
+with U the elastic energy of the joined surface at zero mean force. In units of h and 4GhL the integrand is the part of
+the interface in vt/h, g(X) = X/κ − X/κ_c, over ln X and over X. The right-hand sides need no contact problem, so they
+check levels, stiffness and interpolation of a curve together.
 """
 
 import sys
@@ -35,34 +35,41 @@ from viscorough.types import Array, Progress
 
 # Relative difference of chord and tangent below which the curve is straight between two levels.
 _STRAIGHT = 1e-9
-# Points between two levels at which the interpolated curve is evaluated.
+# Points and weights of the quadrature of the interpolated curve between two levels (Gauss and Legendre).
 _POINTS, _WEIGHTS = (np.polynomial.legendre.leggauss(8) + np.array([[1.0], [0.0]])) / 2
-# Standard deviations of the two quadratures over an interval in which the stiffness has a single jump at a random
-# force, over the jump of 1/k and the width, and over the square of the width: √(1/12) and √(1/720).
-_JUMP, _JUMP_OF_SECOND = 12**-0.5, 720**-0.5
-# Tolerance of the contacts over that of the audit: it leaves a tenth of the latter for the errors of the stiffness,
-# whose effect on the first integral grows with the force at complete contact.
-_CONTACT_TOLERANCE, _LEAST_CONTACT_TOLERANCE = 0.01, 1e-12
-# Largest number of parts into which an interval is divided at a time, and of times; factor by which the errors of all
-# intervals together must fall within two times, which they do not if the levels are wrong.
-_MOST_PARTS, _MAX_ROUNDS, _LEAST_REDUCTION = 3, 12, 0.9
+# Standard deviation of the first quadrature, over ΔF Δ(1/k), if the stiffness has a single jump at a random force.
+_JUMP = 12**-0.5
+# Standard deviation of the second quadrature, over ΔF² Δ(1/k), in this case.
+_JUMP_OF_SECOND = 720**-0.5
+# Tolerance of the contacts over the tolerance of the audit. It leaves a tenth of the latter for errors of the
+# stiffness, whose effect on the first integral grows with the force at complete contact.
+_CONTACT_TOLERANCE = 0.01
+# Least tolerance that contacts can meet.
+_LEAST_CONTACT_TOLERANCE = 1e-12
+# Divide an interval into at most so many parts in one round.
+_MOST_PARTS = 3
+# Add levels in at most so many rounds.
+_MAX_ROUNDS = 12
+# Errors of all intervals must fall to this share within two rounds. They do not if the levels are wrong.
+_LEAST_REDUCTION = 0.9
+# Avoids divisions by 0.
 _TINY = 1e-300
 
 
 @dataclass(frozen=True)
 class CompleteContact(ReadOnlyArrays):
-    """Where the loading curve of an indenter ends, and its two integrals, from linear solutions alone.
+    """Complete contact of an indenter, and the two integrals of its loading curve, from linear solutions.
 
     Attributes
     ----------
     mean_gap : float
-        ⟨g₀⟩_q, the first integral [length].
+        First integral ⟨g₀⟩_q, the mean initial gap with the pressures of a flat punch as weights [length].
     energy : float
-        U/G, the second integral [length³].
+        Second integral U/G, the elastic energy of the joined surface at zero mean force [length³].
     stiffness : float
-        k_c/G of the whole outline as a flat punch [length].
+        Stiffness k_c/G of the whole outline as a flat punch [length].
     depth : float
-        u from which on all elements touch [length].
+        Least depth u at which all elements touch [length].
     length_unit : str
         Unit of the lengths; "1" if it is not known.
     """
@@ -75,22 +82,22 @@ class CompleteContact(ReadOnlyArrays):
 
     @property
     def force(self) -> float:
-        """F/G = k_c (u − ⟨g₀⟩_q)/G from which on all elements touch [length²]."""
+        """Return the force of complete contact, F/G = k_c (u − ⟨g₀⟩_q)/G [length²]."""
         return self.stiffness * (self.depth - self.mean_gap)
 
 
 @dataclass(frozen=True)
 class Integral:
-    """One of the two integrals of a loading curve beside its exact value.
+    """One of the two integrals of a loading curve, compared with its exact value.
 
     Attributes
     ----------
     exact : float
-        From linear solutions.
+        Exact value, from linear solutions.
     deviations : dict
-        Of quadratures over the curve from the exact value, relative, by name.
+        Relative deviations of quadratures over the curve from the exact value, by name.
     error : float
-        Estimated error, relative: of the quadrature "by levels", and in the second integral of both.
+        Estimated relative error of the quadrature "by levels" in the first integral, of both in the second integral.
     """
 
     exact: float
@@ -98,8 +105,8 @@ class Integral:
     error: float
 
     @classmethod
-    def of(cls, exact: float, values: dict[str, float], error: float, scale: float) -> "Integral":
-        """The integral with these quadratures and this error; `scale` is what they are relative to."""
+    def compared(cls, exact: float, values: dict[str, float], error: float, scale: float) -> "Integral":
+        """Return the integral with quadratures and an error, which are divided by `scale`."""
         return cls(exact, {name: float(value - exact) / scale for name, value in values.items()}, error / scale)
 
 
@@ -110,14 +117,15 @@ class SumRules(ReadOnlyArrays):
     Attributes
     ----------
     first : Integral
-        For ⟨g₀⟩_q: u − F/k_c at the "last level" (no check of a curve of `indent`, whose level of complete contact
-        has the same source), ∫ (1/k − 1/k_c) dF "by levels", from forces and
-        stiffnesses alone, and "between levels", with the stiffness of `LoadingCurve.at_force` [length].
+        Integral ⟨g₀⟩_q [length]. Its quadratures are u − F/k_c at the "last level", ∫ (1/k − 1/k_c) dF "by levels" from
+        forces and stiffnesses alone, and "between levels" with the stiffness of `LoadingCurve.at_force`. The last
+        level is no check of a curve of `indent`, whose depth of complete contact has the same source.
     second : Integral
-        For U/G: ∫ (⟨g₀⟩_q + F/k_c − u) dF "by levels", from depths and stiffnesses there, and "between levels", with
-        the depth of `LoadingCurve.at_force` [length³].
+        Integral U/G [length³]. Its quadratures are ∫ (⟨g₀⟩_q + F/k_c − u) dF "by levels" from depths and stiffnesses,
+        and "between levels" with the depth of `LoadingCurve.at_force`.
     errors : array
-        Estimated error in each interval, of both integrals over their scales, shape (levels − 1,).
+        Estimated relative error of both integrals in each interval between levels, shape (levels,); the first interval
+        starts at zero force [1].
     """
 
     first: Integral
@@ -126,31 +134,31 @@ class SumRules(ReadOnlyArrays):
 
     @property
     def error(self) -> float:
-        """The larger one of the estimated errors of both integrals, relative."""
+        """Return the larger of the estimated relative errors of both integrals."""
         return max(self.first.error, self.second.error)
 
     @property
     def largest_deviation(self) -> float:
-        """The largest deviation of any quadrature from the exact value, relative."""
+        """Return the largest relative deviation of a quadrature from the exact value."""
         return max(abs(value) for rule in (self.first, self.second) for value in rule.deviations.values())
 
 
 @dataclass(frozen=True)
 class Audit(ReadOnlyArrays):
-    """A loading curve with levels added until its integrals are known to a tolerance, and what they are.
+    """Loading curve to complete contact, with added levels for accurate integrals, and both integrals.
 
     Attributes
     ----------
     tolerance : float
-        Of both integrals, relative.
+        Requested relative accuracy of both integrals [1].
     complete : CompleteContact
-        What `complete_contact` gives for the indenter.
+        Complete contact of the indenter.
     curve : LoadingCurve
-        With the added levels.
+        Curve with the added levels.
     rules : SumRules
         Both integrals of this curve.
     interpolation_error : float
-        Largest relative error of the depth that was interpolated without the added levels, at these.
+        Largest relative error, at the added levels, of the depth that the curve without them interpolates [1].
     """
 
     tolerance: float
@@ -161,50 +169,53 @@ class Audit(ReadOnlyArrays):
 
     @property
     def integrals_agree(self) -> bool:
-        """Whether the estimated error and all deviations from the exact integrals are within the tolerance."""
+        """Return True if the estimated error and all deviations from the exact integrals are within the tolerance."""
         return max(self.rules.error, self.rules.largest_deviation) <= self.tolerance
 
     @property
     def is_interpolated(self) -> bool:
-        """Whether the depth between levels was as accurate as `indent` promises."""
+        """Return True if the interpolated depth between levels is as accurate as `indent` promises."""
         return self.interpolation_error <= max(self.curve.tolerance, FINEST_ACCURACY)
 
     @property
     def agrees(self) -> bool:
-        """Whether the integrals agree, and the interpolated depth is as accurate as promised."""
+        """Return True if the integrals agree, and the interpolated depth is as accurate as promised."""
         return self.integrals_agree and self.is_interpolated
 
     def __str__(self) -> str:
-        """Verdict; exact value, deviations and estimated error of both integrals."""
+        """Return the verdict, and exact value, deviations and estimated error of both integrals."""
         verdict = "agree" if self.integrals_agree else "do not agree"
         text = f"Audit over {self.curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
         if not self.is_interpolated:
             text += f", and depths between levels are off by {self.interpolation_error:.1e}"
         for name, integral, power in (("mean gap", self.rules.first, 1), ("energy U/G", self.rules.second, 3)):
             exact = with_unit(integral.exact, unit_power(self.curve.length_unit, power), 8)
-            deviations = ", ".join(f"{of} {deviation:+.1e}" for of, deviation in integral.deviations.items())
+            deviations = ", ".join(
+                f"{quadrature} {deviation:+.1e}" for quadrature, deviation in integral.deviations.items()
+            )
             text += f"\n{name} {exact}, {deviations}, estimated error {integral.error:.1e}"
         return text
 
 
 def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact:
-    """The complete contact of an indenter, from two linear problems without a contact problem.
+    """Compute the complete contact of an indenter from two linear problems, without a contact problem.
 
-    With P = p d/(4πG), d the side of an element and K the influence coefficients, K q = 1 and K s = g₀ give::
+    With the loads P = p d/(4πG), the side d of an element and the influence coefficients K, the solutions of K q = 1
+    and K s = g₀ give::
 
         ⟨g₀⟩_q = Σs/Σq,   k_c/G = 4π d Σq,   U/G = 2π d (Σ s g₀ − (Σs)²/Σq),   u = max s/q
 
-    where u is the depth at which the last tension vanishes. They are solved on the grid by preconditioned conjugate
-    gradients. On a line, springs of stiffness 4G Δx are independent (MDR)::
+    The last tension vanishes at the depth u. The problems are solved on the grid by preconditioned conjugate gradients.
+    On a line of n points, springs of stiffness 4G Δx are independent (MDR)::
 
         ⟨g₀⟩_q = mean g₀,   k_c/G = 4 Δx n,   U/G = 2 Δx Σ (g₀ − mean g₀)²,   u = max g₀
 
     Parameters
     ----------
     indenter : Indenter
-        Indenter.
+        Map or line of heights.
     threads : int, optional
-        Of the processor.
+        Number of threads; the result does not depend on it.
 
     Returns
     -------
@@ -245,7 +256,7 @@ def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact
 
 
 def _energy(reduced: float, length: float) -> float:
-    """The energy `reduced` · length². Raises ValueError if double precision cannot represent it."""
+    """Return the energy `reduced` · length². Raises ValueError if double precision cannot represent it."""
     with np.errstate(over="ignore", under="ignore"):
         energy = float(reduced * np.square(length))
     if not np.isfinite(energy) or 0 < abs(energy) < sys.float_info.min or (energy == 0 and reduced * length != 0):
@@ -256,21 +267,26 @@ def _energy(reduced: float, length: float) -> float:
 
 
 def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
-    """Both integrals of a loading curve as quadratures, with estimates of their errors, beside the exact ones.
+    """Compute both integrals of a loading curve by quadratures with estimated errors, and compare with exact values.
 
-    Before its first level the curve is taken as straight. Between two levels 1/k jumps down wherever an element joins.
-    "By levels", the first integral is therefore a sum of trapezoids. In the second one, the curve cuts off from the
-    triangle of chord and tangents, to which convexity confines it, what m equal jumps at random forces do on average:
-    the share (1 − 1/m)/3, none for one jump, that of a parabola for many. Where chord and tangent coincide, the curve
-    is straight, and both are exact. The estimated error of an interval is what its trapezoid differs from its rise in
-    depth, at least the standard deviation for such jumps, 0.29 ΔF Δ(1/k)/√m; that of the second integral is 0.13 ΔF
-    times as large, the ratio for such jumps, or what the two quadratures differ by. Errors of intervals add as
-    independent ones, but at least as their known parts do. That of the second integral is three standard deviations and
-    what both quadratures differ by in all, so that it holds for either of them.
+    The curve is taken as straight before its first level. Between two levels, 1/k jumps down when an element joins. Let
+    ΔF, Δu and Δ(1/k) be the changes between two levels, and m the number of elements that join. If chord and tangent
+    coincide, the curve is straight, and the quadratures of both integrals are exact. Otherwise:
 
-    curve : LoadingCurve; complete : CompleteContact of its indenter
+    - The first integral "by levels" is a sum of trapezoids T of 1/k. The error of an interval is e₁ = max(|T − Δu|,
+      0.29 ΔF Δ(1/k)/√m), the latter being the standard deviation for m equal jumps at random forces.
+    - The second integral "by levels" is a sum of trapezoids of ⟨g₀⟩_q + F/k_c − u, minus the area between chord and
+      curve. By convexity the curve lies in the triangle of chord and tangents. For m equal jumps at random forces, the
+      share (2 + 1/m)/3 of the triangle lies on average between chord and curve: all of it for one jump, 2/3, as for a
+      parabola, for many jumps.
+    - "Between levels", both integrals are Gauss quadratures of the curve that LoadingCurve.at_force interpolates.
+    - The error of an interval in the second integral is e₂ = max(0.13 ΔF e₁, difference of both quadratures), with the
+      ratio of the standard deviations for such jumps.
+    - Errors of intervals are added as independent errors. The error of the first integral is max(|Σ (T − Δu)|, √Σe₁²).
+      The error of the second is the difference of both quadratures plus 3√Σe₂², so it holds for either quadrature.
 
-    Returns SumRules.
+    curve : loading curve to complete contact
+    complete : complete contact of the indenter of this curve
     """
     depth, force = np.append(0.0, curve.depth), np.append(0.0, curve.force)
     stiffness = np.append(curve.force[0] / curve.depth[0], curve.stiffness)
@@ -289,7 +305,7 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     # ⟨g₀⟩_q + F/k_c − u, which is convex and falls to zero.
     remaining = complete.mean_gap + force * least - depth
     triangle = np.maximum((rise * before - sink) * (sink - rise * after), 0.0) / (2 * drop)
-    triangle = np.minimum(triangle, rise**2 * drop / 8)  # the largest one; 0 where the stiffness is lower by rounding
+    triangle = np.minimum(triangle, rise**2 * drop / 8)  # 0 if the stiffness decreases by rounding
     areas = rise * (remaining[1:] + remaining[:-1]) / 2 - (2 + 1 / joined) / 3 * triangle
     inner = force[1:-1, None] + rise[1:, None] * _POINTS
     inner_depth, inner_stiffness = curve.at_force(inner)
@@ -308,8 +324,8 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     total = max(abs(off.sum()), np.sqrt((error**2).sum()))
     total_of_second = abs(areas[1:].sum() - inner_areas.sum()) + 3 * np.sqrt((error_of_second**2).sum())
     return SumRules(
-        Integral.of(complete.mean_gap, first, total, scale),
-        Integral.of(complete.energy, second, total_of_second, scale_of_second),
+        Integral.compared(complete.mean_gap, first, total, scale),
+        Integral.compared(complete.energy, second, total_of_second, scale_of_second),
         np.hypot(error / scale, error_of_second / scale_of_second),
     )
 
@@ -322,23 +338,25 @@ def audit(
     threads: int = 1,
     options: SolverOptions = DEFAULT,
 ) -> Audit:
-    """Follow a loading curve to complete contact and compare its two integrals with the exact ones.
+    """Compute a loading curve to complete contact, and compare its two integrals with their exact values.
 
-    Its contacts are solved to a hundredth of the tolerance, and levels are added where they reduce the estimated errors
-    of both integrals (`integrals`) most, until these are within the tolerance. As k jumps at every contact event, the
-    errors fall as the inverse of the number of levels. On maps of up to 400 elements every event is a level, and the
-    integrals are exact to rounding.
+    Contacts are solved to a hundredth of the tolerance. Levels are added in the intervals with the largest estimated
+    errors of both integrals, until the errors are within the tolerance. Since k jumps at every contact event, the
+    errors are inversely proportional to the number of levels. On maps of up to 400 elements every event is a level, and
+    the integrals are exact to rounding.
 
     Parameters
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
     tolerance : float, optional
-        Of both integrals, relative; between 1e-10 and 0.1.
+        Relative accuracy of both integrals, between 1e-10 and 0.1 [1].
     progress : Progress, optional
-        Function that is called with the share of the rounds of added levels that is done, up to 1.
-    threads, options : int or SolverOptions, optional
-        As in `indent`.
+        Function called with the finished share of the rounds of added levels, up to 1.
+    threads : int, optional
+        Number of threads; the result does not depend on it.
+    options : SolverOptions, optional
+        Details of the iterations, such as their precision; change them only to measure their effect.
 
     Returns
     -------
@@ -369,9 +387,9 @@ def audit(
     plain = curve = _curve(indenter, until_fraction=1.0, **how)
     rules, norms = integrals(curve, complete), [np.inf, np.inf]
     for number in range(_MAX_ROUNDS):
-        # A few levels are added in any case, unless the curve is exact: at them it is seen whether interpolation holds.
+        # Unless the curve is exact, the first round adds levels in any case: they check the interpolation.
         allowed, enough = (tolerance, tolerance) if number else (min(tolerance, rules.error / 2), _STRAIGHT)
-        # Where the jump in the middle of an interval comes to an end of a part of it, only the round after shows less.
+        # If a jump lies at the new level of an interval, its error falls only in the following round.
         norms.append(float(np.linalg.norm(rules.errors)))
         if rules.error <= enough or norms[-1] > _LEAST_REDUCTION * norms[-3]:
             break
@@ -382,7 +400,7 @@ def audit(
         try:
             curve = _merged(curve, _curve(indenter, depths=depths, **how))
         except ValueError:
-            break  # the added levels contradict the others, so that the estimated error remains
+            break  # the added levels contradict the others; the estimated error remains
         rules = integrals(curve, complete)
     between = curve.force > plain.force[0]
     interpolated = plain.at_force(curve.force[between])[0] / curve.depth[between]
@@ -390,21 +408,21 @@ def audit(
 
 
 def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
-    """The curve of `indent`, without its warnings: complete contact lies beyond what the theory describes."""
+    """Return the curve of `indent` without its warnings, since complete contact is beyond the range of the theory."""
     with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         return indent(indenter, **how)
 
 
 def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Array:
-    """Depths that divide the intervals between levels into equal parts, as few as reduce the error to the allowed one.
+    """Return the fewest depths that divide intervals between levels into equal parts and reduce the error enough.
 
-    The error of an interval of n parts is 1/n of that of the interval, and errors add as independent ones do: the sum
-    of n is smallest with n in proportion to the error to the power 2/3. Where errors have one sign they add up to more
-    than that, by the ratio of the estimated error to the independent sum.
+    Dividing an interval into n parts divides its error by n. For independent errors, the number of parts is smallest if
+    n is proportional to the error to the power 2/3. Errors of equal sign add up to more, by the ratio of the estimated
+    error to the independent sum.
     """
     weight = rules.errors[1:] ** (2 / 3)
-    of_one_sign = max(rules.error / max(float(np.linalg.norm(rules.errors)), _TINY), 1.0)
-    parts = np.clip(np.ceil(weight * np.sqrt(weight.sum()) / allowed * of_one_sign), 1, _MOST_PARTS).astype(int)
+    equal_signs = max(rules.error / max(float(np.linalg.norm(rules.errors)), _TINY), 1.0)
+    parts = np.clip(np.ceil(weight * np.sqrt(weight.sum()) / allowed * equal_signs), 1, _MOST_PARTS).astype(int)
     # Levels must not be so close that their differences are lost to rounding.
     parts[np.diff(curve.depth) < 1e-6 * curve.depth[1:]] = 1
     intervals = zip(curve.depth[:-1], curve.depth[1:], parts, strict=True)
@@ -413,7 +431,7 @@ def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Arra
 
 
 def _merged(curve: LoadingCurve, added: LoadingCurve) -> LoadingCurve:
-    """The LoadingCurve with the levels of both."""
+    """Return the LoadingCurve with the levels of both curves."""
     order = np.argsort(np.append(curve.depth, added.depth))
     levels: dict[str, Any] = {
         name: np.append(getattr(curve, name), getattr(added, name))[order]

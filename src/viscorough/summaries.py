@@ -1,21 +1,21 @@
-"""Numbers and units in short texts about a result, for print and for notebooks."""
+"""Write numbers and units for short texts about results, for print and notebooks."""
 
 from typing import Any
 
 
 def span(values: Any, unit: str = "1") -> str:
-    """First and last of an array of values, with their unit: "1e-09 to 2e-07 m"."""
+    """Return the first and last value of an array with their unit, such as "1e-09 to 2e-07 m"."""
     first, last = with_unit(values[0]), with_unit(values[-1], unit)
     return f"{first} to {last}" if len(values) > 1 else last
 
 
 def with_unit(value: float, unit: str = "1", digits: int = 4) -> str:
-    """A number of so many digits, with its unit unless that is "1"."""
+    """Return a number with so many digits, and its unit unless it is "1"."""
     return f"{float(value):.{digits}g}{'' if unit == '1' else f' {unit}'}"
 
 
 def unit_power(unit: str, exponent: int) -> str:
-    """A unit of length to a power, as UDUNITS spells it: m2, but (1e-6 m)2; "1" for "1"."""
+    """Return a power of a unit of length, as UDUNITS spells it: m2, but (1e-6 m)2; "1" for "1"."""
     if unit == "1" or exponent == 0:
         return "1"
     if exponent == 1:
@@ -24,5 +24,5 @@ def unit_power(unit: str, exponent: int) -> str:
 
 
 def si_unit(unit: str, length_unit: str) -> str:
-    """An SI unit such as "s" or "Pa"; "1" where the unit of length is "1", so that all units are those of the user."""
+    """Return an SI unit such as "s"; "1" if the unit of length is "1", so that all units are those of the user."""
     return "1" if length_unit == "1" else unit

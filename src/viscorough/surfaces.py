@@ -1,4 +1,4 @@
-"""Self-affine discs, squares and lines with random heights.
+"""Generate self-affine discs, squares and lines with random heights.
 
 The power spectral density is the paper's (Sec. III): C2D(q) ∝ q^(-2(H+1)) for a surface, and from C1D = π q C2D,
 which keeps the rms height, C1D(q) ∝ q^(-(2H+1)) for a line (Eq. 13). Spectra are isotropic, have no zero mode and reach
@@ -17,7 +17,8 @@ from viscorough.indenter import Indenter, positive
 from viscorough.lines import SelfAffineLines
 from viscorough.types import Array, FloatType, Seed
 
-_BYTES_PER_POINT = 100  # memory that must be available for a square, three times what its arrays take
+# Memory that must be available for a square, three times the size of its arrays.
+_BYTES_PER_POINT = 100
 
 
 def self_affine_disc(
@@ -35,40 +36,41 @@ def self_affine_disc(
     length_unit: str = "1",
     seed: Seed,
 ) -> Indenter:
-    """Disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
+    """Generate a disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
 
     Parameters
     ----------
     hurst : float
-        Hurst exponent H, 0 to 1.
+        Hurst exponent H, from 0 to 1 [1].
     elements_across : int, optional
-        n, at least 3; 257 gives 51433 elements.
+        Number n of elements across the diameter, at least 3; 257 gives 51433 elements.
     rms : float, optional
         Standard deviation h of the heights, exact in every realization [length].
     diameter : float, optional
-        L; the spacing is L/n [length].
+        Diameter L [length]; the spacing is L/n.
     period : float, optional
-        Of the square in diameters, at least 1, rounded to whole spacings; with 1 the disc spans the period, with 2 it
-        is cut from a surface that repeats after two diameters.
+        Period of the square in diameters, at least 1, rounded to whole spacings. With 1 the disc spans the period, with
+        2 it is cut from a surface that repeats after two diameters.
     corners : bool, optional
-        Whether waves in the corners of the Fourier square, beyond the Nyquist circle q = π/spacing, are present.
-    roll_off_wavelength, roll_off_level : float, optional
-        Longest wavelength of the power law, in diameters; longer waves have the spectral density at this wavelength
-        times `roll_off_level` (0: they are absent, 1: a plateau).
+        True to include waves in the corners of the Fourier square, beyond the Nyquist circle q = π/spacing.
+    roll_off_wavelength : float, optional
+        Longest wavelength of the power law, in diameters; by default all waves follow the power law.
+    roll_off_level : float, optional
+        Spectral density of longer waves, relative to the density at this wavelength (0: no longer waves, 1: plateau).
     amplitudes : str, optional
-        "random": complex Gaussian, so that the heights are a Gaussian process; "fixed": exactly the square root of the
-        spectrum, so that only the phases are random.
+        "random" for complex Gaussian amplitudes, so that the heights are a Gaussian process; "fixed" for the square
+        root of the spectrum, so that only the phases are random.
     rms_over : str, optional
-        "disc" or "square": the points over which h is taken.
+        "disc" or "square": set of points whose standard deviation is h.
     length_unit : str, optional
-        Of rms and diameter, as in Indenter.
+        Unit of rms and diameter, such as "um"; by default it is not known.
     seed : int or SeedSequence
-        A number or a numpy SeedSequence; the same seed gives the same realization.
+        Seed of the random numbers. The same seed gives the same realization.
 
     Returns
     -------
     Indenter
-        With heights of shape (n, n), nan outside the disc (see `cut_disc`).
+        Map of shape (n, n), nan outside the disc (see `viscorough.surfaces.cut_disc`).
 
     Raises
     ------
@@ -98,9 +100,10 @@ def self_affine_disc(
 def square_of_disc(
     hurst: float, elements_across: int, *, period: float = 1.0, roll_off_wavelength: float | None = None, **options: Any
 ) -> Array:
-    """Heights of the periodic square that a disc is cut from, shape (points, points); see `self_affine_square`.
+    """Return the heights of the periodic square that contains a disc, shape (points, points).
 
-    hurst, elements_across, period, roll_off_wavelength : as in `self_affine_disc`; options : of `self_affine_square`
+    hurst, elements_across, period, roll_off_wavelength : arguments of `self_affine_disc`
+    options : further arguments of `self_affine_square`
     """
     if roll_off_wavelength is not None:
         roll_off_wavelength = positive("roll_off_wavelength", roll_off_wavelength) * elements_across
@@ -120,16 +123,18 @@ def self_affine_square(
     normalised: bool = True,
     seed: Seed,
 ) -> Array:
-    """Heights of a periodic self-affine square, shape (points, points), of mean 0.
+    """Generate the heights of a periodic self-affine square, shape (points, points), with mean 0.
 
-    hurst, corners, roll_off_level, amplitudes, seed : as in `self_affine_disc`
+    White noise is filtered, since its spectrum has the symmetry of real heights, also for waves that equal their mirror
+    images.
+
     points : number of points per period, at least 2
-    roll_off_wavelength : as in `self_affine_disc`, but in points
-    normalised : whether the rms height is 1 in every realization; otherwise the spectrum is the same in every
-        realization, and the mean over all of them of the mean square height is 1
+    roll_off_wavelength : longest wavelength of the power law, in points
+    normalised : True for an rms height of 1 in every realization. False for the same spectrum in every realization; the
+        mean square height is then 1 on average over all realizations
+    hurst, corners, roll_off_level, amplitudes, seed : arguments of `self_affine_disc`
 
-    White noise is filtered: its spectrum has the symmetry of real heights, also where a wave is its own mirror
-    image. Raises ValueError for values outside the allowed ranges.
+    Raises ValueError for values outside the allowed ranges.
     """
     points = whole_number("points", points, at_least=2)
     memory.require(_BYTES_PER_POINT * points**2, f"a surface of {points} x {points} points")
@@ -154,10 +159,10 @@ def self_affine_square(
 
 
 def _expected_mean_square(amplitude: Array, points: int, *, fixed: bool) -> float:
-    """Mean square height that filtered white noise has on average over all realizations (Parseval's theorem).
+    """Return the mean square height of filtered white noise on average over all realizations (Parseval's theorem).
 
-    amplitude : modulus of the filter at the waves of a real Fourier transform; all but those of the first and, of an
-        even number of points, the last column stand for their mirror images, too
+    amplitude : modulus of the filter at the waves of a real Fourier transform. Each wave represents its mirror image,
+        too, except in the first column and, for an even number of points, in the last column
     """
     square = amplitude**2
     once = square[:, 0].sum() + (square[:, -1].sum() if points % 2 == 0 else 0.0)
@@ -165,21 +170,21 @@ def _expected_mean_square(amplitude: Array, points: int, *, fixed: bool) -> floa
 
 
 def cut_disc(square: Array, elements_across: int) -> Array:
-    """Disc cut from the corner [:n, :n] of a map of heights, n = `elements_across`; shape (n, n), nan outside.
+    """Cut a disc from the corner [:n, :n] of a map of heights, with n = `elements_across`.
 
     An element belongs to the disc if x² + y² <= ((n-1)/2)², with x and y from the centre of the disc in spacings.
 
     Parameters
     ----------
     square : array
-        Heights, shape (m, m) [length].
+        Heights of the map, shape (m, m) [length].
     elements_across : int
-        n, not above m.
+        Number n of elements across the disc, at most m.
 
     Returns
     -------
     array
-        Heights of the disc, a copy.
+        Copy of the heights, nan outside the disc, shape (n, n) [length].
 
     Raises
     ------
@@ -213,27 +218,35 @@ def self_affine_line(
     seed: Seed,
     dtype: FloatType = np.float32,
 ) -> Indenter:
-    """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of dimensionality reduction (MDR).
+    """Generate a periodic self-affine line, C1D ∝ q^(-(2H+1)), for the method of dimensionality reduction (MDR).
 
     Parameters
     ----------
-    hurst, rms, amplitudes, seed : float or str or Seed
-        As in `self_affine_disc`.
+    hurst : float
+        Hurst exponent H, from 0 to 1 [1].
     points : int
         Number of points per period, at least 2.
+    rms : float, optional
+        Standard deviation h of the heights, exact in every realization [length].
     length : float, optional
-        L, which is also the period; the spacing is L/points [length].
-    roll_off_wavelength, roll_off_level : float or float, optional
-        As in `self_affine_disc`, but the wavelength in units of the length.
+        Length L of the line, which is also its period [length]; the spacing is L/points.
+    roll_off_wavelength : float, optional
+        Longest wavelength of the power law, in units of L; by default all waves follow the power law.
+    roll_off_level : float, optional
+        Spectral density of longer waves, relative to the density at this wavelength (0: no longer waves, 1: plateau).
+    amplitudes : str, optional
+        "random" for complex Gaussian amplitudes, "fixed" for the square root of the spectrum.
     length_unit : str, optional
-        Of rms and length, as in Indenter.
+        Unit of rms and length, such as "um"; by default it is not known.
+    seed : int or SeedSequence
+        Seed of the random numbers. The same seed gives the same realization.
     dtype : numpy dtype or name, optional
-        Float32 or float64; the realization is the same up to rounding.
+        Floating-point type, float32 or float64; the realization is the same up to rounding.
 
     Returns
     -------
     Indenter
-        With heights of shape (points,) and mean 0.
+        Line of shape (points,) with mean 0.
 
     Raises
     ------

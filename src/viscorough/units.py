@@ -1,8 +1,8 @@
-"""Units of measurement as users and files write them: "um", "1e-6 m", "µm", "micron", "Pa s", "N s m-2".
+"""Read and convert units as users and files write them: "um", "1e-6 m", "µm", "micron", "Pa s", "N s m-2".
 
-They are spelled as UDUNITS does, the units library of the CF conventions, in which a number behind a unit is its power;
-pint knows them. It takes a second to import, and is imported when a unit is read that is not in a short table. The unit
-"1" stands for a unit of length that is not known.
+Results spell units like UDUNITS, the units library of the CF conventions: a number after a unit is its power. Pint
+converts units. It takes a second to import, so it is imported only for units outside a short table. The unit "1" means
+that the unit of length is not known.
 """
 
 import contextlib
@@ -16,27 +16,27 @@ from viscorough import summaries
 from viscorough.argument_names import argument, spelled
 
 UNKNOWN = "1"
-# Units of length that are read without pint, as files and results spell them; users may write µ for u.
+# Units of length that are read without pint, in the spelling of files and results. Users may write µ for u.
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 # Patterns are compiled at first use, so that the command line starts faster.
 _ALLOWED = r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}"
 _POWER = r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])"
 _LONG_POWER = r"(\*\*|\^)(?!\s*[+-]?\d(?![\d.eE]|\s*(\*\*|\^)))"
 _POINTS = r"(?i:px|pix|pixels?|pts?|points?|dots?|samples?|punkte?|bildpunkte?)"
-# Lengths of printers that pint knows by names that elsewhere mean the points of a picture.
+# Names of lengths of printers in pint, which usually mean the points of a picture.
 _PRINTED = ("pixel", "point", "pica", "didot", "cicero")
 _QUANTITY = r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.+?)\s*"
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number with a unit, or a plain number, whose unit is empty."""
+    """Number with a unit; the unit of a plain number is empty."""
 
     number: float
     unit: str = ""
 
     def to(self, unit: str) -> float:
-        """The number in another unit; a plain number is returned unchanged. Raises ValueError as `factor` does."""
+        """Convert the number to another unit; a plain number is returned unchanged. Raises the errors of `factor`."""
         return self.number * factor(self.unit, unit) if self.unit else self.number
 
     def __str__(self) -> str:
@@ -44,7 +44,7 @@ class Quantity:
 
 
 def quantity(text: str) -> Quantity:
-    """The Quantity that a text such as "5 mN", "1e6 Pa s" or "2" states. Raises ValueError if it states none."""
+    """Read the Quantity in a text such as "5 mN", "1e6 Pa s" or "2". Raises ValueError for other texts."""
     with contextlib.suppress(ValueError):
         return Quantity(float(text))
     match = re.fullmatch(_QUANTITY, text)
@@ -55,9 +55,9 @@ def quantity(text: str) -> Quantity:
 
 
 def with_unit(value: Any) -> Any:
-    """The Quantity that a text or a quantity of pint stands for; anything else is returned unchanged.
+    """Convert a text or a quantity of pint to a Quantity; other values are returned unchanged.
 
-    Raises ValueError as `quantity`.
+    Raises the errors of `quantity`.
     """
     from viscorough.arrays import real_number  # numpy takes long to import, and reading the options does not need it
 
@@ -67,10 +67,12 @@ def with_unit(value: Any) -> Any:
 
 
 def number(value: Any, unit: str, length_unit: str, name: str) -> float:
-    """Return a finite number in `unit`, given as a plain number, a Quantity, also of pint, or a text as "5 mN".
+    """Convert a plain number, a Quantity, a quantity of pint, or a text such as "5 mN" to a finite number in `unit`.
 
-    Raises ValueError, which starts with the name, for anything else, and for a number with a unit although the unit of
-    length is not known: numbers are then in consistent units.
+    length_unit : unit of length of the indenter; if it is "1", numbers are in consistent units without a conversion
+
+    Raises ValueError, which starts with the name, for other values, and for a number with a unit if the unit of length
+    is not known.
     """
     from viscorough.arrays import real_number
 
@@ -78,9 +80,9 @@ def number(value: Any, unit: str, length_unit: str, name: str) -> float:
 
 
 def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
-    """Return real numbers in `unit` as an array of the same shape; the values may have units as in `number`.
+    """Convert values, which may have units like in `number`, to an array of real numbers in `unit`.
 
-    values : a number, an array, also of pint, or a list whose entries may have different units
+    values : number, array or array of pint, or a list whose entries may have different units
     """
     from viscorough.arrays import read_only, real_numbers, unit_attribute
 
@@ -108,12 +110,12 @@ def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
 
 
 def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: str, name: str) -> Any:
-    """F/G [length²] of one force or several, as an array of their shape.
+    """Convert one force or several to F/G [length²], an array of their shape.
 
-    shear_modulus : G in Pa, forces then are in N, or both are in consistent units if the unit of length is not known;
-        None if the forces are F/G
+    shear_modulus : G [Pa] for forces F [N], both in consistent units if the unit of length is not known; None if the
+        forces are F/G already
 
-    Raises ValueError, which starts with the name, as `numbers` does, and for a force with a unit where G is not known.
+    Raises ValueError, which starts with the name, like `numbers`, and for a force with a unit without G.
     """
     from viscorough.arrays import unit_attribute
 
@@ -132,22 +134,22 @@ def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: s
 
 
 def square_metres(length_unit: str) -> float:
-    """The square of a unit of length in m²; 1 where it is not known, since units are then consistent by themselves.
+    """Return the square of a unit of length in m²; 1 if it is not known, since all units are then consistent.
 
-    Moduli in Pa and forces in N per this area are consistent with lengths in that unit.
+    A modulus in Pa times this area is a force in N per squared unit of length.
     """
     return in_metres(length_unit) ** 2
 
 
 def in_metres(length_unit: str) -> float:
-    """Return a unit of length in m; 1 if it is not known, since units are then consistent by themselves."""
+    """Return a unit of length in m; 1 if it is not known, since all units are then consistent."""
     return 1.0 if length_unit == UNKNOWN else metres(length_unit)
 
 
 class ResultUnit(NamedTuple):
-    """Unit in which people read a quantity: its name, and the factor that converts the solver's number to it.
+    """Unit of a quantity for readers: its name, and the factor that converts a number of the solver to it.
 
-    The solver's numbers are lengths in the unit of the heights, areas in this unit squared, and F/G, k/G and p/G.
+    Numbers of the solver are lengths in the unit of the heights, areas in this unit squared, and F/G, k/G and p/G.
     """
 
     name: str
@@ -183,9 +185,9 @@ def result_units(length_unit: str, shear_modulus: float | None) -> dict[str, Res
 
 
 def factor(unit: str, to: str) -> float:
-    """Conversion factor from `unit` to the unit `to`.
+    """Return the conversion factor from `unit` to the unit `to`.
 
-    Raises ValueError if one of them is not a unit, or if they measure different things.
+    Raises ValueError for texts that are not units, and for units of different dimensions.
     """
     if unit in _METRES and to in _METRES:
         return _rounded(_METRES[unit] / _METRES[to])
@@ -196,17 +198,17 @@ def factor(unit: str, to: str) -> float:
 
 
 def counts_points(unit: str) -> bool:
-    """Whether a unit counts the points of a map, as px does, so that it is no length."""
+    """Return True if a unit counts the points of a map, such as px, so that it is not a length."""
     return bool(re.fullmatch(_POINTS, unit.strip()))
 
 
 def metres(unit: str) -> float:
-    """A unit of length in metres. Raises ValueError if it is not a unit of length, as "1" is none."""
+    """Return a unit of length in metres. Raises ValueError for other units, and for "1"."""
     return factor(length_unit(unit), "m")
 
 
 def length_unit(text: str) -> str:
-    """A unit of length as results spell it: "um" for µm, micron and micrometer.
+    """Return a unit of length in the spelling of results: "um" for µm, micron and micrometer.
 
     Raises ValueError unless the text is a unit of length.
     """
@@ -221,14 +223,14 @@ def length_unit(text: str) -> str:
 
 
 def is_length(text: str) -> bool:
-    """Whether a text is a unit of length."""
+    """Return True if a text is a unit of length."""
     with contextlib.suppress(ValueError):
         return bool(length_unit(text))
     return False
 
 
 def _rounded(number: float) -> float:
-    """A factor without the rounding errors of its computation, so that a nanometre is exactly 1e-9 metres."""
+    """Round a factor to 14 digits, so that a nanometre is exactly 1e-9 metres."""
     return float(f"{number:.14g}")
 
 
@@ -243,21 +245,21 @@ def _registry() -> Any:
 
 @functools.cache
 def _parsed(text: str) -> Any:
-    """A unit as a pint quantity: number and unit. Raises ValueError if it is none.
+    """Convert a unit to a quantity of pint: number and unit. Raises ValueError for other texts.
 
-    Powers of more than one digit and powers of powers are refused: pint would compute them, however long that takes.
+    Powers of more than one digit and powers of powers are refused, since pint could compute them without end.
     """
-    wanted = "a unit such as um, nm, N or Pa s is needed"
+    needed = "a unit such as um, nm, N or Pa s is needed"
     spelled = re.sub(_POWER, lambda match: f"{match[1] or ')'}**{match[2] or match[3]}", text)
     if not re.fullmatch(_ALLOWED, text) or re.search(_LONG_POWER, spelled) or spelled.count("**") > 6:
-        raise ValueError(f"unit {text[:60]!r}: {wanted}")
+        raise ValueError(f"unit {text[:60]!r}: {needed}")
     try:
         parsed = _registry().Quantity(spelled)
         size = float(parsed.to_base_units().magnitude)
-    except Exception as error:  # pint raises errors of many kinds for what it cannot parse
-        raise ValueError(f"unit {text!r}: {wanted}") from error
+    except Exception as error:  # pint raises errors of many kinds
+        raise ValueError(f"unit {text!r}: {needed}") from error
     if not (math.isfinite(size) and size > 0):
-        raise ValueError(f"unit {text!r}: {wanted}")
+        raise ValueError(f"unit {text!r}: {needed}")
     if any(name.endswith(_PRINTED) for name, _ in parsed.unit_items()):
-        raise ValueError(f"unit {text!r}: counts the points of a picture; {wanted}")
+        raise ValueError(f"unit {text!r}: counts the points of a picture; {needed}")
     return parsed

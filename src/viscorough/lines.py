@@ -9,6 +9,7 @@ method of dimensionality reduction. All other lines are computed by an ordinary 
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from ducc0 import fft
@@ -32,8 +33,10 @@ _COPIES, _MOST_COPIES = 2.6, 17
 class SelfAffineLines:
     """Generator of periodic self-affine lines with one spectrum.
 
-    Takes the arguments of `surfaces.self_affine_line` and raises the same errors.
+    Raises the errors of `surfaces.self_affine_line`.
 
+    hurst, points, rms, length, dtype : arguments of `surfaces.self_affine_line`
+    waves : its arguments roll_off_wavelength, roll_off_level and amplitudes
     spacing : distance between neighbouring points, length/points [length]
     """
 
@@ -44,16 +47,13 @@ class SelfAffineLines:
         *,
         rms: float = 1.0,
         length: float = 1.0,
-        roll_off_wavelength: float | None = None,
-        roll_off_level: float = 0.0,
-        amplitudes: str = "random",
         dtype: DTypeLike = np.float32,
+        **waves: Any,
     ) -> None:
         self._points = points = whole_number("points", points, at_least=2)
         self._exponent = spectrum.hurst_exponent(hurst) + 0.5
         self._rms, length = positive("rms", rms), positive("length", length)
-        self._roll_off = spectrum.roll_off(roll_off_wavelength, roll_off_level, period=1)
-        self._fixed = spectrum.fixed_amplitudes(amplitudes)
+        *self._roll_off, self._fixed = spectrum.wave_options(period=1, **waves)
         self._dtype = np.dtype(dtype)
         if self._dtype not in (np.float32, np.float64):
             raise ValueError(f"dtype: must be float32 or float64, not {self._dtype}")

@@ -26,7 +26,22 @@ def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) 
     return modulus
 
 
-def roll_off(wavelength: float | None, level: float, period: float) -> tuple[float, float]:
+def wave_options(
+    *, period: float, roll_off_wavelength: float | None = None, roll_off_level: float = 0.0, amplitudes: str = "random"
+) -> tuple[float, float, bool]:
+    """Check the options of `surfaces.self_affine_disc` for its waves.
+
+    period : period in the unit of the wavelength
+
+    Returns (wavenumber of the roll-off per period, 0 without a roll-off; its level; True if only phases are random).
+    Raises ValueError for values out of range.
+    """
+    if amplitudes not in ("random", "fixed"):
+        raise ValueError(f"amplitudes: must be 'random' or 'fixed', not {amplitudes!r}")
+    return *_roll_off(roll_off_wavelength, roll_off_level, period), amplitudes == "fixed"
+
+
+def _roll_off(wavelength: float | None, level: float, period: float) -> tuple[float, float]:
     """Return wavenumber per period and level of the roll-off; the wavenumber is 0 without a roll-off.
 
     wavelength, period : wavelength of the roll-off (None without one) and period, in one unit of length
@@ -66,10 +81,3 @@ def hurst_exponent(hurst: float) -> float:
     if not 0 <= hurst <= 1:
         raise ValueError(f"hurst: must be from 0 to 1, not {hurst!r}")
     return hurst
-
-
-def fixed_amplitudes(amplitudes: str) -> bool:
-    """Return True if only phases are random. Raises ValueError for unknown texts."""
-    if amplitudes not in ("random", "fixed"):
-        raise ValueError(f"amplitudes: must be 'random' or 'fixed', not {amplitudes!r}")
-    return amplitudes == "fixed"

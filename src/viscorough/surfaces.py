@@ -117,11 +117,9 @@ def self_affine_square(
     points: int,
     *,
     corners: bool = False,
-    roll_off_wavelength: float | None = None,
-    roll_off_level: float = 0.0,
-    amplitudes: str = "random",
     normalised: bool = True,
     seed: Seed,
+    **waves: Any,
 ) -> Array:
     """Generate the heights of a periodic self-affine square, shape (points, points), with mean 0.
 
@@ -129,18 +127,17 @@ def self_affine_square(
     images.
 
     points : number of points per period, at least 2
-    roll_off_wavelength : longest wavelength of the power law, in points
     normalised : True for an rms height of 1 in every realization. False for the same spectrum in every realization; the
         mean square height is then 1 on average over all realizations
-    hurst, corners, roll_off_level, amplitudes, seed : arguments of `self_affine_disc`
+    hurst, corners, seed : arguments of `self_affine_disc`
+    waves : its arguments roll_off_wavelength (here in points), roll_off_level and amplitudes
 
     Raises ValueError for values outside the allowed ranges.
     """
     points = whole_number("points", points, at_least=2)
     memory.require(_BYTES_PER_POINT * points**2, f"a surface of {points} x {points} points")
     exponent = spectrum.hurst_exponent(hurst) + 1
-    longest, level = spectrum.roll_off(roll_off_wavelength, roll_off_level, points)
-    fixed = spectrum.fixed_amplitudes(amplitudes)
+    longest, level, fixed = spectrum.wave_options(period=points, **waves)
 
     wavenumber = np.hypot(np.fft.fftfreq(points, 1 / points)[:, None], np.arange(points // 2 + 1))
     amplitude = spectrum.amplitude(wavenumber, exponent, longest, level)
@@ -148,11 +145,11 @@ def self_affine_square(
     if not corners:
         amplitude[wavenumber > points / 2] = 0
     random = np.random.Generator(np.random.SFC64(spectrum.seed_sequence(seed)))  # the fastest of numpy's generators
-    waves = fft.r2c(random.standard_normal((points, points)))
+    noise = fft.r2c(random.standard_normal((points, points)))
     if fixed:
-        waves /= np.abs(waves)
-    waves *= amplitude
-    heights = fft.c2r(waves, lastsize=points, forward=False, allow_overwriting_input=True)
+        noise /= np.abs(noise)
+    noise *= amplitude
+    heights = fft.c2r(noise, lastsize=points, forward=False, allow_overwriting_input=True)
     mean_square = np.mean(heights**2) if normalised else _expected_mean_square(amplitude, points, fixed=fixed)
     heights *= spectrum.scale_factor(1.0, mean_square)
     return heights

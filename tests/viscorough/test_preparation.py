@@ -47,12 +47,12 @@ def test_detrended_heights_have_no_mean_and_no_tilt(form):
     heights = ROUGH + PLANE
     heights[5:9, 20:] = np.nan
     residual = prepare(indenter(heights), detrend=form).heights
-    known = np.isfinite(heights)
-    np.testing.assert_array_equal(np.isfinite(residual), known)
+    measured = np.isfinite(heights)
+    np.testing.assert_array_equal(np.isfinite(residual), measured)
     for weight in [1] if form == "mean" else [1, X, Y]:
-        assert (residual * weight)[known].mean() == pytest.approx(0, abs=1e-11)
+        assert (residual * weight)[measured].mean() == pytest.approx(0, abs=1e-11)
     removed = prepare(indenter(heights - residual), detrend=form).heights
-    np.testing.assert_allclose(removed[known], 0, atol=1e-12)
+    np.testing.assert_allclose(removed[measured], 0, atol=1e-12)
 
 
 @pytest.mark.parametrize("radius", [18.0, 1e4, -30.0])

@@ -73,7 +73,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
             messages.complain(command, f"warning: {text}")
     except click.exceptions.Exit as done:
         return done.exit_code
-    except BrokenPipeError:  # what reads standard output has read enough, as in viscorough --help | head
+    except BrokenPipeError:  # the reader of standard output has ended, such as head in viscorough --help | head
         return 0
     except KeyboardInterrupt:
         return 130

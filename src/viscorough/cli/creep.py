@@ -1,4 +1,4 @@
-"""`viscorough creep`: the medium of a half-space from a measured indentation."""
+"""`viscorough creep`: find the medium of a half-space from a measured indentation."""
 
 from pathlib import Path
 
@@ -44,21 +44,21 @@ def creep(
     fit_drift: bool,
     output: Path,
 ) -> None:
-    """The medium of a half-space from a measured indentation by the indenter whose loading curve is in CURVE.nc.
+    """Find the medium of a half-space from a measured indentation by the indenter with the loading curve in CURVE.nc.
 
-    RECORD.csv has two columns: times, and depths under a known force, or forces at the depth of --depth-history. Units
-    stand in a heading as t [s],u [um], or numbers are in s, N and the unit of length of the curve. Loads may hold and
-    unload: creep, relaxation, and force curves are records. A measured depth shows the creep compliance J(t), a
-    measured force the relaxation modulus.
+    RECORD.csv has two columns: times, and depths under a given force, or forces at the depth of --depth-history. A
+    heading may state units, such as t [s],u [um]; otherwise numbers are in s, N and the unit of length of the curve.
+    Loads may hold and unload: creep, relaxation, and force curves are records. A measured depth determines the creep
+    compliance J(t), a measured force the relaxation modulus.
 
     MEDIUM.yaml is a medium for viscorough kinetics. A creep table is written to MEDIUM.csv, with the columns time,
-    compliance, low and high: J, and its interval of 95 % from the scatter of the record. If the force was measured, low
+    compliance, low and high: J and its interval of 95 % from the scatter of the record. If the force was measured, low
     and high belong to the further column modulus, the relaxation modulus. Short or very precise records do not
-    determine the scatter: low and high are nan then, unless --scatter states it.
+    determine the scatter; low and high are then missing, unless --scatter states it.
 
-    An error of the zero of the depth changes the medium. The closing line says by how much, unless --fit-offset finds
-    it. A warning says if a Prony series or a springpot misses the record by more than the scatter. A depth that recedes
-    by more than the scatter while the force does not decrease, or that leaves the curve, is refused.
+    An error of the zero of the depth changes the medium. The closing line states the change, unless --fit-offset finds
+    the error. A warning is given if a Prony series or a springpot misses the record by more than the scatter. A depth
+    that recedes by more than the scatter while the force does not decrease, or that leaves the curve, is refused.
 
     \b
     Examples:

@@ -63,10 +63,10 @@ def generate(
     how: dict[str, Any] = {"rms": rms, "length_unit": unit, "seed": seed, **long_waves}
     if elements:
         made = surfaces.self_affine_disc(hurst, elements, diameter=diameter, **how)
-        what = f"disc of {elements} elements across, {made.elements} elements"
+        text = f"disc of {elements} elements across, {made.elements} elements"
     elif points:
         made = surfaces.self_affine_line(hurst, points, length=diameter, **how)
-        what = f"line of {points} points"
+        text = f"line of {points} points"
     about = {"hurst": hurst, "rms": rms, "diameter": diameter, "seed": seed} | (long_waves if roll_off else {})
     files.write_output(surface_to_content(made), output, **about)
-    messages.announce(output, f"{what}, rms height {rms:g} {unit}, rms slope {made.rms_slope:.3g}")
+    messages.announce(output, f"{text}, rms height {rms:g} {unit}, rms slope {made.rms_slope:.3g}")

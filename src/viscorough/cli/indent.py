@@ -122,19 +122,26 @@ def indent(
 
     from viscorough.io.curves import curve_to_content
 
-    attributes, lines = surface.attributes(indenter) | elastic_constants, []
+    attributes, lines = surface.attributes(indenter) | elastic_constants, list[str]()
     with messages.progress_bar("viscorough indent", progress) as report:
         how: dict[str, Any] = {"progress": report, "threads": threads}
         if audit:
-            result = viscorough.audit(indenter, tolerance=tolerance, **how)
-            curve, lines, attributes["audit"] = result.curve, str(result).splitlines(), str(result)
-            if not result.agrees:
-                messages.warn(lines[0])
+            curve, lines = _audited(indenter, tolerance=tolerance, **how)
+            attributes["audit"] = "\n".join(lines)
         else:
             curve = viscorough.indent(indenter, **_arguments(settings), shear_modulus=modulus, **how)
     files.write_output(curve_to_content(curve, modulus), output, **attributes)
     lines += filter(None, [curve.choice, curve.grid_error_text])
     messages.announce(output, "\n".join([_last_level(curve, indenter, modulus), *lines]))
+
+
+def _audited(indenter: viscorough.Indenter, **how: Any) -> tuple[viscorough.LoadingCurve, list[str]]:
+    """Return the curve of an audit, and the lines of its result. Warns if the audit fails."""
+    result = viscorough.audit(indenter, **how)
+    lines = str(result).splitlines()
+    if not result.agrees:
+        messages.warn(lines[0])
+    return result.curve, lines
 
 
 def _check_exclusive(settings: dict[str, Any], *, has_tolerance: bool, audit: bool) -> None:

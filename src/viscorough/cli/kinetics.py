@@ -27,7 +27,7 @@ _CORRESPONDENCE = (
     "--times",
     type=options.Times(),
     metavar="A,B,C or FIRST:LAST:COUNT",
-    help="Times of the output, or so many equally spaced ones  [default: a hundred, or those of the history]",
+    help="Times of the output, or so many equally spaced times  [default: a hundred, or those of the history]",
 )
 @options.output("KIN.nc")
 def kinetics(
@@ -43,16 +43,15 @@ def kinetics(
 ) -> None:
     """Compute penetration over time of the indenter with the loading curve in CURVE.nc.
 
-    A history may load, hold, unload and reload; with --depth-history the depth is given, and the force follows.
-    KIN.nc holds time, depth, velocity, force and contact fraction. Without --times these are the times of the history,
-    so a ramp and a hold of few rows need --times for a curve. Under a constant force they are a hundred times at equal
+    A history may load, hold, unload and reload; with --depth-history the depth is given, and the force follows. KIN.nc
+    holds time, depth, velocity, force and contact fraction. Without --times these are the times of the history, so a
+    ramp and a hold of few rows need --times for a curve. Under a constant force they are a hundred times at equal
     ratios, from the first to the last level of the curve, or until creep has almost ended; they start after time 0 if
     the medium responds elastically at t = 0. While the contact grows, the depth is read from the curve at F/G equal to
     the creep response, the integral of J(t - s) dF(s) with the creep compliance J. On a linearly viscous half-space
     this is the impulse over the viscosity. When the contact recedes, the curve is used as a row of springs, which is
-    exact as well. Under no force the indenter rests on the
-    recovering surface. If the curve states a grid error, KIN.nc and the closing line state it as well; it holds for the
-    velocity under a given force.
+    exact as well. Under no force the indenter rests on the recovering surface. If the curve states a grid error, KIN.nc
+    and the closing line state it as well; it holds for the velocity under a given force.
 
     MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
     (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony
@@ -87,7 +86,7 @@ def kinetics(
     grid_error = loading.grid_error_text if depth_history is None else ""  # it applies to the velocity at a given force
     if grid_error:
         about |= {"mean_grid_error": loading.mean_grid_error}
-    load, of_load = files.load_from_options(force, force_history, loading.length_unit, depth_history)
+    load, load_attributes = files.load_from_options(force, force_history, loading.length_unit, depth_history)
     motion = viscorough.kinetics(loading, load, half_space, times)
     unknown = np.count_nonzero(~np.isfinite(motion.depth + motion.force + motion.velocity))
     if unknown == motion.time.size:
@@ -98,7 +97,7 @@ def kinetics(
         text = f"at {unknown} of {motion.time.size} times depth, force or velocity are missing: before the first level "
         messages.warn(f"{text}of the curve, or where a step in a springpot has no bound")
     content = motion_to_content(motion)
-    files.write_output(content, output, **about, **of_load, correspondence=_CORRESPONDENCE)
+    files.write_output(content, output, **about, **load_attributes, correspondence=_CORRESPONDENCE)
     depth = f"depth {with_unit(motion.depth[-1], loading.length_unit, 6)}"
     if depth_history is not None:
         depth += f" and force {with_unit(motion.force[-1], si_unit('N', loading.length_unit), 6)}"

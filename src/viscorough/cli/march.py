@@ -60,8 +60,8 @@ def march(
             --medium rubber.yaml \\
             --force-history pulses.csv -o pulses.nc
     """
-    wrong = f"--until-fraction is not for --method {method}; allowed: events"
-    options.require(until_fraction is None or method == "events", wrong)
+    text = f"--until-fraction is not for --method {method}; allowed: events"
+    options.require(until_fraction is None or method == "events", text)
     options.require((force_history is None) == bool(times), "one of --times and --force-history is needed")
     options.require(not (force_history and force), "--force-history replaces --force; they exclude each other")
     options.require(not (medium and viscosity), "--medium replaces --viscosity; they exclude each other")
@@ -72,7 +72,7 @@ def march(
 
     indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
-    load, of_load = files.load_from_options(force or Quantity(1.0), force_history, unit)
+    load, load_attributes = files.load_from_options(force or Quantity(1.0), force_history, unit)
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     if times:
         load = viscorough.Load(np.append(0.0, times), force=np.full(1 + len(times), load))
@@ -80,7 +80,7 @@ def march(
     with messages.progress_bar("viscorough march", progress) as report:
         motion = viscorough.march(indenter, load, half_space, **how, progress=report)
     content = motion_to_content(motion)
-    files.write_output(content, output, method=method, **about, **of_load, **surface.attributes(indenter))
+    files.write_output(content, output, method=method, **about, **load_attributes, **surface.attributes(indenter))
     depth, last = with_unit(motion.depth[-1], unit, 6), with_unit(motion.time[-1], si_unit("s", unit), 6)
     contact = f"{round(motion.contact_fraction[-1] * indenter.elements)} of {indenter.elements} elements in contact"
     messages.announce(output, f"{motion.time.size} levels, depth {depth} at time {last} with {contact}")

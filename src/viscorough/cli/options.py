@@ -14,7 +14,8 @@ from viscorough.elasticity import INCOMPRESSIBLE, shear_modulus_of
 from viscorough.io import suffixes
 from viscorough.units import Quantity
 
-_MOST_TIMES = 1_000_000  # that an option may state by their number
+# Largest number of times that an option may state by a count.
+_MOST_TIMES = 1_000_000
 
 
 def require(condition: bool, text: str) -> None:
@@ -76,7 +77,7 @@ class Share(click.ParamType):
 
 
 class Increasing(click.ParamType):
-    """Numbers above 0 separated by commas, each larger than the one before.
+    """Numbers above 0 separated by commas, each larger than its predecessor.
 
     unit : unit of quantities, which are converted to viscorough.units.Quantity; None for plain numbers, which are
         converted to floats

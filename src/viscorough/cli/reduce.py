@@ -7,7 +7,7 @@ import click
 from viscorough.cli import files, messages, options, surface_options
 from viscorough.summaries import with_unit
 
-_OF_A_MAP = (
+_LIMITS_OF_LINES = (
     "lines with a map's spectrum give the mean stiffness of many such surfaces, to about 20 %, not the curve of this "
     "surface, by a factor of 1.2 to 2, nor its contact area; viscorough indent computes those"
 )
@@ -17,7 +17,7 @@ _OF_A_MAP = (
 @surface_options.heights_input("line_or_map")
 @options.until(1)
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")
-@click.option("--seed", type=click.IntRange(min=0), help="Of the lines that are made of a map  [default: 0]")
+@click.option("--seed", type=click.IntRange(min=0), help="Seed of the lines that are made of a map  [default: 0]")
 @options.output("CURVE.nc")
 @options.progress
 def reduce(
@@ -54,12 +54,12 @@ def reduce(
 
     line_or_map = surface.path
     files.check_output(output, heights=line_or_map)
-    states_map = "," in surface.options.get("spacing", "")  # by spacings in both directions
+    states_map = "," in surface.options.get("spacing", "")  # both spacings are given
     if not states_map and dimensions_of_heights(line_or_map) == 1:
-        of_maps = "--realizations and --seed are for maps, of which lines are made; this is a line"
-        options.require(not realizations and seed is None, of_maps)
-        of_scans = "--channel and preparation are for maps; this is a line"
-        options.require(surface.options.keys() <= {"spacing", "unit", "lateral_unit"}, of_scans)
+        text = "--realizations and --seed are for maps, of which lines are made; this is a line"
+        options.require(not realizations and seed is None, text)
+        text = "--channel and preparation are for maps; this is a line"
+        options.require(surface.options.keys() <= {"spacing", "unit", "lateral_unit"}, text)
         about = {"heights": files.printable_name(line_or_map)}
         lines = [read_line(line_or_map, **surface.options)]
     else:
@@ -68,7 +68,7 @@ def reduce(
         indenter = surface_options.read_indenter(surface, output)
         about = surface.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
         lines = (mdr.line_of_map(indenter, [seed or 0, index]) for index in range(realizations or 1))
-        messages.warn(_OF_A_MAP)
+        messages.warn(_LIMITS_OF_LINES)
     curves = []
     with messages.progress_bar("viscorough reduce", progress) as report:
         for line in lines:
@@ -76,7 +76,7 @@ def reduce(
             report(len(curves) / (realizations or 1))
     first = curves[0]
     files.write_output(curve_to_content(first) if len(curves) == 1 else stack_curves(curves), output, **about)
-    what = f"{len(curves)} curves, the first with " if len(curves) > 1 else ""
+    several = f"{len(curves)} curves, the first with " if len(curves) > 1 else ""
     depth = with_unit(first.depth[-1], first.length_unit, 6)
     count = f"{first.contact_count[-1]} of {first.elements} points in contact"
-    messages.announce(output, f"{what}{first.depth.size} levels, the last at depth {depth} with {count}")
+    messages.announce(output, f"{several}{first.depth.size} levels, the last at depth {depth} with {count}")

@@ -2,7 +2,7 @@
 
 1. Take the rows of unchanged files from the table, or from the unfinished table of an earlier run.
 2. Evaluate the other files in separate processes. After each file, write an unfinished table, TABLE.csv.unfinished.
-3. Write the table and remove the unfinished one.
+3. Write the table and remove the unfinished table.
 
 A file that cannot be evaluated becomes a row with the reason; the other files are evaluated. A run that is interrupted
 or killed leaves the unfinished table, and does not change the table of an earlier run. Rows depend neither on the order

@@ -16,8 +16,10 @@ from viscorough import units
 from viscorough.cli import files, options
 from viscorough.units import Quantity
 
-_OF_READING = ("spacing", "unit", "lateral_unit", "channel")
-_OF_PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
+# Options that state how to read a file.
+_READING = ("spacing", "unit", "lateral_unit", "channel")
+# Options that change the heights.
+_PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
 
 
 @dataclass(frozen=True)
@@ -38,18 +40,18 @@ class Surface:
         return values
 
     def read(self) -> viscorough.Indenter:
-        """Read and prepare the heights. Raises ValueError for invalid ones."""
+        """Read and prepare the heights. Raises ValueError for invalid heights."""
         if self.path.suffix == ".nc":
             files.check_opens(self.path)
         return viscorough.read_heights(self.path, **self.parsed())
 
     def attributes(self, indenter: viscorough.Indenter) -> dict[str, object]:
-        """Return what an output file states about the surface, its reading and its preparation."""
+        """Return the attributes of an output file about the surface, its reading and its preparation."""
         attributes = {"heights": files.printable_name(self.path), "spacing": indenter.spacing}
         attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
         if "channel" in self.options:
             attributes["channel"] = self.options["channel"]
-        steps = {name: value for name, value in self.options.items() if name in _OF_PREPARATION}
+        steps = {name: value for name, value in self.options.items() if name in _PREPARATION}
         words = [f"--{name}" if value is True else f"--{name} {value}" for name, value in steps.items()]
         return attributes | {"preparation": " ".join(words) or "none"}
 
@@ -114,7 +116,7 @@ def heights_input(argument: str = "heights", *, several: bool = False) -> Callab
         )
         @functools.wraps(command)
         def packed(**values: Any) -> Any:
-            paths, stated = values.pop(argument), {name: values.pop(name) for name in _OF_READING + _OF_PREPARATION}
+            paths, stated = values.pop(argument), {name: values.pop(name) for name in _READING + _PREPARATION}
             given = {name: value for name, value in stated.items() if value not in (None, False, "none")}
             if several:
                 return command(surfaces=[Surface(path, given) for path in paths], **values)
@@ -128,7 +130,7 @@ def heights_input(argument: str = "heights", *, several: bool = False) -> Callab
 def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> viscorough.Indenter:
     """Read the indenter of a Surface, after a check that the output can be written.
 
-    inputs : further input files, as in files.check_output
+    inputs : further input files, arguments of files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights.
     """
     files.check_output(output, heights=surface.path, **inputs)

@@ -23,7 +23,7 @@ _SHARE_OF_CONTACTS = 0.3
 # Further levels of the curve for grid errors, over the force of a load. The error is a mean over half a decade, and the
 # difference of two curves at a single force can be zero by chance.
 _FORCES_BELOW = (10**-0.5, 10**-0.25)
-# Levels whose forces differ by less than this share are one level: closer ones do not differ beyond the tolerance.
+# Forces that differ by less than this share need only one level: closer levels differ by less than the tolerance.
 _LEAST_DIFFERENCE = 0.02
 
 
@@ -33,18 +33,19 @@ def rows_at_loads(
     force: Any = None,
     depth: Any = None,
     shear_modulus: float | None = None,
-    tolerance: float = 1e-3,
     grid_error: bool = False,
-    threads: int = 1,
     progress: Progress | None = None,
+    **how: Any,
 ) -> Rows:
     """Return a row of a table for each load, and {column: unit}. Raises the errors of `contact_at`.
 
-    force, depth : increasing loads, one of the two; all arguments without a description are those of `contact_at`
+    force, depth : increasing forces [N, or length² without a modulus] or depths [length]; one of the two is needed
+    shear_modulus : G [Pa], or in consistent units if the unit of length is not known
     grid_error : True for the columns grid_error, force_grid_error and area_change
+    progress : function called with the finished share of the computation
+    how : further arguments of `contact_at` and `indent`: tolerance and threads
     """
     loads: dict[str, Any] = {"force": force, "depth": depth, "shear_modulus": shear_modulus}
-    how: dict[str, Any] = {"tolerance": tolerance, "threads": threads}
     if not grid_error:
         return rows_of_contacts(contact_at(indenter, **loads, **how, progress=progress))
     progress = progress or (lambda done: None)

@@ -35,18 +35,18 @@ SCALARS += ("mean_pressure", "largest_pressure", "residual")
 def test_file_has_the_results_of_python(here, tolerance):
     """tests/viscorough/contact/test_one_contact.py tests that Python solves the contact problem."""
     written, heights = contact(f"--force 30 --tolerance {tolerance}"), np.load("heights.npy")
-    wanted = contact_at(Indenter(heights, 1.0), force=30, tolerance=tolerance)
-    viscorough.save(wanted, "saved.nc")
+    expected = contact_at(Indenter(heights, 1.0), force=30, tolerance=tolerance)
+    viscorough.save(expected, "saved.nc")
     saved = values("saved.nc")
     np.testing.assert_array_equal(written["heights"], heights)
     assert set(written) - set(saved) == {"heights"}
     for of in (written, saved):
-        assert {name: of[name].item() for name in SCALARS} == {name: getattr(wanted, name) for name in SCALARS}
-        np.testing.assert_array_equal(of["contact"], wanted.contact)
-        np.testing.assert_array_equal(of["patch_area"], wanted.patches()[1])
+        assert {name: of[name].item() for name in SCALARS} == {name: getattr(expected, name) for name in SCALARS}
+        np.testing.assert_array_equal(of["contact"], expected.contact)
+        np.testing.assert_array_equal(of["patch_area"], expected.patches()[1])
         np.testing.assert_array_equal([of["x"], of["y"]], [np.arange(25) - 12] * 2)
         for name in ("pressure", "gap"):
-            np.testing.assert_allclose(of[name], getattr(wanted, name), rtol=1e-6, atol=1e-6)
+            np.testing.assert_allclose(of[name], getattr(expected, name), rtol=1e-6, atol=1e-6)
 
 
 def test_several_forces_add_a_dimension(here, capsys):

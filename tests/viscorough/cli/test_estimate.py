@@ -62,9 +62,9 @@ def test_media_are_read_from_files(here):
     (here / "maxwell.yaml").write_text("kind: maxwell\nshear_modulus: 50 MPa\nviscosity: 1000 Pa s\n")
     changes = {"rms": "1 um", "diameter": "1 cm", "force": "10 mN", "viscosity": None, "medium": "maxwell.yaml"}
     assert run(command("-o a.nc", times="1e-4,1e-3", **changes)) == 0
-    wanted = estimate(0.8, 1e-6, 0.01, 0.01, Maxwell(5e7, 1e3), [1e-4, 1e-3])
+    expected = estimate(0.8, 1e-6, 0.01, 0.01, Maxwell(5e7, 1e3), [1e-4, 1e-3])
     content = netcdf.read("a.nc")
-    np.testing.assert_allclose(content.variables["velocity"].values, wanted.velocity, rtol=1e-12)
+    np.testing.assert_allclose(content.variables["velocity"].values, expected.velocity, rtol=1e-12)
     assert content.attributes["medium"] == "maxwell.yaml"
     assert [content.variables[name].attributes["units"] for name in ("depth", "velocity")] == ["m", "m s-1"]
 

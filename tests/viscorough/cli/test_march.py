@@ -56,7 +56,7 @@ def test_marching_agrees_with_kinetics(here, motion, method, tolerance):
 
 def test_march_shows_its_progress(monkeypatch):
     shares = []
-    monkeypatch.setattr(messages, "progress_bar", lambda label, wanted: nullcontext(shares.append))
+    monkeypatch.setattr(messages, "progress_bar", lambda label, shown: nullcontext(shares.append))
     assert run(f"{MARCH} --method implicit --times 1,2") == 0
     assert shares[-2:] == pytest.approx([1 - 1 / len(shares), 1])
 

@@ -7,9 +7,9 @@ import pytest
 from viscorough.cli import messages
 
 
-def shown(capsys, wanted):
+def written(capsys, shown):
     """Return the output in the middle and at the end of work that reports twice, further apart than the delay."""
-    with messages.progress_bar("viscorough indent", wanted) as report:
+    with messages.progress_bar("viscorough indent", shown) as report:
         report(0.25)
         time.sleep(0.25)
         report(0.5)
@@ -23,7 +23,7 @@ def short_delay(monkeypatch):
 
 
 def test_progress_shows_share_and_time_left_and_is_erased(capsys):
-    middle, end = shown(capsys, True)
+    middle, end = written(capsys, True)
     assert "viscorough indent:  50 % |" in middle
     assert " elapsed, about " in middle
     assert " left" in middle
@@ -31,8 +31,8 @@ def test_progress_shows_share_and_time_left_and_is_erased(capsys):
     assert end.replace("\r", "").strip() == ""
 
 
-@pytest.mark.parametrize(("wanted", "closed"), [(None, False), (False, False), (None, True), (True, True)])
-def test_no_progress_without_a_terminal_or_an_open_stream(capsys, monkeypatch, wanted, closed):
+@pytest.mark.parametrize(("shown", "closed"), [(None, False), (False, False), (None, True), (True, True)])
+def test_no_progress_without_a_terminal_or_an_open_stream(capsys, monkeypatch, shown, closed):
     if closed:
         monkeypatch.setattr("sys.stderr", None)
-    assert shown(capsys, wanted) == ("", "")
+    assert written(capsys, shown) == ("", "")

@@ -51,7 +51,7 @@ def test_map_gives_many_lines_and_a_warning(capsys):
     curves = unstack_curves(content)
     assert len(curves) == 3
     for index, curve in enumerate(curves):
-        wanted = mdr.reduce(mdr.line_of_map(Indenter(DISC.heights, 1.0), [7, index]))
-        np.testing.assert_array_equal(curve.depth, wanted.depth)
+        expected = mdr.reduce(mdr.line_of_map(Indenter(DISC.heights, 1.0), [7, index]))
+        np.testing.assert_array_equal(curve.depth, expected.depth)
     assert run("reduce map.npy --spacing 1 --seed 7 -o one.nc") == 0
     assert run("kinetics one.nc --force 1 --viscosity 1 -o motion.nc") == 0

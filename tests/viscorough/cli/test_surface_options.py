@@ -42,8 +42,8 @@ def test_points_with_columns_in_two_units_are_converted(capsys):
     x, y = np.broadcast_arrays(X, Y)
     np.savetxt("points.xyz", np.transpose([1e-3 * x.ravel(), 1e-3 * y.ravel(), ROUGH.ravel()]))
     curve, attributes = curve_of(capsys, f"points.xyz --unit um --lateral-unit mm {DEPTHS}")
-    wanted = indent(Indenter(ROUGH, DX, DY, length_unit="um"), depths=[0.05, 0.2])
-    np.testing.assert_allclose([curve.force, curve.stiffness], [wanted.force, wanted.stiffness], rtol=1e-9)
+    expected = indent(Indenter(ROUGH, DX, DY, length_unit="um"), depths=[0.05, 0.2])
+    np.testing.assert_allclose([curve.force, curve.stiffness], [expected.force, expected.stiffness], rtol=1e-9)
     assert (attributes["spacing"], attributes["row_spacing"], attributes["length_unit"]) == (DX, DY, "um")
 
 
@@ -56,8 +56,8 @@ def test_channel_and_preparation_are_passed_on_and_recorded(capsys):
     surface = Indenter(marked, DX, DY, length_unit="um")
     crop = (0, 15), (0, 16)
     surface = prepare(surface, nodata=-9999, crop=crop, detrend="plane", fill="harmonic", flip=True)
-    wanted = indent(surface, depths=[0.05, 0.2])
-    np.testing.assert_allclose([curve.force, curve.stiffness], [wanted.force, wanted.stiffness], rtol=1e-9)
+    expected = indent(surface, depths=[0.05, 0.2])
+    np.testing.assert_allclose([curve.force, curve.stiffness], [expected.force, expected.stiffness], rtol=1e-9)
     assert curve.elements == 15 * 16 - 3
     expected = {"spacing": DX, "row_spacing": DY, "length_unit": "um", "heights": "marked.tif", "channel": "1"}
     assert {name: attributes[name] for name in expected} == expected

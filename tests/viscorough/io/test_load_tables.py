@@ -94,12 +94,12 @@ def test_other_files_have_no_rows(tmp_path):
 
 
 def test_files_with_and_without_a_unit_do_not_mix(tmp_path):
-    known = LoadRows("known.csv", "1", *load_tables.rows_of_contacts([contact_at(BALL, force=20.0)]))
+    in_micrometres = LoadRows("micrometres.csv", "1", *load_tables.rows_of_contacts([contact_at(BALL, force=20.0)]))
     plain = LoadRows("plain.csv", "2", *load_tables.rows_of_contacts([contact_at(Indenter(HEIGHTS, 1.0), force=20.0)]))
     assert load_tables.with_one_unit([plain, plain]) == [plain, plain]
-    for results in ((known, plain), (plain, known)):
+    for results in ((in_micrometres, plain), (plain, in_micrometres)):
         first, second = load_tables.with_one_unit(results)
-        assert first == known
+        assert first == in_micrometres
         assert not second.rows
         assert second.error.endswith("unit is needed")
 

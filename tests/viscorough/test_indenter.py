@@ -63,8 +63,8 @@ def test_gaps_are_computed_in_double_precision(dtype):
     exact = 2048 - heights.astype(float)
     np.testing.assert_array_equal(Indenter(heights, 1.0).initial_gap, exact)
     for door, given in ((indent, heights), (reduce, heights.ravel())):
-        of_type, of_double = (door(Indenter(values, 1.0), until_fraction=1) for values in (given, given.astype(float)))
-        assert of_type == of_double
+        typed, double = (door(Indenter(values, 1.0), until_fraction=1) for values in (given, given.astype(float)))
+        assert typed == double
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,7 @@ def contact(
     how: dict[str, Any] = {"force": force, "depth": depth, "tolerance": tolerance}
     if output.suffix.lower() == ".csv":
         how["grid_error"] = grid_error
-        evaluate = functools.partial(scans.rows_at_loads, **how, constants=constants, threads=threads)
+        evaluate = functools.partial(scans.rows_for_options, **how, constants=constants, threads=threads)
         settings = how | constants | {"grid_error": grid_error or None}
         scans.tabulate(surfaces, output, evaluate, settings=settings, jobs=jobs, threads=threads, progress=progress)
         return

@@ -202,7 +202,7 @@ def _rows(
     if settings["depths"] is not None or settings["forces"] is not None:
         loads = {"depth": settings["depths"], "force": settings["forces"], "tolerance": settings["tolerance"]}
         grid_error = bool(settings["grid_error"])
-        return scans.rows_at_loads(indenter, **loads, grid_error=grid_error, constants=constants, **how)
+        return scans.rows_for_options(indenter, **loads, grid_error=grid_error, constants=constants, **how)
 
     from viscorough.io.load_tables import rows_of_curve
 

@@ -20,8 +20,8 @@ METHODS = ("events", "implicit")
     "--method",
     type=click.Choice(METHODS),
     required=True,
-    help="events: exactly from one contact event to the next, while the contact grows; implicit: one contact problem "
-    "per step in time, of second order, also where the contact recedes.",
+    help="events: exact from one contact event to the next, while the contact grows; implicit: one contact problem "
+    "per time step, of second order, also if the contact recedes.",
 )
 @click.option("--force", type=options.QuantityOption("N"), help="Constant force F  [default: 1]")
 @click.option("--viscosity", type=options.QuantityOption("Pa s"), help="Shear viscosity  [default: 1]")
@@ -47,10 +47,10 @@ def march(
 ) -> None:
     """Integrate the viscous or viscoelastic problem directly in time, without using a loading curve.
 
-    HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level", the times of the output, and the
-    variables time, depth, velocity, force and contact_fraction. With a force history a level is one of its times. This
-    is slow and serves to check the other commands: the events of 3000 elements take seconds, and memory grows with the
-    square of their number. Events show no progress. A medium consists of springs and dashpots.
+    HEIGHTS and units are as for indent and kinetics. KIN.nc has the variables time, depth, velocity, force and
+    contact_fraction over the dimension "level", the times of the output or of the force history. The medium must
+    consist of springs and dashpots. This command is slow and serves to check the other commands: the method events
+    takes seconds for 3000 elements, its memory grows with the square of their number, and it shows no progress.
 
     \b
     Example:
@@ -73,9 +73,9 @@ def march(
     indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
     load, load_attributes = files.load_from_options(force or Quantity(1.0), force_history, unit)
-    half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
-    if times:
+    if times:  # under a constant force
         load = viscorough.Load(np.append(0.0, times), force=np.full(1 + len(times), load))
+    half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     how: dict[str, Any] = {"method": method} | ({} if until_fraction is None else {"until_fraction": until_fraction})
     with messages.progress_bar("viscorough march", progress) as report:
         motion = viscorough.march(indenter, load, half_space, **how, progress=report)

@@ -24,7 +24,7 @@ def announce(output: Path, text: str) -> None:
 
 
 def warn(text: str) -> None:
-    """Give an AccuracyWarning, which `main` writes after the closing line and the output file keeps."""
+    """Give an AccuracyWarning; `main` writes it after the closing line, and the output file records it."""
     warnings.warn(text, AccuracyWarning, stacklevel=3)
 
 

@@ -131,7 +131,7 @@ def only_one(surfaces: Sequence[surface_options.Surface], output: Path) -> surfa
     return surfaces[0]
 
 
-def rows_at_loads(indenter: viscorough.Indenter, *, constants: dict[str, Any], **how: Any) -> Rows:
+def rows_for_options(indenter: viscorough.Indenter, *, constants: dict[str, Any], **how: Any) -> Rows:
     """Return a row of a table for each depth or force, and {column: unit}.
 
     constants : arguments of options.elasticity; how : arguments of io.scan_rows.rows_at_loads

@@ -26,7 +26,7 @@ INCREASING, NO_UNIT = "each larger than the one before", "needs a plain number, 
 OF_PIPES = ["kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "plot pipe.nc -o out.png"]
 OF_PIPES += [f"{command} -o out.nc" for command in ("indent pipe.nc", "indent pipe.npy", "reduce pipe.npy")]
 OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe{suffix}" for suffix in (".csv", ".npy")]
-OF_PIPES += [f"{KINETICS} --force 1 --medium {name}.yaml" for name in ("pipe", "of_pipe.csv")]
+OF_PIPES += [f"{KINETICS} --force 1 --medium {name}.yaml" for name in ("pipe", "creep_table_in_pipe")]
 KIND = "unknown kind of file; allowed:"
 RESULTS = ".nc (NetCDF), .csv (table)"
 WRITERS = ["indent heights.npy --spacing 1", "contact heights.npy --spacing 1 --depth 1", "reduce line.npy --spacing 1"]
@@ -177,7 +177,7 @@ def test_mistakes_are_one_line(here, complaint, line, what):
     (here / "link.csv").symlink_to("force.csv")
     (here / "link.nc").symlink_to("medium.yaml")
     (here / "link.png").symlink_to("curve.nc")
-    (here / "of_pipe.csv.yaml").write_text("{kind: creep_table, file: pipe.csv}")
+    (here / "creep_table_in_pipe.yaml").write_text("{kind: creep_table, file: pipe.csv}")
     for suffix in ("", ".nc", ".csv", ".npy", ".yaml"):
         os.mkfifo(f"pipe{suffix}")
     assert what in complaint(line)

@@ -131,8 +131,7 @@ def indent(
         else:
             curve = viscorough.indent(indenter, **_arguments(settings), shear_modulus=modulus, **how)
     files.write_output(curve_to_content(curve, modulus), output, **attributes)
-    lines += filter(None, [curve.choice, curve.grid_error_text])
-    messages.announce(output, "\n".join([_last_level(curve, indenter, modulus), *lines]))
+    messages.announce(output, "\n".join([_last_level(curve, indenter, modulus), *lines, *_accuracy(curve)]))
 
 
 def _audited(indenter: viscorough.Indenter, **how: Any) -> tuple[viscorough.LoadingCurve, list[str]]:
@@ -184,6 +183,11 @@ def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, m
         text += f", F {read['force'].text(curve.force[-1], 6)}, k {read['stiffness'].text(curve.stiffness[-1])}"
         text += f", contact area {read['area'].text(curve.contact_count[-1] * area)},"
     return f"{text} with {curve.contact_count[-1]} of {curve.elements} elements in contact"
+
+
+def _accuracy(curve: viscorough.LoadingCurve) -> list[str]:
+    """Return the lines about the chosen points and the grid error, if they were requested."""
+    return list(filter(None, [curve.choice, curve.grid_error_text]))
 
 
 def _rows(

@@ -132,7 +132,7 @@ class Indenter(ReadOnlyArrays):
 
     @property
     def rms_slope(self) -> float:
-        """Return the rms slope, √⟨|∇h|²⟩ from differences of neighbours [1]; 0 for a single element."""
+        """Return the rms slope, √⟨(∇h)²⟩ from differences of neighbours [1]; 0 for a single element."""
         slopes = [0.0]
         with np.errstate(over="ignore", under="ignore"):  # a slope that overflows is infinite
             for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):

@@ -164,7 +164,7 @@ class LoadingCurve(ReadOnlyArrays):
 
     @property
     def starts_straight(self) -> bool:
-        """Return True if the tangent of the first level passes through the origin: its contacts have one height."""
+        """Return True if the tangent of the first level passes through the origin, as for contacts of one height."""
         return bool(abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0])
 
     def normalised(self, rms: Scalar, diameter: Scalar) -> tuple[Array, Array]:

@@ -10,7 +10,7 @@ OUTCOMES = {
     "right": ("right", ("holds", "model"), style.BLUE),
     "refused": ("refused, with a reason", ("refused",), style.PALE),
     "warned": ("wrong, with a warning", ("warned",), style.ORANGE),
-    "stated": ("wrong, outside the stated range of a model", ("stated",), "#f7dc9c"),
+    "stated": ("wrong, a model beyond its documented range", ("stated",), "#f7dc9c"),
     "silent": ("silently wrong: {}", ("unnoticed",), style.BLACK),
 }
 # {method of the failure map: its name here}

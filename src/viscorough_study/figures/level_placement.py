@@ -3,11 +3,11 @@
 from viscorough_study.figures import style
 from viscorough_study.run.names import AUTOMATIC, BY_HAND, NAIVE
 
-# {choice: label, color, marker, and place of the label from the end of the curve}
+# {choice: label, color, marker}
 CHOICES = {
-    AUTOMATIC: ("automatic", style.BLUE, "o", (-4, -9), "right"),
-    BY_HAND: ("by hand", style.GREEN, "s", (4, 4), "left"),
-    NAIVE: ("naive", style.VERMILION, "^", (4, 4), "left"),
+    AUTOMATIC: ("automatic", style.BLUE, "o"),
+    BY_HAND: ("by hand, after trials", style.GREEN, "s"),
+    NAIVE: ("naive: equal steps, after trials", style.VERMILION, "^"),
 }
 TITLES = {
     "one asperity": "One smooth asperity",
@@ -15,7 +15,7 @@ TITLES = {
     "full curve": "Rough disc, to 90 % contact",
 }
 ERRORS = (0.1, 1e-2, 1e-3, 1e-4)  # ticks
-FLOOR = 3e-5  # smaller errors are drawn at this value
+FLOOR = 3e-5  # smaller errors are drawn at this value, as a line of the axes
 
 
 @style.figure
@@ -28,16 +28,15 @@ def plot_level_placement(table):
     figure, panels = style.new_panels(
         len(names), 3, 58, 18, xlabel="processor time (s)", ylabel="error of the depth", sharey=True
     )
-    figure.suptitle("Error that a given time buys, by who places the levels of a loading curve")
+    figure.suptitle("Levels that viscorough places itself reach small errors without trials")
     for axes, name, letter in zip(panels, names, "abcdef", strict=False):
         rows = table[table["scene"] == name]
-        for choice, (label, color, marker, offset, side) in CHOICES.items():
+        for choice, (label, color, marker) in CHOICES.items():
             curve = rows[rows["choice"] == choice].assign(error=lambda rows: rows["error"].clip(lower=FLOOR))
-            axes.plot("processor_s", "error", data=curve, color=color, marker=marker, markersize=3.5)
-            end = tuple(curve.iloc[0 if side == "left" else -1][["processor_s", "error"]])
-            axes.annotate(label, end, offset, textcoords="offset points", color=color, ha=side)
+            axes.plot("processor_s", "error", data=curve, color=color, marker=marker, markersize=3.5, label=label)
         axes.set(title=f"({letter}) {TITLES.get(name, name)}", xscale="log", yscale="log")
-        axes.set(ylim=(FLOOR * 0.8, 0.3), xlim=(table["processor_s"].min() / 2, table["processor_s"].max() * 3))
-        axes.set_yticks(ERRORS, [f"{100 * error:g} %" for error in ERRORS])
+        axes.set(ylim=(FLOOR * 0.6, 0.1), xlim=(table["processor_s"].min() / 2, table["processor_s"].max() * 3))
+        axes.set_yticks((*ERRORS, FLOOR), [*(f"{100 * error:g} %" for error in ERRORS), f"≤ {100 * FLOOR:g} %"])
         axes.grid(axis="y", color=style.PALE, linewidth=0.6, zorder=0)
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(CHOICES), frameon=False)
     return figure

@@ -15,7 +15,7 @@ PATH = "path, at the depths"
 # {method: label, color, and place of the label from the first point}
 SOLVERS = {
     PATH: ("viscorough", style.BLUE, (-4, 5)),
-    "implicit": ("implicit steps", style.GREEN, (5, 2)),
+    "implicit": ("implicit steps", style.GREEN, (5, -9)),
     "explicit, logarithmic steps": ("explicit steps", style.PURPLE, (5, 2)),
 }
 RACE, RACE_TOLERANCE = "eight levels", 1e-6  # task of the other solvers, and residual to which it is solved
@@ -41,7 +41,7 @@ def plot_speed(one_surface, means, methods, other_solvers):
     hurst = min(rows["hurst"], key=lambda value: (abs(value - exponents[0]), value))
     many.set_title(f"(c) Mean of many surfaces, $H$ = {hurst:g}:\nthe law needs no simulation")
     _draw_mean(many, rows[rows["hurst"] == hurst])
-    solver.set_title("(d) Solver alone, on a given grid:\nits error is far below that of the grid")
+    solver.set_title("(d) Solver alone, on a given grid:\nfiner tolerances go far below the grid error")
     _draw_solvers(solver, methods, velocity, other_solvers)
     return figure
 
@@ -103,16 +103,16 @@ def _draw_one_surface(axes, rows):
     shown = rows[(rows["across"] != full) | (rows["model"] == REQUEST)]
     _lines_of_equal_error(axes, ERRORS, _limits(shown))
     low, high = shown[shown["processor_s"] > 0]["processor_s"].agg(["min", "max"])
-    axes.set_xlim(low / 12, high * 8)
+    axes.set_xlim(low / 12, high * 20)
     _label_ends(axes, ends, "left")
     requests = rows[rows["model"] == REQUEST]
     axes.plot("processor_s", "error", "x", data=requests, color=style.BLACK, markersize=7, markeredgewidth=1.6)
     for row in requests.itertuples():
-        text, where = f"--error {100 * row.value:g}%", {"textcoords": "offset points", "va": "center"}
+        text, where = f"request {100 * row.value:g} %", {"textcoords": "offset points", "va": "center"}
         axes.annotate(text, (row.processor_s, row.error), (6, 0), **where)
     law = rows[rows["model"] == LAW]
     _draw_free(axes, law, above=law["error"].iloc[0] > rows[rows["model"] == MDR]["error"].iloc[-1])
-    _say(axes, "along a curve: finer tolerances\n× a requested error")
+    _say(axes, "along a curve: finer tolerances\n× request of an error")
 
 
 def _draw_mean(axes, rows):
@@ -149,10 +149,10 @@ def _draw_solvers(axes, methods, velocity, other_solvers):
         axes.axhspan(of_grid.min(), of_grid.max(), color=style.ORANGE, alpha=0.4, linewidth=0, zorder=0)
         edge = axes.get_yaxis_transform()
         axes.annotate(
-            "error of the grid", (0.98, of_grid.max()), (0, 2), xycoords=edge, textcoords="offset points", ha="right"
+            "error of the grid", (0.98, np.sqrt(of_grid.min() * of_grid.max())), xycoords=edge, ha="right", va="center"
         )
+    axes.set_xlim(right=2.5 * rough["processor_s"].max())
     _draw_others(axes, rough, other_solvers)
-    axes.text(0.97, 0.03, "■ other solvers, published times", transform=axes.transAxes, ha="right", color=style.GREY)
 
 
 def _draw_others(axes, rough, other_solvers):
@@ -175,3 +175,4 @@ def _draw_others(axes, rough, other_solvers):
         offset = (0, 8 * (len(ratios) - rank) - 3)
         axes.annotate(name, place, offset, textcoords="offset points", arrowprops=line)
     axes.set_xlim(right=6 * max(ratios.values()) * own["processor_s"])
+    axes.text(0.97, 0.03, "■ other solvers, published times", transform=axes.transAxes, ha="right", color=style.GREY)

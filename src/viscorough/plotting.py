@@ -55,7 +55,8 @@ _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x"
 _LABELS |= {"normal_force": "force $F$", "normal_stiffness": "stiffness $k$", "normal_pressure": "pressure $p$"}
 # {name of a number of a contact: its label above the maps}.
 _STATE = {"depth": "$u$", "force": "$F/G$", "normal_force": "$F$", "largest_normal_pressure": "largest $p$"}
-_STATE |= {"contact_fraction": "contact fraction", "corrected_contact_area": "contact area", "patches": "patches"}
+_STATE |= {"contact_fraction": "contact fraction", "corrected_contact_area": "corrected contact area"}
+_STATE |= {"patches": "patches"}
 _PRESSURES = ("normal_pressure", "mean_normal_pressure", "largest_normal_pressure")
 _AREAS = ("contact_area", "corrected_contact_area")
 

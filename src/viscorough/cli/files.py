@@ -112,7 +112,9 @@ def load_from_options(
 def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
     """Return (viscosity or medium, text for the output) of --viscosity and --medium, one of which is given."""
     if medium is not None:
-        return viscorough.read_medium(medium, length_unit), {"medium": printable_name(medium)}
+        half_space = viscorough.read_medium(medium, length_unit)
+        text = medium.read_bytes().decode("utf-8-sig", errors="replace").strip()
+        return half_space, {"medium": printable_name(medium), "medium_text": text}
     number = units.number(viscosity, "Pa s", length_unit, "--viscosity")
     return number, {"viscosity": number}
 

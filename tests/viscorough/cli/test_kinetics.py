@@ -7,6 +7,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 
 import viscorough
@@ -100,6 +101,14 @@ def test_depth_histories_have_units(here, curve):
     assert run("kinetics um.nc -o kin.nc --depth-history depth.csv --medium medium.yaml") == 0
     medium, load = Maxwell(2e-6, 5e-9), Load([0, 1e-3, 2e-3], depth=[0, 0.2, 0.05])
     np.testing.assert_allclose(values("kin.nc")["force"], kinetics(curve, load, medium).force, rtol=1e-12)
+
+
+def test_output_holds_the_text_of_the_medium(here):
+    text = "{kind: maxwell, shear_modulus: 2, viscosity: 5}"
+    (here / "medium.yaml").write_text(text + "\n")
+    assert run(f"{KINETICS} --force 0.3 --medium medium.yaml --times 0.5,2") == 0
+    with xr.open_dataset(here / "kin.nc") as motion:
+        assert motion.attrs["medium_text"] == text
 
 
 YOUNG = {

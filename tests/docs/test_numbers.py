@@ -223,7 +223,7 @@ QUOTED = {
         "the velocity by {1:.0f} to {0:.0f} %": grid_errors,
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().max(),
         "at {:.0f} to {:.0f} % of the cost": reduction_costs,
-        "F/({:.2f} h)": lambda: plateau()["u0"].mean(),
+        "F/({:.2f} h) to F/({:.2f} h)": lambda: plateau()["u0"].agg(["min", "max"]),
         "take {:.0f} to {:.0f}": lambda: [OTHER_TIMES.min(), 10 * round(OTHER_TIMES.max() / 10)],
         "surfaces, in {:.0f} minutes": minutes_of_paper,
     },

@@ -53,7 +53,7 @@ def creep(
 
     MEDIUM.yaml is a medium for viscorough kinetics. A creep table is written to MEDIUM.csv, with the columns time,
     compliance, low and high: J and its interval of 95 % from the scatter of the record. If the force was measured, low
-    and high belong to the further column modulus, the relaxation modulus. Short or very precise records do not
+    and high belong to the further column relaxation_modulus. Short or very precise records do not
     determine the scatter; low and high are then missing, unless --scatter states it.
 
     An error of the zero of the depth changes the medium. The closing line states the change, unless --fit-offset finds

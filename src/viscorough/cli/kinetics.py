@@ -1,6 +1,7 @@
 """`viscorough kinetics`: compute penetration over time from a loading curve."""
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -51,7 +52,7 @@ def kinetics(
     the creep response, the integral of J(t - s) dF(s) with the creep compliance J. On a linearly viscous half-space
     this is the impulse over the viscosity. When the contact recedes, the curve is used as a row of springs, which is
     exact as well. Under no force the indenter rests on the recovering surface. If the curve states a grid error, KIN.nc
-    and the closing line state it as well; it holds for the velocity under a given force.
+    and the closing line state it as well: of the velocity under a given force, or of the force at the largest depth.
 
     MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
     (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony
@@ -83,10 +84,9 @@ def kinetics(
     files.check_output(output, curve=curve, force_history=force_history, depth_history=depth_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
-    grid_error = loading.grid_error_text if depth_history is None else ""  # it applies to the velocity at a given force
-    if grid_error:
-        about |= {"mean_grid_error": loading.mean_grid_error}
     load, load_attributes = files.load_from_options(force, force_history, loading.length_unit, depth_history)
+    grid_error, error_attributes = _stated_grid_error(loading, load)
+    about |= error_attributes
     motion = viscorough.kinetics(loading, load, half_space, times)
     unknown = np.count_nonzero(~np.isfinite(motion.depth + motion.force + motion.velocity))
     if unknown == motion.time.size:
@@ -104,3 +104,22 @@ def kinetics(
     time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)
     text = f"{motion.time.size} times, {depth} at time {time}"
     messages.announce(output, "\n".join(filter(None, [text, grid_error])))
+
+
+def _stated_grid_error(curve: viscorough.LoadingCurve, load: Any) -> tuple[str, dict[str, float]]:
+    """Return the estimated error of the grid in words, and as attributes; "" and none if the curve does not state it.
+
+    It is the error of the velocity under a given force, or of the elastic force at the largest depth.
+    """
+    import numpy as np
+
+    if curve.mean_grid_error is None or curve.force_grid_error is None:
+        return "", {}
+    if not (isinstance(load, viscorough.Load) and load.by_depth):
+        return curve.grid_error_text, {"mean_grid_error": curve.mean_grid_error}
+    largest = load.in_units_of(curve.length_unit).values.max()
+    error = float(np.interp(largest, curve.depth, curve.force_grid_error))
+    if not np.isfinite(error):
+        return "", {}
+    text = f"grid error of the force about {100 * error:.2g} % at the largest depth: a scan twice as fine would change "
+    return f"{text}it by about that", {"force_grid_error": error}

@@ -83,7 +83,9 @@ def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
     if lines[0].startswith("Zygo XYZ Data File"):
         return zygo_scan(lines)
     if is_own_table(lines):
-        raise ValueError("a table that viscorough wrote holds no map of heights; one is needed")
+        raise ValueError(
+            "a table that viscorough wrote holds no map of heights; one is needed. To plot a result, write it as .nc"
+        )
     table = parsed(lines)
     if table.esri:
         return _esri_scan(table.values, table.esri)

@@ -39,6 +39,17 @@ def test_kinetics_states_the_grid_error_of_its_curve(disc, capsys):
     assert netcdf.read("motion.nc").attributes["mean_grid_error"] == load_curve("curve.nc").mean_grid_error
 
 
+def test_kinetics_states_the_grid_error_of_the_force_at_the_largest_depth(disc, capsys, here):
+    assert run("indent disc.nc --grid-error -o curve.nc") == 0
+    curve = load_curve("curve.nc")
+    level = curve.depth.size // 2
+    (here / "depth.csv").write_text(f"t,u [nm]\n0,0\n1,{1000 * curve.depth[level]:.15g}\n2,0\n")
+    assert run("kinetics curve.nc --depth-history depth.csv --viscosity 1e4 -o motion.nc") == 0
+    expected = curve.force_grid_error[level]
+    assert f"grid error of the force about {100 * expected:.2g} %" in capsys.readouterr().out
+    assert netcdf.read("motion.nc").attributes["force_grid_error"] == pytest.approx(expected)
+
+
 @pytest.mark.parametrize("error", ["20%", "20 %", "0.2"])
 def test_requested_error_states_the_chosen_points(disc, capsys, error):
     assert run(f"indent disc.nc --error '{error}' -o curve.nc") == 0

@@ -57,7 +57,7 @@ def test_every_source_has_tests():
         assert tests, file
         assert all((campaign.ROOT / test).is_file() for test in tests + further)
         assert not set(tests) & set(further)
-    further = campaign.further_tests("src/viscorough/contact/solver.py")
+    further = campaign.further_tests("src/viscorough/contact/prescribed_depth.py")
     assert {"tests/viscorough/contact/test_one_contact.py", "tests/benchmarks/test_random_curves.py"} <= set(further)
     assert "tests/viscorough_study/ensembles/test_indentation.py" in campaign.area_tests(
         "workflow/scripts/reduce_lines.py"

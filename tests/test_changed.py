@@ -12,7 +12,8 @@ import changed
     [
         ("tests/docs/test_pages.py", "tests/docs/test_pages.py"),
         ("src/viscorough/io/text.py", "tests/viscorough/io/test_text.py"),
-        ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_prescribed_depth.py"),  # all tests of its folder
+        # All tests of its folder.
+        ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_prescribed_depth.py"),
         ("benchmarks/fuzz.py", "tests/benchmarks/test_fuzz.py"),
         ("Snakefile", "tests/workflow/test_form.py"),
         ("docs/theory.md", "tests/docs/test_numbers.py"),

@@ -106,7 +106,7 @@ def kinetics(
     messages.announce(output, "\n".join(filter(None, [text, grid_error])))
 
 
-def _stated_grid_error(curve: viscorough.LoadingCurve, load: Any) -> tuple[str, dict[str, float]]:
+def _stated_grid_error(curve: "viscorough.LoadingCurve", load: Any) -> tuple[str, dict[str, float]]:
     """Return the estimated error of the grid in words, and as attributes; "" and none if the curve does not state it.
 
     It is the error of the velocity under a given force, or of the elastic force at the largest depth.

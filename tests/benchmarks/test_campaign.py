@@ -27,6 +27,17 @@ def test_random_indenters_do_not_fail_silently(family, count):
     assert {number: wrong for number, wrong in failures.items() if wrong} == {}
 
 
+@pytest.mark.parametrize(
+    "number",
+    [
+        2694,  # a force that falls to zero while two contacts are equal to rounding
+        1922,  # a dashpot that is pressed on from a hold
+    ],
+)
+def test_difficult_histories_are_right(number):
+    assert campaign.failure("histories", 2013, number) == ""
+
+
 def test_a_silent_failure_is_counted(monkeypatch, tmp_path):
     monkeypatch.setitem(campaign.FAMILIES, "levels", (lambda random: random.random(), lambda case: "wrong", 1.0))
     output = tmp_path / "campaign.json"

@@ -14,6 +14,7 @@ Inside the solver, u, g, P and e are in units of the largest initial gap, so res
 length; such quantities are called reduced. `Units` holds the factors that convert them.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -202,7 +203,7 @@ class TargetForce(NamedTuple):
 
 
 @dataclass(frozen=True)
-class ContactState:
+class ContactState(ABC):
     """The contact at one depth: the quantities that a dense contact and a contact on a grid have in common.
 
     units : Units of the reduced quantities
@@ -220,9 +221,9 @@ class ContactState:
     tangent_sum: float
     residual: float = 0.0
 
+    @abstractmethod
     def member_loads(self) -> MemberLoads:
         """Return the loads of the elements in contact."""
-        raise NotImplementedError
 
     @property
     def members(self) -> Integers:

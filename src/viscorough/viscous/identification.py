@@ -138,13 +138,13 @@ class IdentifiedMedium(ReadOnlyArrays):
         unit = self.length_unit
         rate = unit if unit == units.UNKNOWN else f"{unit} s-1"
         texts = []
-        for name, number, ends, unit_of_it in (
+        for name, number, ends, shown_unit in (
             ("offset", self.offset, self.offset_interval, unit),
             ("drift", self.drift, self.drift_interval, rate),
         ):
             if not np.isnan(number):
                 known = "" if np.isnan(ends).any() else f" [{ends[0]:.3g}, {ends[1]:.3g}]"
-                texts.append(f"{name} of the depth {with_unit(number, unit_of_it, 3)}{known}")
+                texts.append(f"{name} of the depth {with_unit(number, shown_unit, 3)}{known}")
         if np.isnan(self.offset):
             texts.append(
                 f"an error of {with_unit(self.assumed_offset, unit, 3)} of the zero of the depth, which was not "

@@ -10,8 +10,8 @@ Eqs. 7-9 of the paper instead Laplace-transform the relation u(F/G), which is no
 
 1. `springs` makes the row from the curve.
 2. `unilateral` moves it exactly from event to event if the medium consists of springs and dashpots. A springpot is
-   replaced by springs and dashpots that creep as it does to 1e-10 between a millionth of the shortest interval and the
-   whole duration. `unilateral_sums` moves it by steps in time in every other medium.
+   replaced by springs and dashpots that creep as it does to 1e-10 between a millionth of the shortest interval between
+   turns of the history and the whole duration. `unilateral_sums` moves it by steps in time in every other medium.
 3. Where the contact is as large as ever before, Φ and the interpolant of the curve give depth and velocity, without the
    discretisation of the row.
 """
@@ -42,8 +42,11 @@ from viscorough.viscous.unilateral_sums import move_row_by_sums
 
 _LATEST = 1e300  # later than the end of any creep that ends
 _SPREAD, _EARLY = 100, 1e-3  # number of times that are chosen; share of the creep at their ends, where it has no level
-# Shortest time of the springs and dashpots that replace a springpot, over the shortest interval between samples.
+# Shortest time of the springs and dashpots that replace a springpot, over the shortest interval between turns.
 _SHORTEST = 1e-6
+# Relative difference of slopes up to which a history is straight, and the share 1/10 of an interval between turns up to
+# which a sample is so close to the first of them that it counts as its end.
+_SAME_SLOPE, _CLOSE = 1e-6, 10.0
 # Share of the largest elastic force that the first level may carry if the curve before it matters and is not known.
 _UNKNOWN_SHARE = 1e-2
 # Largest number of depths of a history at which the row has exactly the force of the curve.
@@ -285,13 +288,27 @@ def _spectra(medium: Medium, load: Load) -> Any:
         return medium.relaxation, medium.retardation
     if not isinstance(medium, Springpot):
         return None
-    lengths = np.diff(load.time)
-    lengths = lengths[lengths > 0]
-    if not lengths.size:
-        return None
     duration = load.time[-1] - load.time[0]
-    retardation = power_law_spectrum(medium.modulus, medium.exponent, _SHORTEST * lengths.min(), duration)
+    if duration == 0:
+        return None
+    shortest = _SHORTEST * _shortest_interval(load)
+    retardation = power_law_spectrum(medium.modulus, medium.exponent, shortest, duration)
     return relaxation_spectrum(retardation), retardation
+
+
+def _shortest_interval(load: Load) -> float:
+    """Return the shortest time from a turn of a history, where its slope changes or a step begins or ends, to the next.
+
+    Samples between two turns change it only if they are closer to the first of them than a tenth of it.
+    """
+    time, values = load.time, load.values
+    lengths = np.diff(time)
+    slopes = np.divide(np.diff(values), lengths, out=np.full(lengths.size, np.nan), where=lengths > 0)  # nan at steps
+    differ = ~(np.abs(np.diff(slopes)) <= _SAME_SLOPE * np.maximum(np.abs(slopes[1:]), np.abs(slopes[:-1])))
+    turns = np.concatenate([[True], differ, [True]])
+    latest = time[np.maximum.accumulate(np.where(turns, np.arange(time.size), 0))]
+    between, since = np.diff(time[turns]), time - latest
+    return float(min(between[between > 0].min(), _CLOSE * since[since > 0].min(initial=np.inf)))
 
 
 def _check_depths(curve: LoadingCurve, depths: Array) -> None:

@@ -62,9 +62,15 @@ _KNOTS, _EARLIER = 120, 64
 # Step of difference quotients by the drift, over the largest depth. It is longer than the distance of springs, because
 # the force of a dashpot jumps at each of them.
 _DRIFT_STEP = 2e-3
-# Offsets, over the largest depth, at which fits are made, the number of those about the best, and the number of those
-# within the interval at which the intervals of ψ are computed.
-_OFFSETS, _FINER_OFFSETS, _INSIDE = np.linspace(-0.1, 0.1, 21), 15, 4
+# Offsets, over the largest depth, at which fits are made first.
+_OFFSETS = np.linspace(-0.1, 0.1, 21)
+# Number of offsets that replace the last ones, about the interval of the offset, and largest number of replacements.
+# They end if at least the third number of offsets lies within the interval.
+_FINER_OFFSETS, _REPLACEMENTS, _RESOLVED = 15, 4, 5
+# Number of bisections that find each end of the interval of the offset.
+_BISECTIONS = 5
+# Number of offsets within the interval at which the intervals of ψ are computed.
+_INSIDE = 12
 _HALVINGS = 8  # of a step that does not make the sum of squares smaller
 
 
@@ -129,22 +135,43 @@ def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None
     """Return fits at offsets that hold the best one and the ends of its interval.
 
     The force is not linear in the offset: within its rounding by noise, branches that relax before the first rows may
-    replace a part of it. So the best fit is sought at every offset.
+    replace a part of it. So the best fit is sought at every offset. An early row of a dashpot determines the offset so
+    well that only a fine grid of offsets shows the interval.
     """
     offsets = _OFFSETS * record.load.values.max()
     fits = [record.fit(times, offset) for offset in offsets]
-    squares = np.array([record.squares(fit) for fit in fits])
-    best = int(squares.argmin())
+    best = int(np.argmin([record.squares(fit) for fit in fits]))
     if best in (0, offsets.size - 1):
         raise ValueError(
             f"{argument('fit_offset')}: the zero of the depth is off by {offsets[best]:.3g} or more; allowed: errors "
             f"below {offsets[-1]:.3g}, {100 * _OFFSETS[-1]:g} % of the largest depth; a better zero is needed"
         )
+    for _ in range(_REPLACEMENTS):
+        inside = _inside(record, fits, scatter, resolution)
+        low, high = offsets[max(inside[0] - 1, 0)], offsets[min(inside[-1] + 1, offsets.size - 1)]
+        offsets = np.linspace(low, high, _FINER_OFFSETS)
+        fits = [record.fit(times, offset) for offset in offsets]
+        inside = _inside(record, fits, scatter, resolution)
+        if inside.size >= _RESOLVED:
+            break
+    # Beyond the interval the sum of squares may rise steeply: only bisection finds the ends.
+    for _ in range(_BISECTIONS):
+        inside = _inside(record, fits, scatter, resolution)
+        first, last = int(inside[0]), int(inside[-1])
+        if last + 1 < len(fits):
+            fits.insert(last + 1, record.fit(times, 0.5 * (fits[last].offset + fits[last + 1].offset)))
+        if first > 0:
+            fits.insert(first, record.fit(times, 0.5 * (fits[first - 1].offset + fits[first].offset)))
+    return fits
+
+
+def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, resolution: float) -> Integers:
+    """Return the numbers of the fits, made at several offsets, whose offset lies within its interval."""
+    squares = np.array([record.squares(fit) for fit in fits])
+    best = int(squares.argmin())
     deviation, freedom = _scatter(record, fits[best], scatter, resolution)
     distance = np.nan_to_num(distance_of(np.hypot(deviation, resolution), freedom, _UNKNOWNS_WITH_OFFSET))
-    near = np.flatnonzero(squares <= squares[best] + distance**2)
-    low, high = offsets[max(near[0] - 1, 0)], offsets[min(near[-1] + 1, offsets.size - 1)]
-    return [record.fit(times, offset) for offset in np.linspace(low, high, _FINER_OFFSETS)]
+    return np.flatnonzero(squares <= squares[best] + distance**2)
 
 
 def _intervals(

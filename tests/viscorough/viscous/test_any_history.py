@@ -217,13 +217,14 @@ def test_kinetics_of_maps_agrees_with_direct_integration(kind, control):
 
 
 @pytest.mark.parametrize("control", ["force", "depth"])
-@pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
+@pytest.mark.parametrize("name", [*SPRINGS_AND_DASHPOTS, "springpot"])
 def test_samples_of_a_linear_history_do_not_matter(name, control):
+    """The springs and dashpots that replace a springpot depend on the turns of the history, not on its samples."""
     curve = indent(self_affine_disc(0.7, 33, rms=0.01, seed=3))
-    medium = SPRINGS_AND_DASHPOTS[name]
+    medium = MEDIA[name]
     scale = 0.5 * curve.depth[-1] if control == "depth" else 0.1 * curve.force[-1]
-    load = history(control, steps=name not in ("newtonian", "kelvin-voigt"), scale=scale)
-    more, _ = load.with_times(np.union1d(load.time, np.linspace(0, 4, 301)))
+    load = history(control, steps=name not in ("newtonian", "kelvin-voigt", "springpot"), scale=scale)
+    more, _ = load.with_times(np.union1d(load.time, np.linspace(0, 4, 31 if name == "springpot" else 301)))
     times = np.array([0.5, 1.2, 1.8, 2.2, 2.8, 3.5])
     few, many = kinetics(curve, load, medium, times), kinetics(curve, more, medium, times)
     for name in ("depth", "force", "velocity", "contact_fraction"):

@@ -120,11 +120,11 @@ def chaos(folder, kills, seed):
     A killed run is repeated with its results so far. A run that ends by itself is followed by one without results.
     """
     run_to_end(folder)  # compiles the solvers unless that was done before
-    wanted = contents(folder)
+    undisturbed = contents(folder)
     remove_results(folder)
     seconds = run_to_end(folder)
-    differences = [f"undisturbed: {line}" for line in compare(folder, wanted)]
-    click.echo(f"undisturbed: {seconds:.0f} s, {len(wanted)} files")
+    differences = [f"undisturbed: {line}" for line in compare(folder, undisturbed)]
+    click.echo(f"undisturbed: {seconds:.0f} s, {len(undisturbed)} files")
     random, log, runs = np.random.default_rng(seed), [], 0
     remove_results(folder)
     while True:
@@ -140,11 +140,17 @@ def chaos(folder, kills, seed):
                 run.wait(HANGS)  # a run that has lost a job finishes its other job and ends with an error
                 continue
         runs += 1
-        lines = [f"ends with {code}: {log_tail(folder)}"] if code else compare(folder, wanted)
+        lines = [f"ends with {code}: {log_tail(folder)}"] if code else compare(folder, undisturbed)
         differences += [f"run {runs}: {line}" for line in lines]
         click.echo("\n".join([f"run {runs} {'differs' if lines else 'has recovered'}", *lines]))
         if is_last:
-            return {"kills": kills, "runs": runs, "differences": differences, "files_compared": len(wanted), "log": log}
+            return {
+                "kills": kills,
+                "runs": runs,
+                "differences": differences,
+                "files_compared": len(undisturbed),
+                "log": log,
+            }
         remove_results(folder)
 
 

@@ -134,7 +134,7 @@ def coverage(case, *, trials, wrong_zero=False):
             widths.append((high - low) * CREEP / exact[-1] / stiffness / deviation)
     holds, unknown = np.array(holds), np.isnan(scatters)
     at_times = np.where(np.isnan(holds), 1.0, holds).mean(axis=0)
-    known = not unknown.all()
+    has_intervals = not unknown.all()
     return {
         "medium": name,
         "load": load,
@@ -142,15 +142,15 @@ def coverage(case, *, trials, wrong_zero=False):
         "noise": noise,
         "trials": trials,
         "coverage": at_times.mean(),
-        "known_coverage": np.nanmean(holds) if known else np.nan,
+        "known_coverage": np.nanmean(holds) if has_intervals else np.nan,
         "least_coverage": at_times.min(),
         "offset_coverage": np.mean(zeros),
         "drift_coverage": np.mean(drifts),
         "error": np.median(errors),
         "refused": trials - len(holds),
         "unknown": unknown.mean(),
-        "width": np.nanmedian(widths) if known and widths else np.nan,
-        "scatter": np.nanmedian(scatters) if known else np.nan,
+        "width": np.nanmedian(widths) if has_intervals and widths else np.nan,
+        "scatter": np.nanmedian(scatters) if has_intervals else np.nan,
     }
 
 

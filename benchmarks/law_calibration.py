@@ -123,27 +123,27 @@ def relative_error(values):
     return np.where(mean > 0, values.std(axis=0, ddof=1) / np.sqrt(len(values)) / np.where(mean > 0, mean, 1), np.inf)
 
 
-def adjusted(values, controls, wanted):
+def adjusted(values, controls, targets):
     """Return the values adjusted by linear regression from their controls to target controls; first axis : discs"""
     centred = controls - controls.mean(axis=0)
     slopes = np.linalg.lstsq(centred, values.reshape(len(values), -1), rcond=None)[0]
-    return values - ((controls - wanted) @ slopes).reshape(values.shape)
+    return values - ((controls - targets) @ slopes).reshape(values.shape)
 
 
-def tested(constants, parts, controls, wanted, across):
+def tested(constants, parts, controls, targets, across):
     """Return the range of the law and its deviations, by discs not used for the fit: columns from "x_low" on.
 
-    wanted : mean controls of the discs of the fit
+    targets : mean controls of the discs of the fit
     """
     law = interface_velocity(X, *constants, across=across), interface_depth(X, *constants, across=across)
-    means = adjusted(parts, controls, wanted).mean(axis=0)[0], parts.mean(axis=0)[0]
+    means = adjusted(parts, controls, targets).mean(axis=0)[0], parts.mean(axis=0)[0]
     deviation, unadjusted = (
         np.abs(np.divide(law[0], mean, out=np.full(X.size, np.inf), where=mean > 0) - 1) for mean in means
     )
     within = (deviation <= LARGEST_DEVIATION) & (X >= FIT_LOW * (1 - 1e-9))
     holds = run_around(within, int(np.argmin(np.abs(np.log(X)))))
     x, kept = X[holds], parts[:, :, holds]
-    values = adjusted(kept, controls, wanted)
+    values = adjusted(kept, controls, targets)
     row = {"x_low": x[0], "x_high": x[-1], "deviation": deviation[holds].max(), "unadjusted": unadjusted[holds].max()}
     row["standard_error"] = relative_error(values[:, 0]).max()
     for i, name in enumerate(("velocity", "depth")):

@@ -26,9 +26,9 @@ output_option = click.option("--output", type=click.Path(path_type=Path), requir
 
 def run_timed(main, **variables):
     """Run a command with ENVIRONMENT and further variables, in a process that replaces this one if needed."""
-    wanted = ENVIRONMENT | variables
-    if any(os.environ.get(name) != value for name, value in wanted.items()):
-        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | wanted)
+    variables_needed = ENVIRONMENT | variables
+    if any(os.environ.get(name) != value for name, value in variables_needed.items()):
+        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | variables_needed)
     main()
 
 

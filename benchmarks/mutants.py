@@ -97,15 +97,15 @@ def _ranges_left_out(text):
 
 def drawn(texts, seed, numbers):
     """Yield the mutants with these numbers; each depends on the sources, the seed and its number only."""
-    files, known = list(texts), {}
+    files, places_in = list(texts), {}
     weights = np.array([code_lines(text) for text in texts.values()])
     for number, random in generators(seed, numbers):
         text = None
         while not _is_code(text):
             file = files[random.choice(len(files), p=weights / weights.sum())]
-            if file not in known:
-                known[file] = places(texts[file])
-            if choices := known[file]:  # a module may have no place to change
+            if file not in places_in:
+                places_in[file] = places(texts[file])
+            if choices := places_in[file]:  # a module may have no place to change
                 place = list(choices)[random.integers(len(choices))]
                 name, occurrence = choices[place][random.integers(len(choices[place]))]
                 text = mutate_code(texts[file], cosmic_ray.plugins.get_operator(name)(), occurrence)

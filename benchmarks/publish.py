@@ -163,10 +163,10 @@ def default_minutes():
 def sentences():
     """Return every checkable sentence of the paper with its origin and its verdicts, as a Markdown table."""
     table = published_claims()
-    of_claim = {name: verdict_text(rows) for name, rows in table.groupby("claim", sort=False)}
+    verdict_by_claim = {name: verdict_text(rows) for name, rows in table.groupby("claim", sort=False)}
     rows = []
     for sentence in read_paper(ROOT / "resources/paper", "sentences"):
-        judged = "; ".join(f"`{name}`: {of_claim[name]}" for name in sentence["claims"])
+        judged = "; ".join(f"`{name}`: {verdict_by_claim[name]}" for name in sentence["claims"])
         verdict = judged or f"not judged: {sentence['why']}"
         rows.append(f"| {sentence['where']} | {sentence['says']} | {sentence['origin']} | {verdict} |")
     return markdown_table("| where | what the paper says | origin | verdict |", rows)

@@ -140,11 +140,11 @@ def _moved(case, load):
 
 def _range_failure(case, motion):
     """Return an error message unless depths are finite, forces not negative, and contact fractions from 0 to 1."""
-    known = np.isfinite(motion.depth) & np.isfinite(motion.force)
-    if not known.any():
+    is_finite = np.isfinite(motion.depth) & np.isfinite(motion.force)
+    if not is_finite.any():
         return "nothing is known"
-    if (motion.force[known] < 0).any():
-        return f"a force of {motion.force[known].min():.2g}"
+    if (motion.force[is_finite] < 0).any():
+        return f"a force of {motion.force[is_finite].min():.2g}"
     if not ((motion.contact_fraction >= 0) & (motion.contact_fraction <= 1)).all():
         return "a contact fraction beyond 0 and 1"
     return ""
@@ -173,8 +173,8 @@ def _samples_failure(case, motion, is_exact):
 
 def _largest_force(row, motion):
     """Return the largest force φ in a motion; at samples before the last, the mean of the springs in contact."""
-    known = np.isfinite(motion.force) & (motion.in_contact > 0)
-    means = motion.force[known] / np.cumsum(row.stiffness)[motion.in_contact[known] - 1]
+    is_finite = np.isfinite(motion.force) & (motion.in_contact > 0)
+    means = motion.force[is_finite] / np.cumsum(row.stiffness)[motion.in_contact[is_finite] - 1]
     return max(motion.pressures.max(), means.max(initial=0))
 
 

@@ -167,17 +167,17 @@ def compare_runs(folder):
     local, through, daemons = folder / "local", folder / "through", folder / "cluster"
     copy_project(local)
     seconds = {"local": run_to_end(local)}
-    wanted = contents(local)
-    click.echo(f"local: {seconds['local']:.0f} s, {len(wanted)} files")
+    expected = contents(local)
+    click.echo(f"local: {seconds['local']:.0f} s, {len(expected)} files")
     shutil.copytree(local, through)  # keep code that the local run has compiled
     remove_results(through)
     daemons.mkdir()
     with cluster(daemons):
         seconds["slurm"] = run_to_end(through, *THROUGH_SLURM, disturb=disturb)
         version = printed("sinfo", "--version")
-    differences = compare(through, wanted)
+    differences = compare(through, expected)
     click.echo("\n".join([f"through Slurm: {seconds['slurm']:.0f} s", *differences]))
-    return {"slurm": version, "seconds": seconds, "files_compared": len(wanted), "differences": differences}
+    return {"slurm": version, "seconds": seconds, "files_compared": len(expected), "differences": differences}
 
 
 @click.command(help=__doc__.splitlines()[0])

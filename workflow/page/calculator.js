@@ -21,7 +21,7 @@ function penetrationLaw(table, hurst) {
 function interfaceVelocity(law, x) {
   const power = law.amplitude * x ** law.exponent * (1 + x / law.bend) ** -law.fall;
   const falling = power * (1 + (x / law.cutoff) ** 2) ** -4;
-  return falling / (1 + (falling / (law.of_one_element * x)) ** 1.5) ** (2 / 3);
+  return falling / (1 + (falling / (law.one_element * x)) ** 1.5) ** (2 / 3);
 }
 
 /** The interface's part of u/h: g integrated over ln X by Simpson's rule, as in Python. */

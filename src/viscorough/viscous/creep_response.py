@@ -103,15 +103,15 @@ def sums_over_the_past(
     load: Array,
     sample: Integers,
     offset: Array,
-    of_jump: Callable[[Array], Array],
-    of_interval: Callable[[Array, Array], Array],
+    jump_response: Callable[[Array], Array],
+    ramp_response: Callable[[Array, Array], Array],
 ) -> tuple[Array, Array]:
     """Sums of the positive and of the negative responses to a load, at times after samples; shape of `sample`.
 
     times, load : as of `arrays.jumps_and_slopes`
     sample, offset : indices of samples up to which the load counts, and times after them
-    of_jump : response to a unit jump, by the time since then
-    of_interval : response to a unit slope, by the times since its end and since its start
+    jump_response : response to a unit jump, by the time since then
+    ramp_response : response to a unit slope, by the times since its end and since its start
     """
     jumps, slopes = jumps_and_slopes(times, load)
     positive, negative = np.zeros(sample.size), np.zeros(sample.size)
@@ -121,8 +121,8 @@ def sums_over_the_past(
         lag = np.maximum((times[sample[chunk]] + offset[chunk])[:, None] - times, 0)
         past_jumps = (place <= sample[chunk, None]) & (jumps != 0)
         past_intervals = (place[1:] <= sample[chunk, None]) & (slopes != 0)
-        at_jumps = jumps * np.where(past_jumps, of_jump(lag), 0.0)
-        over_intervals = slopes * np.where(past_intervals, of_interval(lag[:, 1:], lag[:, :-1]), 0.0)
+        at_jumps = jumps * np.where(past_jumps, jump_response(lag), 0.0)
+        over_intervals = slopes * np.where(past_intervals, ramp_response(lag[:, 1:], lag[:, :-1]), 0.0)
         for total, clip in ((positive, np.maximum), (negative, np.minimum)):
             total[chunk] = clip(at_jumps, 0).sum(axis=1) + clip(over_intervals, 0).sum(axis=1)
     return positive, negative

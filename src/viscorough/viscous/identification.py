@@ -11,7 +11,9 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +25,7 @@ from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.errors import AccuracyWarning
 from viscorough.loading_curve import LoadingCurve, check_curve
 from viscorough.summaries import si_unit, span, with_unit
-from viscorough.types import Array
+from viscorough.types import Array, Integers
 from viscorough.viscous.creep_fit import fit_growing_depth
 from viscorough.viscous.load import Load, force_load
 from viscorough.viscous.medium import Medium
@@ -143,8 +145,8 @@ class IdentifiedMedium(ReadOnlyArrays):
             ("drift", self.drift, self.drift_interval, rate),
         ):
             if not np.isnan(number):
-                known = "" if np.isnan(ends).any() else f" [{ends[0]:.3g}, {ends[1]:.3g}]"
-                texts.append(f"{name} of the depth {with_unit(number, shown_unit, 3)}{known}")
+                interval = "" if np.isnan(ends).any() else f" [{ends[0]:.3g}, {ends[1]:.3g}]"
+                texts.append(f"{name} of the depth {with_unit(number, shown_unit, 3)}{interval}")
         if np.isnan(self.offset):
             texts.append(
                 f"an error of {with_unit(self.assumed_offset, unit, 3)} of the zero of the depth, which was not "
@@ -231,49 +233,89 @@ def identify_medium(
         raise ValueError(f"kind {kind!r}; allowed: {', '.join(KINDS)}")
     check_curve("identify_medium", curve)
     unit, shift = curve.length_unit, Shift(offset=fit_offset, drift=fit_drift)
-    prescribed = load if isinstance(load, Load) and load.by_depth else None
-    by_depth = prescribed is not None
+    by_depth = isinstance(load, Load) and load.by_depth
     value_unit = "N" if by_depth else unit
-    if scatter is not None:
-        scatter = units.number(scatter, value_unit, unit, "scatter")
-        if not (np.ndim(scatter) == 0 and 0 < scatter < np.inf):
-            quantity = "force" if by_depth else "length"
-            raise ValueError(f"scatter: {scatter!r:.60}; allowed: a finite {quantity} above 0, or None to find it")
+    scatter = _checked_scatter(scatter, value_unit, unit)
     times, measured = _checked_record(curve, times, measured, value_unit)
-    area = units.square_metres(unit)
-    if prescribed is not None:
-        load, place = prescribed.with_times(times)
-        _check_within(curve, load.time, load.values)
-        _check_first_level(curve, times, load.values[place])
-        fit_record, measured = fit_force, measured / area
-        scatter = None if scatter is None else scatter / area
-    else:
-        load, place = force_load(load, times, unit).with_times(times)
-        _check_within(curve, times, measured)
-        _check_first_level(curve, times, measured)
-        fit_record = fit_growing_depth
-        if decrease := _decrease(times, measured, scatter or 0.0):
-            if (np.diff(load.values[: place[-1] + 1]) < 0).any():
-                fit_record = fit_receding_depth
-            elif not fit_drift:
-                raise ValueError(
-                    f"record: {decrease}; allowed: depths that grow, unless the force decreases or a drift is fitted"
-                )
-    fit = fit_record(curve, load, place, measured, kind, scatter, shift)
+    prescribed = load if isinstance(load, Load) and load.by_depth else force_load(load, times, unit)
+    # Measured forces are divided by this area, as those of a Load are (Load.in_units_of).
+    area = units.square_metres(unit) if by_depth else 1.0
+    scatter = None if scatter is None else scatter / area
+    record = _Record(curve, *prescribed.with_times(times), times, measured / area, scatter, shift)
+    _check_depths(record)
+    fit = _fitting_function(record)(curve, record.load, record.place, record.measured, kind, record.scatter, shift)
     if kind != "table":
-        _check_misfit(fit, measured, area if by_depth else 1.0)
-    assumed = effect = np.nan
-    if not fit_offset:
-        known = np.nan if by_depth else fit.scatter
-        assumed = _ASSUMED_OFFSET * float(np.max(load.values if by_depth else measured)) if np.isnan(known) else known
-        if by_depth:
-            moved, changed = Load(load.time, depth=load.values - assumed), measured
-        else:
-            moved, changed = load, measured - assumed
-        other = fit_record(curve, moved, place, changed, "table", np.nan, shift)
-        shown = fit.time >= times[times > load.time[0]][0] - load.time[0]
-        effect = float(np.abs(other.compliance[shown] / fit.compliance[shown] - 1).max())
-    return _result(fit, shift, assumed, effect, unit, area if by_depth else 1.0)
+        _check_misfit(fit, record.measured, area)
+    assumed, effect = (np.nan, np.nan) if fit_offset else _effect_of_offset(record, fit)
+    return _result(fit, shift, assumed, effect, unit, area)
+
+
+class _Record(NamedTuple):
+    """A record in consistent units.
+
+    load : what was prescribed, the force or the depth, with samples at the rows of the record
+    place : index of the sample of each row
+    measured : the depth if the force was prescribed, else the force, shape (rows,)
+    scatter : standard deviation of `measured`; None if it is not stated
+    shift : which errors of the zero of depth are fitted
+    """
+
+    curve: LoadingCurve
+    load: Load
+    place: Integers
+    times: Array
+    measured: Array
+    scatter: float | None
+    shift: Shift
+
+
+def _check_depths(record: _Record) -> None:
+    """Raise ValueError for depths, prescribed or measured, that the loading curve does not hold."""
+    curve, load, times = record.curve, record.load, record.times
+    if load.by_depth:
+        _check_within(curve, load.time, load.values)
+        _check_first_level(curve, times, load.values[record.place])
+    else:
+        _check_within(curve, times, record.measured)
+        _check_first_level(curve, times, record.measured)
+
+
+def _fitting_function(record: _Record) -> Callable[..., RecordFit]:
+    """Return the function that fits a medium to a record of this kind.
+
+    Raises ValueError for a depth that recedes although neither the force decreases nor a drift is fitted.
+    """
+    load = record.load
+    if load.by_depth:
+        return fit_force
+    decrease = _decrease(record.times, record.measured, record.scatter or 0.0)
+    if decrease is None:
+        return fit_growing_depth
+    if (np.diff(load.values[: record.place[-1] + 1]) < 0).any():
+        return fit_receding_depth
+    if record.shift.drift:
+        return fit_growing_depth
+    raise ValueError(f"record: {decrease}; allowed: depths that grow, unless the force decreases or a drift is fitted")
+
+
+def _effect_of_offset(record: _Record, fit: RecordFit) -> tuple[float, float]:
+    """Return an error of the zero of the depth, and the largest relative change of J that it causes.
+
+    The error is the scatter of the depth, or a share of the largest depth if that is not known.
+    """
+    load, measured = record.load, record.measured
+    scatter = np.nan if load.by_depth else fit.scatter
+    assumed = _ASSUMED_OFFSET * float((load.values if load.by_depth else measured).max())
+    if not np.isnan(scatter):
+        assumed = scatter
+    if load.by_depth:
+        load = Load(load.time, depth=load.values - assumed)
+    else:
+        measured = measured - assumed
+    other = _fitting_function(record)(record.curve, load, record.place, measured, "table", np.nan, record.shift)
+    first = record.times[record.times > load.time[0]][0] - load.time[0]
+    shown = fit.time >= first
+    return assumed, float(np.abs(other.compliance[shown] / fit.compliance[shown] - 1).max())
 
 
 def _result(fit: RecordFit, shift: Shift, assumed: float, effect: float, unit: str, area: float) -> IdentifiedMedium:
@@ -289,6 +331,17 @@ def _result(fit: RecordFit, shift: Shift, assumed: float, effect: float, unit: s
         fit.medium, fit.time, fit.compliance, fit.modulus, fit.low, fit.high, fit.scatter * area, fit.misfit * area,
         offset, offset_interval, drift, drift_interval, assumed, effect, unit,
     )  # fmt: skip
+
+
+def _checked_scatter(scatter: float | str | None, value_unit: str, unit: str) -> float | None:
+    """Return a stated scatter as a number in `value_unit`, "N" or the unit of length; None if it is not stated."""
+    if scatter is None:
+        return None
+    scatter = units.number(scatter, value_unit, unit, "scatter")
+    if not (np.ndim(scatter) == 0 and 0 < scatter < np.inf):
+        quantity = "force" if value_unit == "N" else "length"
+        raise ValueError(f"scatter: {scatter!r:.60}; allowed: a finite {quantity} above 0, or None to find it")
+    return scatter
 
 
 def _check_misfit(fit: RecordFit, measured: Array, factor: float) -> None:

@@ -23,6 +23,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
+from viscorough.contact.state import MemberLoads
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
@@ -107,37 +108,64 @@ def pressure_at(
     count = int(moved.in_contact[-1])
     if count == 0:
         return total
-    carried, sums = moved.pressures[:count], np.cumsum(row.stiffness)[:count]
-    elastic = np.append(0.0, np.cumsum(sums[:-1] * np.diff(row.gap[:count])))  # F_el at the gap of each spring
-    parts = sums[:-1] * -np.diff(carried)  # of the force, between neighbouring springs
+    # The pressure of the row at the gap of each spring in contact, and the elastic force and stiffness there.
+    carried, stiffness = moved.pressures[:count], np.cumsum(row.stiffness)[:count]
+    elastic = np.append(0.0, np.cumsum(stiffness[:-1] * np.diff(row.gap[:count])))
+    parts = stiffness[:-1] * -np.diff(carried)  # of the force, between neighbouring springs
     has_dashpot = medium.relaxation is not None and medium.relaxation.viscosity > 0
     nodes = np.unique([0, count - 1]) if has_dashpot else _nodes(elastic, parts, contacts)
-    share = np.add.reduceat(np.append(parts, 0.0), nodes[:-1])
-    rise, levels = np.diff(elastic[nodes]), elastic[nodes[1:]]
-    is_long = rise > _SHORT * max(tolerance, _FINEST) * levels
-    slope = np.where(is_long, share / np.where(is_long, rise, 1.0), 0.0)
-    half = np.where(is_long, 0.0, 0.5 * share)
-    # An interval adds its share times (p_j − p_{j−1})/(F_j − F_{j−1}), or (q_j + q_{j−1})/2 of ΣQ = 1 if it is short.
-    of_pressure, of_tangent = slope - np.append(slope[1:], 0.0), half + np.append(half[1:], 0.0)
-    solver = ContactSolver(indenter, tolerance / 2)  # the correction to the force takes the other half
-    search, loads = ForceSearch(solver), solver.first_contact().member_loads()
-    area = indenter.spacing * indenter.row_spacing
-    place = solver.elements.places_on_map(loads.members)
-    if half.size:
-        total[place] += half[0] / area * loads.tangent / loads.tangent.sum()
-    for level, pressure, tangent in zip(levels, of_pressure, of_tangent, strict=True):
-        loads = search.contact_at(level).member_loads()
-        place = solver.elements.places_on_map(loads.members)
-        total[place] += pressure * level / area * loads.pressure / loads.pressure.sum()
-        total[place] += tangent / area * loads.tangent / loads.tangent.sum()
-    total = np.maximum(total, 0.0)  # it may be negative by rounding
+    pressure = _PressureSum(indenter, tolerance / 2)  # the correction to the force takes the other half
+    pressure.add_intervals(elastic[nodes], np.add.reduceat(np.append(parts, 0.0), nodes[:-1]), tolerance)
     # The last spring is in contact just beyond its gap.
     following = min(row.gap[count] if count < row.gap.size else row.limit, 2 * row.gap[count - 1] + curve.depth[0])
-    loads = search.contact_at(elastic[-1] + 0.5 * sums[-1] * (following - row.gap[count - 1])).member_loads()
-    place = solver.elements.places_on_map(loads.members)
-    remaining = moved.force[-1] / area - np.nansum(total)
-    total[place] += max(remaining, 0.0) * loads.tangent / loads.tangent.sum()
-    return total
+    pressure.add_rest(elastic[-1] + 0.5 * stiffness[-1] * (following - row.gap[count - 1]), moved.force[-1])
+    return pressure.total
+
+
+class _PressureSum:
+    """Sum of the pressures of elastic contacts, each with its share of the force.
+
+    total : map of the sum, shape of the heights, nan outside the indenter
+    """
+
+    def __init__(self, indenter: Indenter, tolerance: float) -> None:
+        self.total = np.where(np.isnan(indenter.heights), np.nan, 0.0)
+        self._area = indenter.spacing * indenter.row_spacing
+        self._solver = ContactSolver(indenter, tolerance)
+        self._search = ForceSearch(self._solver)
+
+    def add_intervals(self, forces: Array, shares: Array, tolerance: float) -> None:
+        """Add the pressures of intervals between elastic contacts.
+
+        An interval from F_{j−1} to F_j adds its share of the force times (p_j − p_{j−1})/(F_j − F_{j−1}). If it is
+        short, it adds the mean of the tangents q_j and q_{j−1} instead, each of them with the sum 1.
+
+        forces : elastic forces F_j, the first of them that of the first contact, shape (intervals + 1,)
+        shares : force of each interval; tolerance : relative accuracy of the elastic contacts
+        """
+        rise, levels = np.diff(forces), forces[1:]
+        is_long = rise > _SHORT * max(tolerance, _FINEST) * levels
+        slope = np.where(is_long, shares / np.where(is_long, rise, 1.0), 0.0)
+        half = np.where(is_long, 0.0, 0.5 * shares)
+        by_pressure, by_tangent = slope - np.append(slope[1:], 0.0), half + np.append(half[1:], 0.0)
+        if half.size:
+            self._add_tangent(self._solver.first_contact().member_loads(), half[0])
+        for level, pressure, tangent in zip(levels, by_pressure, by_tangent, strict=True):
+            loads = self._search.contact_at(level).member_loads()
+            place = self._solver.elements.places_on_map(loads.members)
+            self.total[place] += pressure * level / self._area * loads.pressure / loads.pressure.sum()
+            self._add_tangent(loads, tangent)
+
+    def add_rest(self, elastic: float, force: float) -> None:
+        """Add the tangent of the contact at an elastic force, so that the sum of the pressures carries `force`."""
+        self.total = np.maximum(self.total, 0.0)  # it may be negative by rounding
+        loads = self._search.contact_at(elastic).member_loads()
+        self._add_tangent(loads, max(force - np.nansum(self.total) * self._area, 0.0))
+
+    def _add_tangent(self, loads: MemberLoads, force: float) -> None:
+        """Add the pressures of a flat punch of the shape of a contact that carries this force."""
+        place = self._solver.elements.places_on_map(loads.members)
+        self.total[place] += force / self._area * loads.tangent / loads.tangent.sum()
 
 
 def _up_to(load: Load, time: float) -> Load:

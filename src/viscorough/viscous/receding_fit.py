@@ -67,18 +67,15 @@ def fit_receding_depth(
     amounts, shifted = spectrum_of_growth(curve, load, place[grown], depth[grown], spread, signed[grown])
     record = _RecedingRecord(curve, load, place, depth, spread, signed)
     amounts, shifted, predicted, columns = record.fit(amounts, shifted)
-    times, found = spread, amounts[2:] > 0
-    if found.any():
-        times = finer_times(spread[found], spread, _FINER)
-        start = np.append(amounts[:2], np.zeros(times.size))
-        start[2 + np.abs(np.subtract.outer(spread[found], times)).argmin(axis=1)] = amounts[2:][found]
+    if (amounts[2:] > 0).any():
+        times, start = _refined(spread, amounts)
         record = _RecedingRecord(curve, load, place, depth, times, signed)
         amounts, shifted, predicted, columns = record.fit(start, shifted)
     residual, resolution, freedom = depth - predicted - signed @ shifted, RESOLUTION * depth.max(), np.inf
     if scatter is None:
         scatter, freedom = scatter_of(residual, amounts, shifted.size, resolution)
     time = np.append(0.0, knots_of(load, lags))
-    values = np.column_stack([np.ones(time.size), time, -np.expm1(-time[:, None] / times)])
+    values = np.column_stack([np.ones(time.size), time, -np.expm1(-time[:, None] / record.times)])
     low = high = np.full(time.size + shifted.size, np.nan)
     if not np.isnan(scatter):
         target = depth - predicted + columns @ amounts
@@ -87,9 +84,7 @@ def fit_receding_depth(
     compliance = values @ amounts
     medium: CreepTable | Prony | Springpot = CreepTable(time, compliance)
     if kind == "prony":
-        if amounts[0] <= ROUNDING * compliance[-1] or not amounts[1:].any():
-            raise no_prony_series()
-        medium = prony_series(float(amounts[0]), float(amounts[1]), amounts[2:], times)
+        medium = _prony(amounts, record.times, compliance[-1])
     elif kind == "springpot":
         medium, residual = _springpot(curve, load, place, depth, time[1:], compliance[1:], signed)
     misfit = float(np.sqrt(np.mean(residual**2)))
@@ -98,6 +93,25 @@ def fit_receding_depth(
         medium, time, compliance, None, low, high, float(scatter), float(freedom), misfit,
         shifted, shift_low, shift_high,
     )  # fmt: skip
+
+
+def _refined(times: Array, amounts: Array) -> tuple[Array, Array]:
+    """Return more retardation times about those that were found, and the amounts at them, from which to start.
+
+    amounts : J₀, φ, and J_j at these times
+    """
+    found = amounts[2:] > 0
+    finer = finer_times(times[found], times, _FINER)
+    start = np.append(amounts[:2], np.zeros(finer.size))
+    start[2 + np.abs(np.subtract.outer(times[found], finer)).argmin(axis=1)] = amounts[2:][found]
+    return finer, start
+
+
+def _prony(amounts: Array, times: Array, last: float) -> Prony:
+    """Return the Prony series of J₀, φ and J_j; last : J at the end. Raises ValueError if there is none."""
+    if amounts[0] <= ROUNDING * last or not amounts[1:].any():
+        raise no_prony_series()
+    return prony_series(float(amounts[0]), float(amounts[1]), amounts[2:], times)
 
 
 class _RecedingRecord:

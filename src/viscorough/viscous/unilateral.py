@@ -430,12 +430,12 @@ def _gap_of_next(row, law, state, t, count):
 
 
 @njit(inner=True)
-def _jump(row, law, state, t, u, force, count, target, by_depth, of_release):
+def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts):
     """Step of the load to `target` at a time; returns u, F, the number of springs in contact, and how it ended."""
     if law.viscosity > 0 and not by_depth:
         # The surface stays, and springs that would be pulled let go.
         while count > 1:
-            value, _, rounding = _release(row, law, state, t, u, target, 0.0, count, by_depth, of_release)
+            value, _, rounding = _release(row, law, state, t, u, target, 0.0, count, by_depth, release_amounts)
             if value <= rounding:
                 break
             count = _let_go(row, law, state, t, u, count)
@@ -456,7 +456,7 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, of_release):
             step = max(_gap_of_next(row, law, state, t, count) - u, 0.0)
             reaches = step >= target - u if by_depth else row.stiffness[count] * modulus * step >= target - force
         elif count > (0 if by_depth else 1):
-            value, _, _ = _release(row, law, state, t, u, force, 0.0, count, by_depth, of_release)
+            value, _, _ = _release(row, law, state, t, u, force, 0.0, count, by_depth, release_amounts)
             step = min(value, 0.0) / modulus
             reaches = step <= target - u if by_depth else row.stiffness[count] * modulus * step <= target - force
         if reaches:
@@ -478,28 +478,28 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, of_release):
 
 
 @njit(inner=True)
-def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders, until, of_touch, drive):
+def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders, until, touch_amounts, drive):
     """Time from now on at which the first free spring is touched; infinite if it is not, until then."""
     reached = _gap_of_next(row, law, state, t, count)
     if not np.isfinite(reached):
         return np.inf
     slope, bend = rate, 0.0
-    of_touch[:] = 0.0
+    touch_amounts[:] = 0.0
     drive[:] = 0.0
     if not by_depth:
         stiffness = row.stiffness[count]
         slope = (law.instantaneous * rate + law.fluidity * force) / stiffness
         bend = 0.5 * law.fluidity * rate / stiffness
         for j in range(law.decays.size):
-            of_touch[j] = law.flows[j] * remainders[j] / stiffness
+            touch_amounts[j] = law.flows[j] * remainders[j] / stiffness
             drive[j] = law.flows[j] * rate / stiffness
     if count < row.gaps.size:
         for j in range(law.decays.size):
             if state.remainder[count, j] != 0:
                 kept = np.exp(-law.decays[j] * (t - state.left[count]))
-                of_touch[j] -= law.flows[j] * state.remainder[count, j] * kept
+                touch_amounts[j] -= law.flows[j] * state.remainder[count, j] * kept
     rounding = _ROUNDING * (abs(u) + (row.gaps[count] if count < row.gaps.size else 0.0))
-    return _first_crossing(until, rounding, u - reached, slope, bend, of_touch, drive, law.decays)
+    return _first_crossing(until, rounding, u - reached, slope, bend, touch_amounts, drive, law.decays)
 
 
 @njit(inner=True)
@@ -541,8 +541,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
     depth, force, velocity = np.full(samples, np.nan), np.full(samples, np.nan), np.full(samples, np.nan)
     in_contact, deflection, largest = np.zeros(samples, np.int64), np.zeros(samples), np.ones(samples, np.bool_)
     fastest = law.rates.max() if branches else 0.0
-    of_release, none = np.zeros(branches), np.zeros(branches)
-    of_touch, drive, remainders = np.zeros(elements), np.zeros(elements), np.zeros(elements)
+    release_amounts, none = np.zeros(branches), np.zeros(branches)
+    touch_amounts, drive, remainders = np.zeros(elements), np.zeros(elements), np.zeros(elements)
     t, u, f, rate, count, ended, until = 0.0, 0.0, 0.0, 0.0, 0, SETTLED, times[-1]
     if not by_depth:
         u, count = gaps[0], _touch(row, law, state, t, gaps[0], f, 0, by_depth)
@@ -552,7 +552,7 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
         length, rate = times[k] - last, 0.0
         if length == 0:
             remainders += load[k] - f
-            u, f, count, ended = _jump(row, law, state, t, u, f, count, load[k], by_depth, of_release)
+            u, f, count, ended = _jump(row, law, state, t, u, f, count, load[k], by_depth, release_amounts)
             if law.viscosity > 0 and not by_depth:
                 _remainders_in_contact(row, law, state, t, u, f, count, remainders)
         else:
@@ -561,13 +561,13 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
             while True:
                 now, speed = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
                 touch = _next_touch(
-                    row, law, state, t, u, f, rate, count, by_depth, remainders, times[k] - t, of_touch, drive
+                    row, law, state, t, u, f, rate, count, by_depth, remainders, times[k] - t, touch_amounts, drive
                 )
                 release = np.inf
                 if count > (0 if by_depth else 1):
-                    value, slope, rounding = _release(row, law, state, t, u, f, rate, count, by_depth, of_release)
+                    value, slope, rounding = _release(row, law, state, t, u, f, rate, count, by_depth, release_amounts)
                     end = min(times[k] - t, touch)
-                    release = _first_crossing(end, rounding, value, slope, 0.0, of_release, none, law.rates)
+                    release = _first_crossing(end, rounding, value, slope, 0.0, release_amounts, none, law.rates)
                 event = min(touch, release)
                 if events > _MOST_AT_ONCE * springs + 8:
                     # Equal contacts alternate within rounding, where a force vanishes: move on without an event.

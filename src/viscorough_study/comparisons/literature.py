@@ -51,8 +51,8 @@ def literature(scaling, interface, reduction, *, entries, conventions):
     rows = []
     for entry in sorted(entries, key=lambda entry: entry["year"]):
         for quantity in entry["ours"] or ["none"]:
-            known = entry | {"quantity": quantity}
-            rows += [known | _theirs(entry, row) | row for row in ours.get(quantity) or [NONE]]
+            common = entry | {"quantity": quantity}
+            rows += [common | _theirs(entry, row) | row for row in ours.get(quantity) or [NONE]]
     return pd.DataFrame(rows)[list(COLUMNS)]
 
 

@@ -45,8 +45,8 @@ def pool_batches(batches, conventions, x):
         for parts, part in zip((stiffness, count), on_abscissae(curves, rms, values["diameter"], x), strict=True):
             parts.append(np.where(beyond, np.nan, part))
         made_from = json.loads(batch.attributes["settings"])
-        known = settings.setdefault(values["case"][0], made_from).get("ensembles", [])
-        known += [ensemble for ensemble in made_from.get("ensembles", []) if ensemble not in known]
+        names = settings.setdefault(values["case"][0], made_from).get("ensembles", [])
+        names += [ensemble for ensemble in made_from.get("ensembles", []) if ensemble not in names]
     pool = xr.Dataset(coords={"x": ("abscissa", x), "rms_convention": list(conventions)})
     for (name, text), parts in zip(VARIABLES.items(), (stiffness, count), strict=True):
         pool[name] = (DIMENSIONS, np.concatenate(parts, axis=1), {"long_name": text, "units": "1"})
@@ -62,9 +62,9 @@ def pool_batches(batches, conventions, x):
     return pool.isel(realization=np.lexsort((table["number"], cases)))
 
 
-def select(pool, **wanted):
+def select(pool, **coordinates):
     """Return the realizations whose coordinates have these values, such as group="base"."""
-    chosen = np.logical_and.reduce([pool[name].values == value for name, value in wanted.items()])
+    chosen = np.logical_and.reduce([pool[name].values == value for name, value in coordinates.items()])
     return pool.isel(realization=np.flatnonzero(chosen))
 
 

@@ -38,8 +38,8 @@ def plot_conventions(scaling, conventions):
     for (hurst, look), height in zip(looks.items(), heights, strict=True):
         beta, zeta = reference.exponent_beta(hurst), reference.zeta_viscous(hurst)
         zetas.axvline(reference.zeta_elastic(hurst) / zeta, color=look["color"], linestyle=":", zorder=1)
-        for y, (_, wanted) in enumerate(changes):
-            for row in fits(discs, wanted, hurst=hurst).itertuples():
+        for y, (_, changed) in enumerate(changes):
+            for row in fits(discs, changed, hurst=hurst).itertuples():
                 interval = row.beta_low - beta, row.beta_high - beta
                 style.mark_with_interval(betas, row.beta - beta, y + height, interval, look, along="x")
                 interval = row.zeta_low / zeta, row.zeta_high / zeta
@@ -53,7 +53,7 @@ def plot_conventions(scaling, conventions):
     betas.set_xlabel(r"exponent $\beta$ less $H/(1+H)$")
     zetas.set(xlabel=r"prefactor $\zeta$ over $2−H$", xscale="log")
     counts = discs.groupby(discs["case_group"] != "base")["realizations"]
-    numbers = [f"{style.count_text(of_group)} discs" for _, of_group in counts]
+    numbers = [f"{style.count_text(group)} discs" for _, group in counts]
     handles = [
         *style.hurst_handles(looks, linestyle=""),
         style.handle("Eq. 10; Eq. 11 (with Γ)", color=style.GREY, linestyle="--"),

@@ -63,20 +63,20 @@ def plot_interface(table, curves, literature, periodic):
 
 def _on_base_grid(rows):
     """Return rows of a source on the base grid: base ensembles, and Hurst exponents that only the grid study has."""
-    of_sizes = rows["case_group"] == "sizes"
-    base = rows[~of_sizes]
-    further = rows[of_sizes & rows["across"].isin(base["across"]) & ~rows["hurst"].isin(base["hurst"])]
+    is_size = rows["case_group"] == "sizes"
+    base = rows[~is_size]
+    further = rows[is_size & rows["across"].isin(base["across"]) & ~rows["hurst"].isin(base["hurst"])]
     return pd.concat([base, further])
 
 
 def _draw_law(axes, ratios, curve, law, look):
     """Draw g of the law of the library in its range, and over g of a curve, with the interval of the curve."""
     curve = curve[curve["x"].between(law.x_low, law.x_high)]
-    of_law = law.velocity(curve["x"].to_numpy()) - curve["x"]
-    axes.plot(curve["x"], of_law, color=style.BLACK, linewidth=0.6)
-    known = curve["interface"] >= LEAST_SHARE * curve["x"]
-    ratios.plot(curve["x"], (of_law / curve["interface"]).where(known), **look)
-    ends = [(of_law / curve[f"interface_{end}"]).where(known) for end in ("high", "low")]
+    law_part = law.velocity(curve["x"].to_numpy()) - curve["x"]
+    axes.plot(curve["x"], law_part, color=style.BLACK, linewidth=0.6)
+    is_large = curve["interface"] >= LEAST_SHARE * curve["x"]
+    ratios.plot(curve["x"], (law_part / curve["interface"]).where(is_large), **look)
+    ends = [(law_part / curve[f"interface_{end}"]).where(is_large) for end in ("high", "low")]
     ratios.fill_between(curve["x"], *ends, color=look["color"], alpha=0.15, linewidth=0)
 
 

@@ -19,9 +19,9 @@ def plot_mdr_comparison(table):
     for hurst, rows in table.groupby("hurst"):
         look = {"color": looks[hurst]["color"], "linestyle": looks[hurst]["linestyle"]}
         for axes, name in ((stiffness, "stiffness_ratio"), (area, "area_ratio"), (gap, "gap_ratio")):
-            known = rows.dropna(subset=name)
-            style.draw_band(axes, known, name, look["color"])
-            axes.plot(known["x"], known[name], **look | {"marker": looks[hurst]["marker"] if axes is gap else ""})
+            finite = rows.dropna(subset=name)
+            style.draw_band(axes, finite, name, look["color"])
+            axes.plot(finite["x"], finite[name], **look | {"marker": looks[hurst]["marker"] if axes is gap else ""})
         scatter.plot(rows["x"], np.exp(rows["stiffness_scatter"]), **look)
         correlation.plot(rows["x"], rows["correlation"], **look)
         force.plot(rows["x"], rows["force_ratio"], **look)

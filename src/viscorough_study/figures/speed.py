@@ -144,12 +144,16 @@ def _draw_solvers(axes, methods, velocity, other_solvers):
         if len(curve):
             place = tuple(curve.iloc[0][["processor_s", "error"]])
             axes.annotate(label, place, offset, textcoords="offset points", color=color)
-    of_grid = velocity.query("model == @GRID and across == @rough.elements.iloc[0]")["error"]
-    if len(of_grid):
-        axes.axhspan(of_grid.min(), of_grid.max(), color=style.ORANGE, alpha=0.4, linewidth=0, zorder=0)
+    grid_error = velocity.query("model == @GRID and across == @rough.elements.iloc[0]")["error"]
+    if len(grid_error):
+        axes.axhspan(grid_error.min(), grid_error.max(), color=style.ORANGE, alpha=0.4, linewidth=0, zorder=0)
         edge = axes.get_yaxis_transform()
         axes.annotate(
-            "error of the grid", (0.98, np.sqrt(of_grid.min() * of_grid.max())), xycoords=edge, ha="right", va="center"
+            "error of the grid",
+            (0.98, np.sqrt(grid_error.min() * grid_error.max())),
+            xycoords=edge,
+            ha="right",
+            va="center",
         )
     axes.set_xlim(right=2.5 * rough["processor_s"].max())
     _draw_others(axes, rough, other_solvers)

@@ -52,24 +52,24 @@ def as_text(conventions):
     return ", ".join(f"{name} {value}" for name, value in conventions.items())
 
 
-def select(table, wanted):
+def select(table, values):
     """Return rows of a table of fits with these values of columns, converted to the requested reading of the law.
 
-    wanted : {column or convention: value}, with the reading as gamma
+    values : {column or convention: value}, with the reading as gamma
     """
-    for column, value in wanted.items():
+    for column, value in values.items():
         if column != "gamma":
             table = table[table[column] == value]
-    return in_reading(table, wanted["gamma"]).sort_values("hurst", kind="stable")
+    return in_reading(table, values["gamma"]).sort_values("hurst", kind="stable")
 
 
-def fits(table, conventions, **wanted):
+def fits(table, conventions, **values):
     """Return rows of a table of fits in these conventions and with these values, by ascending H.
 
-    conventions, wanted : {column or convention: value}; `wanted` replaces conventions of the same name
+    conventions, values : {column or convention: value}; `values` replaces conventions of the same name
     Rows without a region (b), and so without an exponent, are omitted.
     """
-    return select(table, conventions | wanted).dropna(subset="beta")
+    return select(table, conventions | values).dropna(subset="beta")
 
 
 def source_values(source):

@@ -30,17 +30,17 @@ class LineMatch:
 
     def stretch_at(self, x):
         """Return ln s that matches discs and lines at X, shape (1 + resamples, X); nan where the lines do not reach."""
-        wanted, log_x = np.log(np.atleast_1d(x)), np.log(self.x)
+        log_chosen, log_x = np.log(np.atleast_1d(x)), np.log(self.x)
         complete = np.isfinite(self.lines[0])
-        stretch = np.full((len(self.discs), wanted.size), np.nan)
+        stretch = np.full((len(self.discs), log_chosen.size), np.nan)
         if not complete.any():
             return stretch
         for row, discs, lines in zip(stretch, self.discs, self.lines, strict=True):
-            target = np.interp(wanted, log_x, discs)
+            target = np.interp(log_chosen, log_x, discs)
             # 1/κ falls with X. It is constant only if every line has one point in contact, which lies below every
             # window.
             falling = lines[complete][::-1]
-            row[:] = wanted - np.interp(target, falling, log_x[complete][::-1], left=np.nan, right=np.nan)
+            row[:] = log_chosen - np.interp(target, falling, log_x[complete][::-1], left=np.nan, right=np.nan)
         return stretch
 
     def lambda_at(self, x):

@@ -20,4 +20,4 @@ def calculator(section, script):
 def law_table():
     """Return {number of the law: its values over ascending H}."""
     table = {name: values.tolist() for name, values in interface_calibration().items()}
-    return table | {"of_one_element": [1 / one_element_stiffness(ACROSS) - 1] * len(table["hurst"])}
+    return table | {"one_element": [1 / one_element_stiffness(ACROSS) - 1] * len(table["hurst"])}

@@ -39,8 +39,8 @@ def verdicts(results, statements, published):
         rows, full_scale = results.rows("claims", claim=name), None
         displayed = cases_shown(rows)
         if at_full_scale.get(name, verdict) != verdict:
-            of_claim = published[published["claim"] == name]
-            deciding = of_claim.loc[deciding_case(of_claim)]
+            claim_cases = published[published["claim"] == name]
+            deciding = claim_cases.loc[deciding_case(claim_cases)]
             full_scale = {"verdict": at_full_scale[name], "case": f"{deciding['case']}: {value_text(deciding)}"}
         claims[KINDS[statements[name]["kind"]]].append(
             {
@@ -93,11 +93,11 @@ def measured(results, conventions):
     """
     if "measured_scans" not in results.tables:
         return {"scans": [], "contacts": [], "groups": []}
-    wanted = {"rms_convention": "disc", "average": conventions["average"], "window_rule": conventions["window_rule"]}
+    chosen = {"rms_convention": "disc", "average": conventions["average"], "window_rule": conventions["window_rule"]}
     return {
         "scans": results.records("measured_scans"),
         "contacts": results.records("measured_contacts"),
-        "groups": results.records("measured_fits", **wanted),
+        "groups": results.records("measured_fits", **chosen),
     }
 
 

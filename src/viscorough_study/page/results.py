@@ -59,10 +59,10 @@ class Results:
     settings: dict
     origins: dict = field(default_factory=dict)
 
-    def rows(self, table, **wanted):
+    def rows(self, table, **chosen):
         """Return rows of a table with these values, {column: value}."""
         rows = self.tables[table]
-        return rows[(rows[list(wanted)] == list(wanted.values())).all(axis=1)]
+        return rows[(rows[list(chosen)] == list(chosen.values())).all(axis=1)]
 
     def number(self, table, row, column):
         """Return the number at a place of a table."""
@@ -74,9 +74,9 @@ class Results:
         values = self.tables[table].loc[row].items()
         return {name: value if isinstance(value, str) else self.number(table, row, name) for name, value in values}
 
-    def records(self, table, **wanted):
+    def records(self, table, **chosen):
         """Return the records of the rows with these values, {column: value}."""
-        return [self.record(table, row) for row in self.rows(table, **wanted).index]
+        return [self.record(table, row) for row in self.rows(table, **chosen).index]
 
     def extremes(self, rows, table, column):
         """Return the smallest and largest number in a column of some rows of a table; (None, None) if there is none."""

@@ -120,14 +120,14 @@ def surface_rows(hurst, elements, seed):
             curve, seconds = _timed(lambda: indent(disc, error=error, **until))  # noqa: B023
         across = len(disc.heights[:: curve.sampling])
         table += rows(curve, seconds, REQUEST, across, "error", error, curve.mean_grid_error)
-    of_velocity = {"quantity": "velocity", "across": np.nan, "stated": np.nan}
+    velocity_row = {"quantity": "velocity", "across": np.nan, "stated": np.nan}
     for points in POINTS:
         velocity, seconds = _timed(lambda: _reduced_velocity(hurst, points, force, line_seed))  # noqa: B023
         made = {"model": MDR, "parameter": "points", "value": points, "processor_s": seconds}
-        table.append(of_velocity | made | {"error": _deviation(velocity, truth["velocity"])})
+        table.append(velocity_row | made | {"error": _deviation(velocity, truth["velocity"])})
     velocity = penetration_law(hurst).velocity(x)
     made = {"model": LAW, "parameter": "", "value": np.nan, "processor_s": 0.0}
-    table.append(of_velocity | made | {"error": _deviation(velocity, truth["velocity"])})
+    table.append(velocity_row | made | {"error": _deviation(velocity, truth["velocity"])})
     return table + _pressure_rows(every_nth_point(disc, CONTACT_STEP))
 
 

@@ -82,6 +82,6 @@ def _range_rows(discs, scaling, conventions):
     laws = fits(scaling, conventions, source="discs", case_group="base").set_index("hurst")
     for hurst, law in laws.iterrows():
         x, velocity = base[hurst]["x"].values, base[hurst]["velocity_geometric"].values
-        known = np.isfinite(velocity) & (base[hurst]["contact_count_median"].values > 1)
-        for abscissa, exact in zip(x[known], velocity[known], strict=True):
+        has_velocity = np.isfinite(velocity) & (base[hurst]["contact_count_median"].values > 1)
+        for abscissa, exact in zip(x[has_velocity], velocity[has_velocity], strict=True):
             yield RANGE, hurst, abscissa, abs(abscissa ** law["beta"] / law["zeta"] / exact - 1), 0

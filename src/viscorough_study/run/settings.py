@@ -77,9 +77,9 @@ def _complaint(error):
     if kind == "contradiction":
         return error["ctx"]["paths"], error["msg"]
     if kind in ("extra_forbidden", "invalid_key"):
-        known = sorted(_rule(path[:-1])["properties"])
-        close = difflib.get_close_matches(str(path[-1]), known, 1)
-        hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(known)}"
+        keys = sorted(_rule(path[:-1])["properties"])
+        close = difflib.get_close_matches(str(path[-1]), keys, 1)
+        hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(keys)}"
         return [path], f"unknown key {str(path[-1])!r:.60} in {above}; {hint}"
     if kind == "missing":
         return [path[:-1]], f"{above} lacks {path[-1]}; needed: {', '.join(_rule(path[:-1])['required'])}"

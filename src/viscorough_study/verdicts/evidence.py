@@ -78,13 +78,13 @@ class Evidence:
         """Return {H: window (X_low, X_high) of region (b) of the pooled discs, None without one}."""
         return {hurst: find_region(ensemble, **self.limits) for hurst, ensemble in self.pooled.items()}
 
-    def fits(self, source, **wanted):
+    def fits(self, source, **changed):
         """Return base fits of "discs" or "lines", one row per Hurst exponent, in the conventions of the figures.
 
-        wanted : conventions that replace the conventions of the figures
+        changed : conventions that replace the conventions of the figures
         """
-        wanted = self.conventions | wanted | source_values(source) | {"case_group": "base"}
-        return select(self.tables["scaling"], wanted).set_index("hurst")
+        changed = self.conventions | changed | source_values(source) | {"case_group": "base"}
+        return select(self.tables["scaling"], changed).set_index("hurst")
 
     def every_fit(self, source):
         """Return fits of "discs" or "lines" in every convention that needs a fit, of all surfaces left open."""

@@ -34,8 +34,8 @@ def beta_lines(evidence, tolerance):
 
 def exponent_small_hurst(evidence, tolerance):
     """Yield β of discs and of lines minus H/(1 + H), for the discs' Hurst exponents without a claim of the paper."""
-    of_discs = evidence.fits("discs")
-    small = of_discs.index[of_discs.index <= evidence.paper_value("agreement", "beta_hurst_min")]
+    disc_fits = evidence.fits("discs")
+    small = disc_fits.index[disc_fits.index <= evidence.paper_value("agreement", "beta_hurst_min")]
     for source in ("discs", "lines"):
         fits = evidence.fits(source)
         for hurst in small.intersection(fits.index):
@@ -50,9 +50,9 @@ def coincide(evidence, tolerance):
     """Return β of lines minus β of discs, with the conventions that make the difference smallest."""
     discs, lines = (evidence.every_fit(source).query("case_group == 'base'") for source in ("discs", "lines"))
     both = discs.merge(lines, on=["hurst", "average", "window_rule"], how="left", suffixes=("", "_of_lines"))
-    of_lines = tuple(both[f"{name}_of_lines"] for name in ("beta", "beta_low", "beta_high"))
+    line_columns = tuple(both[f"{name}_of_lines"] for name in ("beta", "beta_low", "beta_high"))
     columns = ["difference", "difference_low", "difference_high"]
-    both = both.assign(**dict(zip(columns, difference(interval(both, "beta"), of_lines), strict=True)))
+    both = both.assign(**dict(zip(columns, difference(interval(both, "beta"), line_columns), strict=True)))
     both["realizations"] = both[["realizations", "realizations_of_lines"]].min(axis=1)
     own = select(both, evidence.conventions).set_index("hurst")
     return evidence.cases_in_conventions(own, both, "difference", Law(lambda h: 0.0 * h, tolerance), names=list(FITTED))
@@ -120,8 +120,8 @@ def _slopes(ensemble, window):
 
 def alpha_limit(evidence, tolerance):
     """Yield β at H = 1, for which the paper calls the exponent exact: of lines, and of discs on the paper's grid."""
-    wanted = evidence.conventions | source_values("discs") | {"case_group": "sizes"}
-    discs = select(evidence.tables["sizes"], wanted).set_index("hurst")
+    chosen = evidence.conventions | source_values("discs") | {"case_group": "sizes"}
+    discs = select(evidence.tables["sizes"], chosen).set_index("hurst")
     discs = discs[discs["elements"] >= SHARE_OF_SQUARE * evidence.across**2].sort_values("elements", kind="stable")
     for source, fits in (("lines", evidence.fits("lines")), ("discs", discs)):
         fit = fits[fits.index == 1.0].head(1).to_dict("records")

@@ -158,8 +158,8 @@ def test_forces_and_viscosities_are_in_si_with_a_unit_of_length():
     curve = curve_of_body(reference.sphere(100.0), np.geomspace(0.01, 1, 20))
     in_micrometres = dataclasses.replace(curve, length_unit="um")
     wanted = kinetics(curve, 2e-5, 3e-9, [1e-4, 1e-3])
-    of_pint = 20 * pint.UnitRegistry().micronewton
-    for force, viscosity in ((2e-5, 3e3), ("20 uN", "3 kPa s"), ("2e-5 N", 3e3), (of_pint, 3e3)):
+    with_pint = 20 * pint.UnitRegistry().micronewton
+    for force, viscosity in ((2e-5, 3e3), ("20 uN", "3 kPa s"), ("2e-5 N", 3e3), (with_pint, 3e3)):
         motion = kinetics(in_micrometres, force, viscosity, [1e-4, 1e-3])
         np.testing.assert_allclose([motion.depth, motion.velocity], [wanted.depth, wanted.velocity], rtol=1e-12)
     assert str(motion).splitlines()[1:] == [

@@ -61,12 +61,12 @@ def scaling():
 def drawn(discs, pooled, lines, scaling):
     """Return {file of the report: its figure}, drawn without a warning."""
     heights = self_affine_disc(0.5, 9, seed=1).heights
-    of_group = scaling[scaling["source"] == "discs"].assign(source="measured", case_group="polished")
+    group = scaling[scaling["source"] == "discs"].assign(source="measured", case_group="polished")
     arguments = tables.FROM_TABLES | {
         "fig1_surfaces": ([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)],),
         "fig2_kinetics": (discs, tables.CASES, scaling, SHOWN),
         "fig3_master_curve": (pooled, lines, scaling, SHOWN),
-        "measured": ({"polished": pooled[0]}, pooled, of_group, tables.measured_kinetics(), SHOWN),
+        "measured": ({"polished": pooled[0]}, pooled, group, tables.measured_kinetics(), SHOWN),
     }
     params = {name: figure.get("params", []) for name, figure in FIGURES.items()}
     shares = {name: {"fraction_min": 0.95} for name in params if "fraction_min" in params[name]}

@@ -36,8 +36,8 @@ def faults(caption, figure):
     """Return the errors and omissions of a caption, one line each."""
     caption, wrong = plain(caption), []
     drawn = {match[0] for axes in figure.axes if (match := re.match(r"\([a-z]\)", axes.get_title()))}
-    of_no_region = re.sub(r"regions? \([abc]\)( and \([abc]\))?", "", caption)
-    named = set(re.findall(r"\([a-z]\)", of_no_region))
+    without_regions = re.sub(r"regions? \([abc]\)( and \([abc]\))?", "", caption)
+    named = set(re.findall(r"\([a-z]\)", without_regions))
     wrong += [f"panel {name} is not described, or not there" for name in sorted(drawn ^ named)]
     text, quantities = caption.lower(), {plain(re.sub(r" \([^()]*\)$", "", label)) for label in labels_of(figure)}
     wrong += [f"axis {label} is not described" for label in quantities if label.lower() not in text]

@@ -87,9 +87,9 @@ def expected_points(scaling):
     yield "interface", 0, points(published("periodic"), "x", "g")
     yield "interface", 3, points(interface.query("source == 'discs'"), None, "u0", "u0_low")
     for panel, rule in ((0, "default"), (2, "X = 0.01 to 0.1")):
-        table, of_lines = published("sizes").query("window_rule == @rule"), {"rms_convention": "line"}
+        table, line_rms = published("sizes").query("window_rule == @rule"), {"rms_convention": "line"}
         yield "sizes", panel, points(fits(table, SHOWN | {"window_rule": rule}, source="discs"), None, "beta")
-        yield "sizes", panel + 1, points(fits(table, SHOWN | {"window_rule": rule}, **of_lines), None, "beta")
+        yield "sizes", panel + 1, points(fits(table, SHOWN | {"window_rule": rule}, **line_rms), None, "beta")
     limits = published("infinite_grid").query("source == 'discs'")
     yield "collapse", 2, points(limits.assign(less=limits["beta"] - limits["expected"]), None, "less")
     for panel, (_, rows) in enumerate(published("level_placement").groupby("scene", sort=False)):

@@ -73,8 +73,8 @@ def row(mean):
 
 def test_row_distinguishes_a_power_law_from_a_control():
     law, none = row(0.3 * np.log(X) - 3), row(control(X))
-    of_region = {"half_spread", "half_spread_low", "half_spread_high", "region_decades"}
-    assert {"case_group", *law} == set(COLUMNS) - of_region
+    region_columns = {"half_spread", "half_spread_low", "half_spread_high", "region_decades"}
+    assert {"case_group", *law} == set(COLUMNS) - region_columns
     assert law["decades"] == pytest.approx(3)
     assert law["decades_low"] >= 2
     assert none["decades_high"] < 2

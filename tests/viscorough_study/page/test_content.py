@@ -55,10 +55,10 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
         shown = results.tables["claims"].loc[[case["value"].row for case in claim["cases"]]]
         assert set(shown["claim"]) == {claim["name"]}
         assert shown["case"].tolist() == [case["case"] for case in claim["cases"]]
-    of_scans = measured(results, conventions)
-    assert of_scans["scans"] == [{"file": "g"}]
-    assert [(row["file"], row["normal_force"].value) for row in of_scans["contacts"]] == [("g", 0.1), ("g", 0.2)]
-    assert [(row["case_group"], row["beta"].value) for row in of_scans["groups"]] == [("j", 0.1), ("k", 0.2)]
+    rows_of_scans = measured(results, conventions)
+    assert rows_of_scans["scans"] == [{"file": "g"}]
+    assert [(row["file"], row["normal_force"].value) for row in rows_of_scans["contacts"]] == [("g", 0.1), ("g", 0.2)]
+    assert [(row["case_group"], row["beta"].value) for row in rows_of_scans["groups"]] == [("j", 0.1), ("k", 0.2)]
     assert measured(Results({}, {}), conventions) == {"scans": [], "contacts": [], "groups": []}
 
 

@@ -14,9 +14,9 @@ def test_published_numbers_are_shown_next_to_ours():
     sources, quantities = discussion(Results({"literature": TABLE}, {})).values()
     for name, rows in quantities.items():
         for row in rows:
-            of_table = TABLE[(TABLE["quantity"] == name) & (TABLE["hurst"] == row["hurst"])]
-            assert row["value"] == Number(of_table["value"].iloc[0], "literature", "value", of_table.index[0])
-            stated = of_table.dropna(subset="theirs_low")
+            table_rows = TABLE[(TABLE["quantity"] == name) & (TABLE["hurst"] == row["hurst"])]
+            assert row["value"] == Number(table_rows["value"].iloc[0], "literature", "value", table_rows.index[0])
+            stated = table_rows.dropna(subset="theirs_low")
             for (source, low, high), (i, theirs) in zip(row["theirs"], stated.iterrows(), strict=True):
                 assert (low.value, low.row, high.row) == (theirs["theirs_low"], i, i)
                 assert source.endswith(", as quoted") == (theirs["sure"] == "quoted")

@@ -23,8 +23,8 @@ def influence(places, width=WIDTH, aspect=1.0):
 def approximate_inverse(inside, aspect=1.0, precision=np.float64, before=()):
     """Return the places of a set and the matrix of M on it, column by column, after preparation for other sets."""
     preconditioner = Preconditioner(*inside.shape, aspect=aspect, precision=precision)
-    for of_set in (*before, inside):
-        preconditioner.prepare(of_set.ravel(), np.count_nonzero(of_set))
+    for contact_set in (*before, inside):
+        preconditioner.prepare(contact_set.ravel(), np.count_nonzero(contact_set))
     places, columns = np.flatnonzero(inside), []
     for place in places:
         # Values outside the set must not matter.

@@ -38,9 +38,9 @@ def test_heun_steps_are_more_accurate_than_explicit_ones(events):
     errors = {"explicit": [], "heun": []}
     for steps in (32, 64, 128, 256):
         impulses = np.geomspace(events.impulse[1] / 10, events.impulse[700], steps)
-        for scheme, of_scheme in errors.items():
+        for scheme, scheme_errors in errors.items():
             result = march_steps(DISC, impulses, scheme=scheme)
-            of_scheme.append(np.sqrt(np.mean((result.depth / events.depth_at(impulses) - 1) ** 2)))
+            scheme_errors.append(np.sqrt(np.mean((result.depth / events.depth_at(impulses) - 1) ** 2)))
     ratio = np.array(errors["heun"]) / errors["explicit"]
     assert ratio.max() < 0.8
     assert np.exp(np.mean(np.log(ratio))) < 0.5

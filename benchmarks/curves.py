@@ -20,9 +20,9 @@ from measuring import output_option, run_timed, save
 
 from viscorough import Indenter, contact_at, indent, self_affine_disc
 from viscorough.contact.halfspace.operator import Convolution, spectrum_of_grid
-from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
-from viscorough.surfaces import self_affine_square
+from viscorough.surfaces.lines import SelfAffineLines
+from viscorough.surfaces.self_affine import self_affine_square
 from viscorough_study.performance import timing
 
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0

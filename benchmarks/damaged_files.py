@@ -29,8 +29,8 @@ from tqdm import tqdm
 import viscorough
 from viscorough.io import netcdf
 from viscorough.io.datasets import read_dataset, write_dataset
-from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
+from viscorough.surfaces.lines import SelfAffineLines
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.batches import Realization, batch_of_curves
 from viscorough_study.ensembles.pool import pool_batches

@@ -33,8 +33,8 @@ from measuring import save
 from tqdm import tqdm
 
 import viscorough
-from viscorough.errors import AccuracyWarning
-from viscorough.units import metres
+from viscorough.basics.errors import AccuracyWarning
+from viscorough.basics.units import metres
 
 KINDS = (text_files.matrix, text_files.points, text_files.esri, text_files.profile)
 SHARES = (0.6, 0.2, 0.05, 0.15)

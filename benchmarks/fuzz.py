@@ -30,7 +30,7 @@ from tqdm import tqdm
 from viscorough import cli
 from viscorough.io import netcdf
 from viscorough.io.curves import OVER_LEVELS
-from viscorough.io.media import read_medium
+from viscorough.io.medium_files import read_medium
 
 FIGURES = {".png": b"\x89PNG", ".svg": b"<?xml"}  # first bytes
 LONGEST = 120  # longest time of a run in seconds

@@ -26,7 +26,7 @@ from measuring import output_option, run_timed, save_table
 from tqdm import tqdm
 
 from viscorough import AccuracyWarning, Indenter, indent
-from viscorough.surfaces import cut_disc, self_affine_square
+from viscorough.surfaces.self_affine import cut_disc, self_affine_square
 
 SEED = 20130513
 SAMPLES = ("calibration", "test")

@@ -16,7 +16,7 @@ import pandas as pd
 from measuring import LARGE_PAGES, fit_cost, output_option, run_timed, save_times
 
 from viscorough.contact.loading_path import indent
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.figures import style
 from viscorough_study.performance import timing
 from viscorough_study.run.seeds import large_disc_key, realization_seed

@@ -1,7 +1,7 @@
 """Calibrate the penetration law by loading curves of discs up to complete contact.
 
-The law of g, the interface's part of vt/h (viscorough.calibrated_law), has five constants for each Hurst exponent and
-grid. Two conditions are exact: its integrals over ln X and over X equal the means over the discs, which follow from
+The law of g, the interface's part of vt/h (viscorough.law.calibrated_law), has five constants for each Hurst exponent
+and grid. Two conditions are exact: its integrals over ln X and over X equal the means over the discs, which follow from
 linear solutions (viscorough.complete_contact). The remaining freedom is used to fit the mean of g. Other discs measure
 the deviation of the law from g, and the range of its validity. Means over discs are arithmetic.
 
@@ -15,10 +15,10 @@ import numpy as np
 from scipy.integrate import simpson
 from scipy.optimize import least_squares
 
-from viscorough.calibrated_law import CONSTANTS, LARGEST_DEVIATION, interface_depth, interface_velocity
 from viscorough.contact.loading_path import indent
-from viscorough.sum_rules import complete_contact
-from viscorough.surfaces import self_affine_disc
+from viscorough.contact.sum_rules import complete_contact
+from viscorough.law.calibrated_law import CONSTANTS, LARGEST_DEVIATION, interface_depth, interface_velocity
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.interface import run_around
 from viscorough_study.fits.intervals import described, mean_with_interval, resampled_means, three_columns, with_interval

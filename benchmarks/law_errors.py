@@ -22,7 +22,7 @@ from law_scatter import calibrated_scatter, law_at
 from measuring import output_option, save_table
 from tqdm import tqdm
 
-from viscorough.calibrated_law import penetration_law, relative_interval
+from viscorough.law.calibrated_law import penetration_law, relative_interval
 from viscorough_study.run.seeds import law_disc_key, realization_seed
 
 SEED = 2013

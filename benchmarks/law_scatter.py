@@ -11,8 +11,8 @@ import pandas as pd
 from scipy.optimize import linprog
 from scipy.sparse import hstack, identity
 
-from viscorough.calibrated_law import SCATTER_COLUMNS as COLUMNS
-from viscorough.calibrated_law import interface_depth, interface_velocity, penetration_law
+from viscorough.law.calibrated_law import SCATTER_COLUMNS as COLUMNS
+from viscorough.law.calibrated_law import interface_depth, interface_velocity, penetration_law
 
 _POWERS = 4  # of H in a quantile, from 0 on
 # Quantiles at the ends of the interval. The quantiles 0.025 and 0.975 of a finite sample contain 94 % of other discs.

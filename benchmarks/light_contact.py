@@ -19,7 +19,7 @@ from measuring import LARGE_PAGES, fit_cost, output_option, run_timed, save_time
 
 from viscorough import Indenter, contact_at
 from viscorough.contact.ranking import Ranking
-from viscorough.surfaces import self_affine_square
+from viscorough.surfaces.self_affine import self_affine_square
 from viscorough_study.figures import style
 from viscorough_study.performance import timing
 from viscorough_study.run.seeds import light_map_key, realization_seed

@@ -14,8 +14,8 @@ from measuring import output_option, save_table
 from scipy.signal import resample
 
 from viscorough import Indenter, contact_at
-from viscorough.contact_maps import EXCESS_PER_CHANGE
-from viscorough.surfaces import self_affine_square
+from viscorough.results.contact_maps import EXCESS_PER_CHANGE
+from viscorough.surfaces.self_affine import self_affine_square
 from viscorough_study.comparisons.periodic_control import mean_separations, periodic_contact
 
 # A free square, H = 0.8, waves 1 to 32 of the side, p/(E* h') = 0.30: raw and corrected contact fraction.

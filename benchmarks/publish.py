@@ -27,7 +27,7 @@ import yaml
 from measuring import write_json
 from PIL import Image  # matplotlib depends on it
 
-from viscorough.calibrated_law import CONSTANTS
+from viscorough.law.calibrated_law import CONSTANTS
 from viscorough_study.fits.infinite_grid import OMEGA
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
@@ -82,10 +82,10 @@ PUBLISHED = {
 KEPT = {
     "paper": {
         "tables/claims.csv": "docs/claims.csv",
-        "tables/calibration.csv": "src/viscorough/data/calibration.csv",
+        "tables/calibration.csv": "src/viscorough/law/data/calibration.csv",
     },
-    "law": {"tables/law.csv": "src/viscorough/data/law.csv"},
-    "law-errors": {"tables/law_scatter.csv": "src/viscorough/data/law_scatter.csv"},
+    "law": {"tables/law.csv": "src/viscorough/law/data/law.csv"},
+    "law-errors": {"tables/law_scatter.csv": "src/viscorough/law/data/law_scatter.csv"},
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,
         "tables/claims.csv": DEFAULT_CLAIMS,

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 from random_heights import random_heights, with_random_aspect
 
+from viscorough.basics.errors import AccuracyWarning, ConvergenceError
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
-from viscorough.errors import AccuracyWarning, ConvergenceError
-from viscorough.indenter import Indenter
-from viscorough.sum_rules import audit, complete_contact
-from viscorough.surfaces import self_affine_disc
+from viscorough.contact.sum_rules import audit, complete_contact
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.robustness.stress_solutions import GRID_ONLY

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 
 
 def random_heights(generator, largest=12):

@@ -10,16 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 from random_heights import random_heights, with_random_aspect
 
+from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.loading_path import indent
-from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter
-from viscorough.loading_curve import LoadingCurve
+from viscorough.media.creep_response import creep_response
+from viscorough.media.kinds import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.media.load import Load
+from viscorough.media.medium import Medium
 from viscorough.reference import cone, sphere
-from viscorough.viscous.creep_response import creep_response
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.kinetics import kinetics, row_motion
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
-from viscorough.viscous.medium import Medium
 from viscorough.viscous.unilateral_sums import step_row
 
 _LARGEST = 24  # largest number of elements across

@@ -4,8 +4,8 @@
 
 The indenters are rough discs of 257 elements across, bodies, and discs with terraces, a hole and rectangular elements,
 up to complete contact. Plain curves, as `indent` computes them, have tolerances from 1e-3 to 1e-8; audits have
-tolerances of 1e-3 and 1e-5. The file has the relative deviations of all quadratures (viscorough.sum_rules), and the
-levels of the audits.
+tolerances of 1e-3 and 1e-5. The file has the relative deviations of all quadratures (viscorough.contact.sum_rules), and
+the levels of the audits.
 """
 
 from functools import partial
@@ -15,8 +15,8 @@ import numpy as np
 from measuring import output_option, save
 
 from viscorough import Indenter, audit, complete_contact, indent, self_affine_disc
+from viscorough.contact.sum_rules import integrals
 from viscorough.reference import cone, sphere
-from viscorough.sum_rules import integrals
 
 ACROSS, SEED = 257, 1
 ROUGH = self_affine_disc(0.6, ACROSS, seed=SEED).heights

@@ -17,7 +17,7 @@ def test_sdist_and_wheel_contain_only_the_library(tmp_path):
     sdist, wheel = distribution.build(tmp_path)
     names = zipfile.ZipFile(wheel).namelist()
     assert {name for name in names if ".dist-info/" not in name} == LIBRARY
-    assert {"viscorough/py.typed", "viscorough/__init__.pyi", "viscorough/data/calibration.csv"} <= LIBRARY
+    assert {"viscorough/py.typed", "viscorough/__init__.pyi", "viscorough/law/data/calibration.csv"} <= LIBRARY
     assert any(name.endswith("/LICENSE") for name in names)
     assert wheel.stat().st_size <= 1_000_000
     with tarfile.open(sdist) as archive:

@@ -12,14 +12,14 @@ import numpy as np
 from ducc0 import fft
 from numpy.typing import NDArray
 
-from viscorough import units
-from viscorough.arrays import fraction, real_numbers
-from viscorough.compilation import njit
-from viscorough.indenter import Indenter, check_indenter
-from viscorough.loading_curve import LoadingCurve
-from viscorough.spectrum import seed_sequence
-from viscorough.summaries import unit_power
-from viscorough.types import Array, Integers, Seed
+from viscorough.basics import units
+from viscorough.basics.arrays import fraction, real_numbers
+from viscorough.basics.compilation import njit
+from viscorough.basics.summaries import unit_power
+from viscorough.basics.types import Array, Integers, Seed
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.indenter import Indenter, check_indenter
+from viscorough.surfaces.spectrum import seed_sequence
 
 # Bins per octave of gaps, a power of 2. Bins are then 0.8 to 1.6 % wide.
 _BINS_PER_OCTAVE = 64

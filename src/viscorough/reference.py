@@ -18,11 +18,11 @@ import numpy as np
 from scipy.special import ellipkm1
 from scipy.special import gamma as gamma_function
 
-from viscorough.arrays import float_or_array, shown, whole_number
-from viscorough.indenter import Indenter, positive
-from viscorough.types import Array, Numbers
+from viscorough.basics.arrays import float_or_array, positive, shown
+from viscorough.basics.elasticity import one_element_stiffness as one_element_stiffness
+from viscorough.basics.types import Array, Numbers
+from viscorough.surfaces.indenter import Indenter
 
-UNIT_SQUARE_DEFLECTION = 4 * np.log(1 + np.sqrt(2))  # K₀₀ = πE*u/(pd), u at the centre of a loaded square
 COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E*·L/2; region (c): vt/h = X
 
 
@@ -276,20 +276,6 @@ def line_spectrum(wavenumber: Numbers, spectrum: Numbers, transfer: Numbers = np
     """
     transfer, spectrum = float_or_array("transfer", transfer), float_or_array("spectrum", spectrum)
     return transfer * float_or_array("wavenumber", wavenumber) * spectrum
-
-
-def one_element_stiffness(elements_across: int) -> float:
-    """Return κ while one square element is in contact (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ.
-
-    A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
-
-    Examples
-    --------
-    >>> from viscorough import reference
-    >>> round(float(reference.one_element_stiffness(11)), 3)
-    0.081
-    """
-    return np.pi / (UNIT_SQUARE_DEFLECTION * whole_number("elements_across", elements_across, at_least=1))
 
 
 def _hurst_exponent(hurst: Numbers) -> Numbers:

@@ -4,7 +4,7 @@ import file_campaign as campaign
 import numpy as np
 import pytest
 
-from viscorough.indenter import Indenter
+from viscorough.surfaces.indenter import Indenter
 
 
 @pytest.fixture(scope="module")

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from law_calibration import COLUMNS, FIT_LOW, X, calibrate, complete_curve, fit_constants, law_integrals
 
-from viscorough.calibrated_law import CONSTANTS, interface_depth, interface_velocity
-from viscorough.sum_rules import audit
-from viscorough.surfaces import self_affine_disc
+from viscorough.contact.sum_rules import audit
+from viscorough.law.calibrated_law import CONSTANTS, interface_depth, interface_velocity
+from viscorough.surfaces.self_affine import self_affine_disc
 
 LAW, ACROSS = (0.8, 0.35, 4.0, 2.0, 80.0), 129
 

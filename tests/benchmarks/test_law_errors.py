@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from law_scatter import calibrated_scatter, law_at, quantile
 from scipy.stats import norm
 
-from viscorough.calibrated_law import SCATTER_COLUMNS, penetration_law, relative_interval
+from viscorough.law.calibrated_law import SCATTER_COLUMNS, penetration_law, relative_interval
 
 X = np.array([0.01, 0.1, 1.0])
 

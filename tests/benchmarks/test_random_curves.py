@@ -14,12 +14,12 @@ from random_curves import (
     whole_curve_failure,
 )
 
+from viscorough.basics.errors import AccuracyWarning, ConvergenceError
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.state import DenseContact
-from viscorough.errors import AccuracyWarning, ConvergenceError
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.robustness.stress_solutions import GRID_ONLY
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 

@@ -18,8 +18,8 @@ from support.code_blocks import run_console, run_python, run_shell
 from support.documentation import PAGES, README, ROOT, blocks, read
 from support.workflow import merged, read_settings
 from viscorough import read_load
-from viscorough.io.media import read_medium
-from viscorough.surfaces import self_affine_disc
+from viscorough.io.medium_files import read_medium
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.settings import check_settings
 
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}

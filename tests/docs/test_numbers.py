@@ -13,16 +13,16 @@ from measuring import fit_cost
 from support.documentation import ROOT, read
 from support.study import CLAIMS, SHOWN
 from support.workflow import merged, read_settings
-from viscorough.calibrated_law import penetration_law
 from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE
 from viscorough.contact.step_control import _RELAXED_BOUND
+from viscorough.law.calibrated_law import penetration_law
 from viscorough.reference import exponent_beta
 from viscorough_study.page import article
 from viscorough_study.page.results import Results
 from viscorough_study.run.cases import disc_cases
 
 TABLE = publish.published_claims()
-LAW = pd.read_csv(ROOT / "src/viscorough/data/law.csv").query("across == 257").set_index("hurst")
+LAW = pd.read_csv(ROOT / "src/viscorough/law/data/law.csv").query("across == 257").set_index("hurst")
 BENCHMARKS = json.loads(read(ROOT / "docs/results/benchmarks.json"))
 OTHER_TIMES = pd.read_csv(ROOT / publish.OTHER_SOLVERS)["ratio"]
 DISCS = "source == 'discs' and average == 'geometric' and rms_convention == 'disc'"
@@ -254,7 +254,7 @@ QUOTED = {
     "src/viscorough/cli/estimate.py": {
         "vt/h within {:.0f} % of the law, and of g within {:.0f} %": lambda: law_errors("velocity", "interface"),
     },
-    "src/viscorough/calibrated_law.py": {
+    "src/viscorough/law/calibrated_law.py": {
         "vt/h within {:.0f} % of the law, of g within {:.0f} % and of u/h within {:.0f} %": lambda: law_errors(
             "velocity", "interface", "depth"
         ),

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from viscorough.loading_curve import LoadingCurve
+from viscorough.results.loading_curve import LoadingCurve
 
 
 def random_curve(levels=7, seed=0, **changes):

@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from support.study import SHOWN
 from support.workflow import RESULTS, ROOT
-from viscorough.calibrated_law import CONSTANTS, interface_velocity, penetration_law
+from viscorough.law.calibrated_law import CONSTANTS, interface_velocity, penetration_law
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.fit_table import COLUMNS as SCALING_COLUMNS

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
-from viscorough.viscous.medium import Medium
+from viscorough.media.kinds import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.media.medium import Medium
 
 SPRINGS_AND_DASHPOTS = {
     "newtonian": Newtonian(3.0),

@@ -10,10 +10,10 @@ import pytest
 
 import viscorough
 from support.contract import refused
-from viscorough.arrays import ReadOnlyArrays
+from viscorough.basics.arrays import ReadOnlyArrays
 from viscorough.io.datasets import read_dataset
 from viscorough.io.saving import Result
-from viscorough.viscous.identification import IdentifiedMedium
+from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.stepping import march_steps
 

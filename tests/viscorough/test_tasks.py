@@ -12,7 +12,7 @@ import viscorough
 from support.command_line import run
 from support.contract import refused
 from support.tables import read_table
-from viscorough.errors import AccuracyWarning
+from viscorough.basics.errors import AccuracyWarning
 from viscorough.io import netcdf
 
 RADIUS, SPACING, POINTS = 1e-4, 5e-7, 41  # m

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.workflow import TEST, merged, read_settings, settings_file, snakemake
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.settings import resolved, schema
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 
 from support.cf import violations
 from support.workflow import FIGURES, TABLES, TEST, copy_kernels, jobs, snakemake
-from viscorough.surfaces import cut_disc
+from viscorough.surfaces.self_affine import cut_disc
 
 ALL = [name for name, table in TABLES.items() if "target" not in table]  # tables of the default run
 

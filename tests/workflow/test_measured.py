@@ -11,7 +11,7 @@ from support.command_line import run
 from support.page import Page
 from support.tables import read_table
 from support.workflow import TEST, jobs, plan, settings_file, snakemake
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 
 SCANS = {"ground_a", "ground_b", "polished_c"}
 MADE = {"prepare_measured", "indent_surfaces", "aggregate_curves", "evaluate_measured", "plot_measured"}

@@ -12,7 +12,7 @@ import pytest
 from support.code_blocks import run_python, run_shell
 from support.page import BROWSER, Page, number_in, opened
 from support.workflow import FIGURES, RESULTS, ROOT, TEST, jobs, snakemake
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.verdicts.claims import overall, physics
 

@@ -1,8 +1,8 @@
 """Compute loading curves of a batch of self-affine lines by dimensionality reduction; no line is stored."""
 
 from viscorough.io import netcdf
-from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
+from viscorough.surfaces.lines import SelfAffineLines
 from viscorough_study.ensembles.batches import Realization, batch_of_curves, without_numbers
 from viscorough_study.run.job_log import run_job
 from viscorough_study.run.seeds import realization_seed

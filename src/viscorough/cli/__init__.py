@@ -16,10 +16,10 @@ from signal import SIG_DFL
 import click
 from click.shell_completion import shell_complete
 
-from viscorough.argument_names import spelled_as_options
+from viscorough.basics.argument_names import spelled_as_options
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.interrupts import on_interrupt
 from viscorough.cli import messages
-from viscorough.errors import ConvergenceError
-from viscorough.interrupts import on_interrupt
 
 # Environment variable, named by click, with which the shell asks for completions.
 _COMPLETE = "_VISCOROUGH_COMPLETE"

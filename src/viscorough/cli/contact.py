@@ -7,8 +7,8 @@ from typing import Any
 
 import click
 
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options, scans, surface_options
-from viscorough.units import Quantity
 
 
 @click.command(short_help="Pressure, gap and contact at given forces or depths, of one or many files.")

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import click
 
-from viscorough import units
+from viscorough.basics import units
+from viscorough.basics.summaries import si_unit, span
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options
 from viscorough.io import suffixes
-from viscorough.summaries import si_unit, span
-from viscorough.units import Quantity
 
 
 @click.command(short_help="The medium from a measured depth or force over time.")
@@ -72,7 +72,7 @@ def creep(
     import numpy as np
 
     from viscorough.io.columns import read_columns
-    from viscorough.io.media import check_medium_file, save_identified
+    from viscorough.io.medium_files import check_medium_file, save_identified
     from viscorough.viscous.identification import identify_medium
 
     for path in (output, check_medium_file(output)):

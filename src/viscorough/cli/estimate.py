@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viscorough import units
+from viscorough.basics import units
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options
-from viscorough.units import Quantity
 
 if TYPE_CHECKING:
-    from viscorough.estimates import Estimate
+    from viscorough.law.estimate import Estimate
 
 
 @click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
@@ -58,8 +58,8 @@ def estimate(
     """
     import numpy as np
 
-    from viscorough.estimates import estimate
     from viscorough.io.motion_files import estimate_to_content
+    from viscorough.viscous.law_estimate import estimate
 
     options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
     if output:
@@ -85,7 +85,7 @@ def estimate(
 
 def _print(result: Estimate, unit: str) -> None:
     """Write the law, the units of the table, and the table to standard output."""
-    from viscorough.calibrated_law import ACROSS
+    from viscorough.law.calibrated_law import ACROSS
 
     law = result.law
     (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 import viscorough
-from viscorough import units
+from viscorough.basics import units
+from viscorough.basics.interrupts import on_interrupt
+from viscorough.basics.units import Quantity
 from viscorough.cli import messages
-from viscorough.interrupts import on_interrupt
-from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
@@ -29,7 +29,7 @@ def check_output(output: Path, **inputs: Path | None) -> None:
 
     atomic.check_output(output)
     if (medium := inputs.get("medium")) and output.exists():
-        from viscorough.io.media import creep_table_of
+        from viscorough.io.medium_files import creep_table_of
 
         inputs["table of the medium"] = creep_table_of(medium)
     for kind, file in inputs.items():

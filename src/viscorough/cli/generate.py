@@ -5,9 +5,9 @@ from typing import Any
 
 import click
 
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options
 from viscorough.io import suffixes
-from viscorough.units import Quantity
 
 
 @click.command(short_help="A random self-affine disc or line.")
@@ -53,8 +53,9 @@ def generate(
     options.require((elements is None) != (points is None), "either --elements (a disc) or --points (a line) is needed")
     options.require(not plateau or roll_off is not None, "--plateau is for use with --roll-off")
 
-    from viscorough import surfaces, units
+    from viscorough.basics import units
     from viscorough.io.heights import surface_to_content
+    from viscorough.surfaces import self_affine
 
     files.check_output(output)
     unit = unit if unit == units.UNKNOWN else units.length_unit(unit)
@@ -62,10 +63,10 @@ def generate(
     long_waves = {"roll_off_wavelength": roll_off, "roll_off_level": float(plateau)}
     how: dict[str, Any] = {"rms": rms, "length_unit": unit, "seed": seed, **long_waves}
     if elements:
-        made = surfaces.self_affine_disc(hurst, elements, diameter=diameter, **how)
+        made = self_affine.self_affine_disc(hurst, elements, diameter=diameter, **how)
         text = f"disc of {elements} elements across, {made.elements} elements"
     elif points:
-        made = surfaces.self_affine_line(hurst, points, length=diameter, **how)
+        made = self_affine.self_affine_line(hurst, points, length=diameter, **how)
         text = f"line of {points} points"
     about = {"hurst": hurst, "rms": rms, "diameter": diameter, "seed": seed} | (long_waves if roll_off else {})
     files.write_output(surface_to_content(made), output, **about)

@@ -12,13 +12,13 @@ import click
 from click.core import ParameterSource
 
 import viscorough
+from viscorough.basics.summaries import with_unit
+from viscorough.basics.units import Quantity, result_units
 from viscorough.cli import files, messages, options, scans, surface_options
-from viscorough.summaries import with_unit
-from viscorough.units import Quantity, result_units
 
 if TYPE_CHECKING:
+    from viscorough.basics.types import Progress
     from viscorough.io.load_tables import Rows
-    from viscorough.types import Progress
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")

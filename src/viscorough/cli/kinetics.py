@@ -6,9 +6,9 @@ from typing import Any
 import click
 
 import viscorough
+from viscorough.basics.summaries import si_unit, with_unit
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options
-from viscorough.summaries import si_unit, with_unit
-from viscorough.units import Quantity
 
 _CORRESPONDENCE = (
     "row of unilateral springs of the loading curve; while the contact grows, depth at a time is the elastic one at "

@@ -6,9 +6,9 @@ from typing import Any
 import click
 
 import viscorough
+from viscorough.basics.summaries import si_unit, with_unit
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options, surface_options
-from viscorough.summaries import si_unit, with_unit
-from viscorough.units import Quantity
 
 METHODS = ("events", "implicit")
 

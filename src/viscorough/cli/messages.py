@@ -10,7 +10,7 @@ from pathlib import Path
 
 import click
 
-from viscorough.errors import REPORTED, AccuracyWarning, message
+from viscorough.basics.errors import REPORTED, AccuracyWarning, message
 
 _DELAY = 1.0  # seconds; shorter work shows no progress
 # Errors that are reported in one line. Any other error is a fault of viscorough.

@@ -9,10 +9,10 @@ from typing import Any
 
 import click
 
-from viscorough import units
-from viscorough.elasticity import INCOMPRESSIBLE, shear_modulus_of
+from viscorough.basics import units
+from viscorough.basics.elasticity import INCOMPRESSIBLE, shear_modulus_of
+from viscorough.basics.units import Quantity
 from viscorough.io import suffixes
-from viscorough.units import Quantity
 
 # Largest number of times that an option may state by a count.
 _MOST_TIMES = 1_000_000
@@ -40,7 +40,7 @@ class PositiveNumber(click.FloatRange):
 class QuantityOption(click.ParamType):
     """A finite number above 0, plain or with a unit of the same dimension as one of `units`, as "5 mN" for "N".
 
-    Converted to a viscorough.units.Quantity; units.number gives the number that the solvers need.
+    Converted to a viscorough.basics.units.Quantity; units.number gives the number that the solvers need.
     """
 
     name = "quantity"
@@ -79,8 +79,8 @@ class Share(click.ParamType):
 class Increasing(click.ParamType):
     """Numbers above 0 separated by commas, each larger than its predecessor.
 
-    unit : unit of quantities, which are converted to viscorough.units.Quantity; None for plain numbers, which are
-        converted to floats
+    unit : unit of quantities, which are converted to viscorough.basics.units.Quantity; None for plain numbers,
+        which are converted to floats
     """
 
     name = "a,b,c"

@@ -25,7 +25,7 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
         viscorough plot scan.txt --spacing 0.5 --unit um -o scan.png
     """
     try:
-        from viscorough import plotting
+        from viscorough.io import plotting
     except ModuleNotFoundError as error:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
+from viscorough.basics.summaries import with_unit
 from viscorough.cli import files, messages, options, surface_options
-from viscorough.summaries import with_unit
 
 _LIMITS_OF_LINES = (
     "lines with a map's spectrum give the mean stiffness of many such surfaces, to about 20 %, not the curve of this "

@@ -25,10 +25,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 import viscorough
-from viscorough.argument_names import spelled_as_options
+from viscorough.basics.argument_names import spelled_as_options
+from viscorough.basics.interrupts import on_interrupt
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options, surface_options
-from viscorough.interrupts import on_interrupt
-from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.load_tables import LoadRows, Rows

@@ -12,9 +12,9 @@ from typing import Any
 import click
 
 import viscorough
-from viscorough import units
+from viscorough.basics import units
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, options
-from viscorough.units import Quantity
 
 # Options that state how to read a file.
 _READING = ("spacing", "unit", "lateral_unit", "channel")

@@ -3,14 +3,14 @@
 import sys
 import warnings
 
-from viscorough import units
-from viscorough.argument_names import argument, caller
-from viscorough.arrays import real_number
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument, caller
+from viscorough.basics.arrays import real_number
+from viscorough.basics.errors import AccuracyWarning
+from viscorough.basics.summaries import with_unit
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import require_threads
-from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter, check_indenter
-from viscorough.summaries import with_unit
+from viscorough.surfaces.indenter import Indenter, check_indenter
 
 
 def check_solvable(

@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.types import Array
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
 from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
-from viscorough.errors import ConvergenceError
-from viscorough.types import Array
 
 # Smallest residual of the linear problems: its norm over the norm of the right-hand side.
 EXACT = 1e-12

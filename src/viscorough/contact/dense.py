@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.compilation import njit
+from viscorough.basics.compilation import njit
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.interrupts import uninterrupted
+from viscorough.basics.types import Array, Integers
 from viscorough.contact.halfspace.growing_cholesky import append_element, solve_factored, solve_flat_punch
 from viscorough.contact.options import LATE
 from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
-from viscorough.errors import ConvergenceError
-from viscorough.interrupts import uninterrupted
-from viscorough.types import Array, Integers
 
 # Allowed rounding error of a gap over the depth, of a pressure over the largest pressure, and of the depth of an event
 # over this depth.

@@ -2,13 +2,13 @@
 
 import numpy as np
 
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.types import Array
 from viscorough.contact.halfspace import tiles
 from viscorough.contact.halfspace.operator import Convolution, spectrum_of_grid
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.state import ContactState, DenseContact, GridContact
-from viscorough.errors import ConvergenceError
-from viscorough.types import Array
 
 
 def gap_map(solver: ContactSolver, contact: ContactState) -> Array:

@@ -18,9 +18,9 @@ from typing import Any
 
 import numpy as np
 
-from viscorough.indenter import Indenter
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array
+from viscorough.basics.types import Array
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.indenter import Indenter
 
 # The difference from the curve on every second point exceeds the true error of most surfaces. With this factor it
 # exceeds the error of nine surfaces of ten (benchmarks/grid_errors.py).

@@ -18,9 +18,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough import units
-from viscorough.argument_names import argument
-from viscorough.arrays import fraction, increasing, real_number
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.arrays import fraction, increasing, real_number
+from viscorough.basics.elasticity import shear_modulus_of
+from viscorough.basics.types import Array, Progress, Scalar
 from viscorough.contact.argument_checks import check_solvable, warn_beyond_theory
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.grid_error import every_nth_point, highest_missed, with_grid_errors
@@ -30,10 +32,8 @@ from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.sampling import curve_within, part_of
 from viscorough.contact.state import ContactState, DenseContact
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
-from viscorough.elasticity import shear_modulus_of
-from viscorough.indenter import Indenter
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Progress, Scalar
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.indenter import Indenter
 
 # Ratio of depths of the steps that approach the start fraction.
 _APPROACH_DEPTH_RATIO = 4.0

@@ -9,21 +9,21 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough import units
-from viscorough.argument_names import argument, caller
-from viscorough.arrays import increasing
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument, caller
+from viscorough.basics.arrays import increasing
+from viscorough.basics.elasticity import shear_modulus_of
+from viscorough.basics.errors import AccuracyWarning
+from viscorough.basics.summaries import with_unit
+from viscorough.basics.types import Array, Progress, Scalar, Several
 from viscorough.contact.argument_checks import check_solvable, warn_beyond_theory
 from viscorough.contact.gap_map import gap_map
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.state import ContactState
-from viscorough.contact_maps import Contact
-from viscorough.elasticity import shear_modulus_of
-from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter
-from viscorough.summaries import with_unit
-from viscorough.types import Array, Progress, Scalar, Several
+from viscorough.results.contact_maps import Contact
+from viscorough.surfaces.indenter import Indenter
 
 # Share of the contacts up to a force in the time for this force; contacts near it take the rest.
 _SHARE_OF_APPROACH = 0.6

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields
 
-from viscorough.arrays import real_number, shown, whole_number
+from viscorough.basics.arrays import real_number, shown, whole_number
 
 # The first set leaves out elements that touch in this last part of a step from the unloaded state (in a smaller part of
 # smaller steps): the load of elements that touch before bends the surface away from them.

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from viscorough.arrays import is_whole, shown
+from viscorough.basics.arrays import is_whole, shown
 
 # Entries of a block: a map of 257 x 257 elements is one block, so such maps take no more time.
 BLOCK = 1 << 17

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from viscorough.basics.errors import ConvergenceError
 from viscorough.contact import dense
 from viscorough.contact.complete_contact import EXACT, joined_surface
 from viscorough.contact.dense import ContactEvents
@@ -32,8 +33,7 @@ from viscorough.contact.state import (
     Units,
     unloaded_contact,
 )
-from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
+from viscorough.surfaces.indenter import Indenter
 
 # Allow for this multiple of the requested depth when a new box is set up: a smaller margin means more boxes, each of
 # which costs two applications of the operator.

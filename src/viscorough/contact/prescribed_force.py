@@ -18,14 +18,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.compilation import njit
+from viscorough.basics.compilation import njit
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.types import Array, Progress
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.state import ContactState, DenseContact, Elements, MemberLoads, TargetForce
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
-from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
-from viscorough.types import Array, Progress
+from viscorough.surfaces.indenter import Indenter
 
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0

@@ -9,11 +9,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from viscorough.basics.types import Array, Integers
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.state import ElementGrid, Elements, Units
-from viscorough.indenter import Indenter
-from viscorough.types import Array, Integers
+from viscorough.surfaces.indenter import Indenter
 
 # Sample size for choosing the ranges of a sort on several threads.
 _SAMPLE = 1000

@@ -14,11 +14,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from viscorough.basics.errors import AccuracyWarning
+from viscorough.basics.types import Progress
 from viscorough.contact.grid_error import every_nth_point, highest_missed, ordinal, with_grid_errors
-from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Progress
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.indenter import Indenter
 
 # A tolerance t causes an error of this number times √t in the velocity on a given grid, as root mean square over all
 # forces: 1 % at t = 1e-2, and 2 to 4 % at t = 0.1 (self-affine discs of 129 to 513 elements across, H = 0.2 to 0.8). It

@@ -21,8 +21,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from viscorough.basics.types import Array, Integers
 from viscorough.contact.halfspace.influence import influence_table
-from viscorough.types import Array, Integers
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viscorough.basics.types import Array
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.state import ContactState, GridContact
-from viscorough.loading_curve import interpolate_between
-from viscorough.types import Array
+from viscorough.results.loading_curve import interpolate_between
 
 # Finest tolerance of interpolation: a smaller tolerance would require every contact event as a level, like direct
 # integration.

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import psutil
 
-from viscorough.types import FilePath
+from viscorough.basics.types import FilePath
 
 # Characters of an error message that are quoted: the message may repeat the content of a file.
 _LONGEST_REASON = 250

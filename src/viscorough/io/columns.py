@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from viscorough import units
-from viscorough.argument_names import argument
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import path_named, reading
 from viscorough.io.heights import npy_array
-from viscorough.types import Array, FilePath
 
 # Common unit as the last word of a heading, such as t_ms.
 _LAST_WORD = re.compile(

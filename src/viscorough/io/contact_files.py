@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from viscorough.contact_maps import Contact
+from viscorough.basics.types import Array
 from viscorough.io.curves import OVER_LEVELS, WITH_MODULUS
 from viscorough.io.netcdf import Content, Quantities, Variable, centred_axes, described, padded
-from viscorough.types import Array
+from viscorough.results.contact_maps import Contact
 
 COMMENT = (
     "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from viscorough import units
+from viscorough.basics import units
+from viscorough.basics.summaries import unit_power
 from viscorough.io.atomic import path_named
 from viscorough.io.netcdf import Content, Variable, described, padded
-from viscorough.loading_curve import LoadingCurve
-from viscorough.summaries import unit_power
+from viscorough.results.loading_curve import LoadingCurve
 
 COMMENT = (
     "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "

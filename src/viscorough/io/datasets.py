@@ -5,8 +5,8 @@ Only this module and `result_datasets` import xarray, which takes long to import
 
 import xarray as xr
 
+from viscorough.basics.types import FilePath
 from viscorough.io import netcdf
-from viscorough.types import FilePath
 
 
 def content_to_dataset(content: netcdf.Content) -> xr.Dataset:

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscorough import units
-from viscorough.argument_names import argument
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.types import FilePath
 from viscorough.io.atomic import reading, reason
 from viscorough.io.scan import Scan
-from viscorough.types import FilePath
 
 # Formats of elevation models in GDAL, by the suffix of their files.
 FORMATS = {".adf": "AIG", ".bil": "EHdr", ".dem": "USGSDEM", ".flt": "EHdr", ".hgt": "SRTMHGT", ".img": "HFA"}

@@ -4,7 +4,7 @@ from decimal import Decimal
 
 import numpy as np
 
-from viscorough.types import Array, Integers
+from viscorough.basics.types import Array, Integers
 
 # Positions closer than this share of their range are the same position.
 _MERGED = 1e-6

@@ -10,8 +10,8 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from viscorough import units
-from viscorough.argument_names import argument, spelled
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument, spelled
 
 Spacing = tuple[float, float]
 # Statements of a header by role: (line, unit in brackets, value).

@@ -8,18 +8,19 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from viscorough import units
-from viscorough.argument_names import argument
-from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter, positive
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.arrays import positive
+from viscorough.basics.errors import AccuracyWarning
+from viscorough.basics.types import Array, FilePath
 from viscorough.io import elevation, netcdf
 from viscorough.io.atomic import path_named, reading
 from viscorough.io.profiles import holds_profile, read_profile
 from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
-from viscorough.preparation import doubts, prepare
-from viscorough.types import Array, FilePath
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.preparation import doubts, prepare
 
 # The theory of small slopes is doubtful above this rms slope.
 _STEEP_SLOPE = 0.3

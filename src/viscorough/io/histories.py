@@ -1,10 +1,10 @@
 """Read histories of force or depth from files."""
 
-from viscorough import units
+from viscorough.basics import units
+from viscorough.basics.types import FilePath
 from viscorough.io.atomic import path_named
 from viscorough.io.columns import read_columns
-from viscorough.types import FilePath
-from viscorough.viscous.load import Load
+from viscorough.media.load import Load
 
 
 def read_load(path: FilePath, kind: str = "force", length_unit: str = units.UNKNOWN) -> Load:

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from viscorough import units
-from viscorough.argument_names import argument
-from viscorough.errors import AccuracyWarning
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.errors import AccuracyWarning
+from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
-from viscorough.types import Array, FilePath
 
 # Formats of plain arrays, with rows along y. The first index of SurfaceTopography runs along x.
 _ARRAY_FORMATS = ("npy", "npz", "mat", "h5")

@@ -1,9 +1,9 @@
 """Write and read tables with one row for each load of each file of heights.
 
 The columns are depth, force, stiffness, contact area, pressures and, on request, grid errors, in the units of
-viscorough.units.result_units: um, um2, and with a modulus N, N/m and MPa. A file that could not be evaluated has one
-row with the error and without numbers. Every row has a digest of its file and of the settings, so that a table can be
-continued: the rows of unchanged files are taken from it instead of being computed again.
+viscorough.basics.units.result_units: um, um2, and with a modulus N, N/m and MPa. A file that could not be evaluated has
+one row with the error and without numbers. Every row has a digest of its file and of the settings, so that a table can
+be continued: the rows of unchanged files are taken from it instead of being computed again.
 """
 
 import csv
@@ -15,16 +15,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscorough import units
-from viscorough.argument_names import argument
-from viscorough.contact_maps import Contact
-from viscorough.indenter import Indenter
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import reading
 from viscorough.io.contact_files import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
 from viscorough.io.curves import ABOUT_GRID, OVER_LEVELS
 from viscorough.io.netcdf import Content, Variable
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, FilePath
+from viscorough.results.contact_maps import Contact
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.indenter import Indenter
 
 # {quantity: its kind, a key of units.result_units; None for counts and shares}.
 _MEASURES = {

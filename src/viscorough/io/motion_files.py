@@ -8,10 +8,10 @@ import numpy as np
 
 from viscorough.io.curves import OVER_LEVELS
 from viscorough.io.netcdf import Content, Quantities, described
-from viscorough.viscous.motion import Motion
+from viscorough.results.motion import Motion
 
 if TYPE_CHECKING:
-    from viscorough.estimates import Estimate
+    from viscorough.law.estimate import Estimate
 
 
 # Quantities over time: {name of a variable: (long_name, unit)}.

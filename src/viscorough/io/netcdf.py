@@ -9,12 +9,12 @@ import netCDF4
 import numpy as np
 
 from viscorough import __version__
-from viscorough.arrays import read_only
+from viscorough.basics.arrays import read_only
+from viscorough.basics.summaries import si_unit, unit_power
+from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.digest import add_digest, check_digest
 from viscorough.io.unpacking import STORAGE, unpacked
-from viscorough.summaries import si_unit, unit_power
-from viscorough.types import Array, FilePath
 
 # {name of a variable: (long_name, unit)}. The unit is a power of the unit of length, "time" (always in s), "velocity",
 # or an SI unit such as "N", which becomes "1" if the unit of length is not known.

@@ -7,12 +7,12 @@ import re
 
 import numpy as np
 
-from viscorough import units
+from viscorough.basics import units
+from viscorough.basics.types import Array, FilePath
 from viscorough.io.grids import even_spacing
 from viscorough.io.headers import names_profile, read_header
 from viscorough.io.scan import Scan
 from viscorough.io.text import Table, decoded_lines, is_own_table, parsed
-from viscorough.types import Array, FilePath
 
 # A profile has at least so many points: in two rows of two numbers, x and z could be rows or columns.
 _LEAST_POINTS = 3

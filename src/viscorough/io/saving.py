@@ -1,19 +1,19 @@
 """Write results to the files of the command line, and read loading curves from them."""
 
-from viscorough.contact_maps import Contact
-from viscorough.estimates import Estimate
-from viscorough.indenter import Indenter
+from viscorough.basics.types import FilePath
 from viscorough.io import netcdf, tables
 from viscorough.io.contact_files import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
-from viscorough.io.media import identified_to_content, save_identified
+from viscorough.io.medium_files import identified_to_content, save_identified
 from viscorough.io.motion_files import estimate_to_content, motion_to_content
 from viscorough.io.suffixes import RESULTS, check_suffix
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import FilePath
-from viscorough.viscous.identification import IdentifiedMedium
-from viscorough.viscous.motion import Motion
+from viscorough.law.estimate import Estimate
+from viscorough.media.identified_medium import IdentifiedMedium
+from viscorough.results.contact_maps import Contact
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.results.motion import Motion
+from viscorough.surfaces.indenter import Indenter
 
 Result = Indenter | LoadingCurve | Contact | Motion | Estimate | IdentifiedMedium
 WRITERS = {".nc": netcdf.write, ".csv": tables.write}

@@ -4,10 +4,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscorough import units
-from viscorough.argument_names import argument
-from viscorough.indenter import Indenter, positive
-from viscorough.types import Array
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.arrays import positive
+from viscorough.basics.types import Array
+from viscorough.surfaces.indenter import Indenter
 
 Distance = float | units.Quantity
 # Relative difference up to which a given spacing agrees with the spacing in the file.

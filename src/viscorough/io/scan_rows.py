@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from viscorough.basics.errors import REPORTED, AccuracyWarning, message
+from viscorough.basics.types import Array, Progress
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.sampling import part_of
-from viscorough.contact_maps import Contact
-from viscorough.errors import REPORTED, AccuracyWarning, message
-from viscorough.indenter import Indenter
 from viscorough.io.curves import ABOUT_GRID
 from viscorough.io.load_tables import LoadRows, Rows, rows_of_contacts
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Progress
+from viscorough.results.contact_maps import Contact
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.indenter import Indenter
 
 # Share of the contacts in the computation of contacts and their grid errors.
 _SHARE_OF_CONTACTS = 0.3

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # types imports numpy, which takes long
-    from viscorough.types import FilePath
+    from viscorough.basics.types import FilePath
 
 RESULTS = {".nc": "NetCDF", ".csv": "table"}
 MAPS = {".nc": "NetCDF"}

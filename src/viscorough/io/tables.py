@@ -10,9 +10,9 @@ import json
 
 import numpy as np
 
+from viscorough.basics.types import FilePath
 from viscorough.io.atomic import atomic_write
 from viscorough.io.netcdf import Content, global_attributes
-from viscorough.types import FilePath
 
 
 def write(content: Content, path: FilePath) -> None:

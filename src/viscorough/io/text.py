@@ -16,13 +16,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscorough.argument_names import spelled
+from viscorough.basics.argument_names import spelled
+from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import reading, reason
 from viscorough.io.grids import even_spacing, gridded
 from viscorough.io.headers import Spacing, read_header, states
 from viscorough.io.scan import Scan
 from viscorough.io.zygo import zygo_scan
-from viscorough.types import Array, FilePath
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
 _MISSING = (

@@ -6,13 +6,13 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from viscorough import units
-from viscorough.argument_names import argument
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.types import FilePath
 from viscorough.io.atomic import reading
 from viscorough.io.elevation import read_elevation
 from viscorough.io.instruments import read_instrument
 from viscorough.io.scan import Scan
-from viscorough.types import FilePath
 
 _PARK_SYSTEMS = 50432  # tag of atomic force microscopes whose files hold the heights outside the picture
 # Tags of GeoTIFF (scale, place and rotation of the pixels, keys) and of GDAL (metadata, value for missing data).

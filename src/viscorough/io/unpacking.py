@@ -10,7 +10,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from viscorough.types import Array
+from viscorough.basics.types import Array
 
 # Attributes that describe how values are stored. They do not apply to unpacked values.
 MISSING = ("_FillValue", "missing_value", "valid_range", "valid_min", "valid_max")

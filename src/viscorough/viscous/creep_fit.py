@@ -21,12 +21,13 @@ chords is subtracted from the record, so that the chords do not shift the fit.
 import numpy as np
 from scipy.special import gamma
 
-from viscorough.arrays import integral
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Integers
-from viscorough.viscous.creep_response import branch_states, by_states, by_sums
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import CreepTable, Prony, Springpot
+from viscorough.basics.arrays import integral
+from viscorough.basics.types import Array, Integers
+from viscorough.media.creep_response import branch_states, by_states, by_sums
+from viscorough.media.kinds import CreepTable, Prony, Springpot
+from viscorough.media.load import Load
+from viscorough.media.spectra import zero_of_increasing
+from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.non_negative import extremes, non_negative
 from viscorough.viscous.record_fit import (
     ROUNDING,
@@ -40,7 +41,6 @@ from viscorough.viscous.record_fit import (
     scatter_of,
     spread_times,
 )
-from viscorough.viscous.spectra import zero_of_increasing
 
 _KNOTS = 60  # of J, at most
 _EARLIER = 64  # ratio of the first row to the first knot under a ramp of force

@@ -24,18 +24,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough import units
-from viscorough.argument_names import argument, caller, spelled
-from viscorough.arrays import increasing
-from viscorough.errors import AccuracyWarning, ConvergenceError
-from viscorough.loading_curve import LoadingCurve, check_curve
-from viscorough.types import Array, Integers
-from viscorough.viscous.creep_response import creep_response
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import Springpot, medium_of
-from viscorough.viscous.medium import Medium
-from viscorough.viscous.motion import Motion
-from viscorough.viscous.spectra import power_law_spectrum, relaxation_spectrum, zero_of_increasing
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument, caller, spelled
+from viscorough.basics.arrays import increasing
+from viscorough.basics.errors import AccuracyWarning, ConvergenceError
+from viscorough.basics.types import Array, Integers
+from viscorough.media.creep_response import creep_response
+from viscorough.media.kinds import Springpot, medium_of
+from viscorough.media.load import Load
+from viscorough.media.medium import Medium
+from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, zero_of_increasing
+from viscorough.results.loading_curve import LoadingCurve, check_curve
+from viscorough.results.motion import Motion
 from viscorough.viscous.springs import ROUNDING, RowOfSprings, row_of_springs
 from viscorough.viscous.unilateral import BEYOND, INFINITE, RESTLESS, RowMotion, law_of, move_row
 from viscorough.viscous.unilateral_sums import move_row_by_sums

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from viscorough.compilation import njit
-from viscorough.types import Array
+from viscorough.basics.compilation import njit
+from viscorough.basics.types import Array
 
 _TRIALS, _CLOSE = 12, 0.01  # values of λ, and relative accuracy of the distance
 _LARGEST_FACTOR, _LEAST_SHARE = 4.0, 1e-3  # of λ from one trial to the next; of the distance, to limit this factor

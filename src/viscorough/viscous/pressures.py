@@ -16,22 +16,22 @@ reverse order, so that every weight is positive and the contact is A(g*).
 
 import numpy as np
 
-from viscorough import units
-from viscorough.arrays import whole_number
+from viscorough.basics import units
+from viscorough.basics.arrays import whole_number
+from viscorough.basics.types import Array, Integers
 from viscorough.contact.argument_checks import check_solvable
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.state import MemberLoads
-from viscorough.indenter import Indenter
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Integers
-from viscorough.viscous.creep_response import creep_response
+from viscorough.media.creep_response import creep_response
+from viscorough.media.kinds import medium_of
+from viscorough.media.load import Load, force_load
+from viscorough.media.medium import Medium
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.kinetics import row_motion
-from viscorough.viscous.load import Load, force_load
-from viscorough.viscous.media import medium_of
-from viscorough.viscous.medium import Medium
 
 # An interval between contacts is short if the force increases by less than this multiple of the tolerance of the
 # contacts, of which at least _FINEST counts: the difference of two computed pressures would consist of their errors.

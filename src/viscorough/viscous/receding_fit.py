@@ -8,15 +8,16 @@ decreases.
 
 import numpy as np
 
-from viscorough import units
-from viscorough.argument_names import argument
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Integers
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.types import Array, Integers
+from viscorough.media.kinds import CreepTable, Prony, Springpot
+from viscorough.media.load import Load
+from viscorough.media.medium import RetardationSpectrum
+from viscorough.media.spectra import relaxation_spectrum
+from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.creep_fit import first_lag, knots_of, prony_series, spectrum_of_growth
 from viscorough.viscous.kinetics import kinetics
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import CreepTable, Prony, Springpot
-from viscorough.viscous.medium import RetardationSpectrum
 from viscorough.viscous.non_negative import extremes, non_negative
 from viscorough.viscous.record_fit import (
     RESOLUTION,
@@ -31,7 +32,6 @@ from viscorough.viscous.record_fit import (
     scatter_of,
     spread_times,
 )
-from viscorough.viscous.spectra import relaxation_spectrum
 from viscorough.viscous.springs import merged, row_of_springs
 from viscorough.viscous.unilateral import law_of, move_row
 

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.special import fdtri
 
-from viscorough.argument_names import spelled
-from viscorough.types import Array
-from viscorough.viscous.media import CreepTable, Prony, Springpot
+from viscorough.basics.argument_names import spelled
+from viscorough.basics.types import Array
+from viscorough.media.kinds import CreepTable, Prony, Springpot
 
 ROUNDING = 1e-9  # scatter relative to the largest value below which a record is exact
 # The same for fits that move a row of merged springs with a grid of times: they are exact to about this.

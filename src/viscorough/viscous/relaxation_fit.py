@@ -22,15 +22,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough import units
-from viscorough.argument_names import argument
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Integers
-from viscorough.viscous.creep_response import branch_states
+from viscorough.basics import units
+from viscorough.basics.argument_names import argument
+from viscorough.basics.types import Array, Integers
+from viscorough.media.creep_response import branch_states
+from viscorough.media.kinds import CreepTable, Prony, Springpot
+from viscorough.media.load import Load
+from viscorough.media.medium import RelaxationSpectrum
+from viscorough.media.spectra import retardation_spectrum
+from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.kinetics import kinetics
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import CreepTable, Prony, Springpot
-from viscorough.viscous.medium import RelaxationSpectrum
 from viscorough.viscous.non_negative import extremes, non_negative
 from viscorough.viscous.record_fit import (
     RESOLUTION,
@@ -42,7 +43,6 @@ from viscorough.viscous.record_fit import (
     scatter_of,
     spread_times,
 )
-from viscorough.viscous.spectra import retardation_spectrum
 from viscorough.viscous.springs import merged, row_of_springs
 from viscorough.viscous.unilateral import law_of, move_row
 
@@ -52,9 +52,6 @@ _ITERATIONS, _STALLED, _EXACT = 8, 1e-2, 1e-10
 # Largest number of springs in the row, and if the offset is fitted. With 5000 of them the force is exact to 1e-5, and
 # its derivative to 1e-3.
 _SPRINGS, _FEWER_SPRINGS = 5000, 2000
-# Unknowns whose joint region gives the intervals if the offset is fitted: branches that relax before the first rows can
-# replace a part of the offset, so that the region of one unknown is too narrow.
-_UNKNOWNS_WITH_OFFSET = 3
 # Relaxation times of branches that act as a dashpot, over the time of the first row.
 _DASHPOTS = (1e-4, 1e-3, 1e-2, 1e-1)
 # Number of times at which J and ψ are given, and ratio of the first row to the first of them.
@@ -67,6 +64,8 @@ _OFFSETS = np.linspace(-0.1, 0.1, 21)
 # Number of offsets that replace the last ones, about the interval of the offset, and largest number of replacements.
 # They end if at least the third number of offsets lies within the interval.
 _FINER_OFFSETS, _REPLACEMENTS, _RESOLVED = 15, 4, 5
+# Number of steps that replace one about the relaxation times found, if the offset is fitted.
+_FINER = 4
 # Number of bisections that find each end of the interval of the offset.
 _BISECTIONS = 5
 # Number of offsets within the interval at which the intervals of ψ are computed.
@@ -94,6 +93,10 @@ def fit_force(
     times = np.append(dashpots, spread)
     if shift.offset:
         fits = _fits_of_offsets(record, times, scatter, resolution)
+        found = spread[min(fits, key=record.squares).amounts[1 + dashpots.size :] > 0]
+        if found.size:
+            times = np.concatenate([dashpots, _with_finer_times(spread, found)])
+            fits = [record.fit(times, fit.offset) for fit in fits]
     else:
         fit = record.fit(times, 0.0)
         if (found := spread[fit.amounts[1 + dashpots.size :] > 0]).size:
@@ -104,7 +107,7 @@ def fit_force(
         raise ValueError("record: no force; allowed: records that show how the force relaxes")
     scatter, freedom = _scatter(record, fit, scatter, resolution)
     time = np.append(0.0, np.geomspace(first / _EARLIER, last, _KNOTS))
-    unknowns = _UNKNOWNS_WITH_OFFSET if shift.offset else 1
+    unknowns = _unknowns_of_region(fit) if shift.offset else 1
     intervals = _intervals(record, fits, time, distance_of(np.hypot(scatter, resolution), freedom, unknowns))
     low, high, shift_low, shift_high = intervals
     # Before the first row only the area of the pulse counts.
@@ -122,6 +125,12 @@ def fit_force(
     return RecordFit(
         medium, time, compliance, modulus, low, high, scatter, freedom, misfit, fitted, shift_low, shift_high
     )
+
+
+def _with_finer_times(times: Array, found: Array) -> Array:
+    """Return times at equal ratios, with more of them about those that were found, as other offsets need others."""
+    apart = np.abs(np.log(np.divide.outer(times, found))).min(axis=1) > 1.5 * np.log(times[1] / times[0])
+    return np.sort(np.append(times[apart], finer_times(found, times, _FINER)))
 
 
 def _scatter(record: "_ForceRecord", fit: "_Fit", scatter: float | None, exact: float) -> tuple[float, float]:
@@ -162,7 +171,8 @@ def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None
             fits.insert(last + 1, record.fit(times, 0.5 * (fits[last].offset + fits[last + 1].offset)))
         if first > 0:
             fits.insert(first, record.fit(times, 0.5 * (fits[first - 1].offset + fits[first].offset)))
-    return fits
+    inside = _inside(record, fits, scatter, resolution)
+    return fits[max(inside[0] - 1, 0) : inside[-1] + 2]
 
 
 def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, resolution: float) -> Integers:
@@ -170,8 +180,19 @@ def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, r
     squares = np.array([record.squares(fit) for fit in fits])
     best = int(squares.argmin())
     deviation, freedom = _scatter(record, fits[best], scatter, resolution)
-    distance = np.nan_to_num(distance_of(np.hypot(deviation, resolution), freedom, _UNKNOWNS_WITH_OFFSET))
+    unknowns = _unknowns_of_region(fits[best])
+    distance = np.nan_to_num(distance_of(np.hypot(deviation, resolution), freedom, unknowns))
     return np.flatnonzero(squares <= squares[best] + distance**2)
+
+
+def _unknowns_of_region(fit: "_Fit") -> int:
+    """Return the number of unknowns whose joint region gives the intervals if the offset is fitted.
+
+    Branches that relax before the first rows, and the drift, can replace a part of the offset. The exact values then
+    lie at the edge of the values that fit, where the region of one unknown is too narrow. So all of them count: the
+    offset, the drift, and the amounts above 0.
+    """
+    return 1 + fit.drift.size + int(np.count_nonzero(fit.amounts))
 
 
 def _intervals(

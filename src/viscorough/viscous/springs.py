@@ -21,10 +21,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.compilation import njit
-from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Mask
-from viscorough.viscous.spectra import zero_of_increasing
+from viscorough.basics.compilation import njit
+from viscorough.basics.types import Array, Mask
+from viscorough.media.spectra import zero_of_increasing
+from viscorough.results.loading_curve import LoadingCurve
 
 # Largest deviation in depth of chords from the interpolant, over the tolerance of the curve, and the smallest tolerance
 # that counts: below it the interpolant is not known well enough.

@@ -31,10 +31,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.compilation import njit
-from viscorough.interrupts import uninterrupted
-from viscorough.types import Array, Integers, Mask
-from viscorough.viscous.medium import RelaxationSpectrum, RetardationSpectrum
+from viscorough.basics.compilation import njit
+from viscorough.basics.interrupts import uninterrupted
+from viscorough.basics.types import Array, Integers, Mask
+from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 
 # Rounding error of a force or of an overlap, relative to its terms: events within it do not happen.
 _ROUNDING = 1e-14

@@ -13,10 +13,10 @@ import warnings
 
 import numpy as np
 
-from viscorough.errors import AccuracyWarning
-from viscorough.types import Array, Integers
-from viscorough.viscous.load import Load
-from viscorough.viscous.medium import Medium
+from viscorough.basics.errors import AccuracyWarning
+from viscorough.basics.types import Array, Integers
+from viscorough.media.load import Load
+from viscorough.media.medium import Medium
 from viscorough.viscous.springs import RowOfSprings
 from viscorough.viscous.unilateral import RowMotion
 

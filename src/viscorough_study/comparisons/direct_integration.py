@@ -11,7 +11,7 @@ from scipy.special import gamma as gamma_function
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough.viscous.integration.events import march_events
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 

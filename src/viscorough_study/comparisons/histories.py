@@ -12,11 +12,11 @@ import numpy as np
 import pandas as pd
 
 from viscorough.contact.loading_path import indent
-from viscorough.surfaces import self_affine_disc
+from viscorough.media.kinds import StandardLinearSolid
+from viscorough.media.load import Load
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough.viscous.integration.march import march
 from viscorough.viscous.kinetics import kinetics
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import StandardLinearSolid
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 
 FORCE_CURVE, RECOVERY = "force curve", "recovery"

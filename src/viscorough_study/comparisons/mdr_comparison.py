@@ -15,9 +15,9 @@ import pandas as pd
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
-from viscorough.indenter import Indenter
 from viscorough.mdr import line_of_surface, reduce
-from viscorough.surfaces import cut_disc, self_affine_square
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import cut_disc, self_affine_square
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
 from viscorough_study.run.seeds import mdr_comparison_key, realization_seed

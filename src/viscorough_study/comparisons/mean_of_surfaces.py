@@ -9,7 +9,7 @@ without surfaces has the error b. The time is n times the time of one curve (per
 import numpy as np
 import pandas as pd
 
-from viscorough.calibrated_law import penetration_law
+from viscorough.law.calibrated_law import penetration_law
 from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import fits

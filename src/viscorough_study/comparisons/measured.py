@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from viscorough import __version__
-from viscorough.elasticity import young_over_shear
+from viscorough.basics.elasticity import young_over_shear
 from viscorough.io.curves import unstack_curves
 from viscorough.io.load_tables import SI_COLUMNS, LoadRows, digest_of_scan, lines_of_files
 from viscorough.io.scan_rows import evaluated, rows_at_loads

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.io.curves import unstack_curves
-from viscorough.io.media import medium_from_mapping
+from viscorough.io.medium_files import medium_from_mapping
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.power_law import local_slopes
@@ -58,7 +58,7 @@ def media_table(ensembles, media, *, force, times):
     """Return means over the realizations of every ensemble in every medium, a pandas.DataFrame with `COLUMNS`.
 
     ensembles : {H: groups of loading curves that end at one X, each (curves, their rms heights, diameter)} [m]
-    media : {name: medium of viscorough.viscous.media} in Pa and s; force : F [N]
+    media : {name: medium of viscorough.media.kinds} in Pa and s; force : F [N]
     times : t > 0, logarithmically uniform [s]
     At each time the mean is over the groups whose curves all reach it. Times that no group reaches are omitted. X
     refers to the mean rms height.

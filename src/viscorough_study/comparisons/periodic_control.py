@@ -18,8 +18,8 @@ import numpy as np
 import pandas as pd
 from scipy import fft
 
-from viscorough.errors import ConvergenceError
-from viscorough.surfaces import self_affine_square
+from viscorough.basics.errors import ConvergenceError
+from viscorough.surfaces.self_affine import self_affine_square
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
 from viscorough_study.run.seeds import periodic_key, realization_seed

@@ -12,9 +12,9 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
 from viscorough.mdr import reduce
-from viscorough.surfaces import cut_disc, self_affine_disc
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import cut_disc, self_affine_disc
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.kinetics import kinetics
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from viscorough.indenter import Indenter
-from viscorough.surfaces import cut_disc, square_of_disc
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import cut_disc, square_of_disc
 
 _LENGTHS = ("rms", "diameter", "rms_over", "length_unit")  # settings of a surface that do not change its shape
 

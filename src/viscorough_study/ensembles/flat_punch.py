@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 
 from viscorough.contact.one_contact import contact_at
-from viscorough.indenter import Indenter
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
-from viscorough.surfaces import cut_disc
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import cut_disc
 from viscorough_study.ensembles.pool import elements_across, ensembles
 
 

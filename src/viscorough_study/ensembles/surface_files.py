@@ -5,8 +5,8 @@ import json
 import netCDF4
 import numpy as np
 
-from viscorough.indenter import Indenter
 from viscorough.io import netcdf
+from viscorough.surfaces.indenter import Indenter
 from viscorough_study.ensembles.batches import RMS, Realization
 
 

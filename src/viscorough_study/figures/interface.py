@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from viscorough.calibrated_law import ACROSS, LARGEST_DEVIATION, interface_calibration, penetration_law
+from viscorough.law.calibrated_law import ACROSS, LARGEST_DEVIATION, interface_calibration, penetration_law
 from viscorough_study.comparisons.literature import cited
 from viscorough_study.figures import style
 

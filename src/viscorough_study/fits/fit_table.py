@@ -10,7 +10,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from viscorough.calibrated_law import COLUMNS as CALIBRATION
+from viscorough.law.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_columns, source_values, zeta_scale
 from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
@@ -107,7 +107,7 @@ def _fit(ensemble, lines, window, **options):
 
 
 def calibrated(scaling, sizes, *, conventions, across):
-    """Return fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law.
+    """Return fits of base discs and of lines in these conventions, with the columns of viscorough.law.calibrated_law.
 
     scaling : table of `scaling_table`, with discs of `across` elements across; conventions : {convention: value}
     sizes : table of discs on grids from coarse to fine, with `elements`; it supplies Hurst exponents that the base

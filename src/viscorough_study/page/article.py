@@ -10,7 +10,7 @@ import yaml
 from markupsafe import Markup
 
 from viscorough import reference
-from viscorough.calibrated_law import ACROSS
+from viscorough.law.calibrated_law import ACROSS
 from viscorough_study.comparisons.literature import X_COMPARED
 from viscorough_study.fits.conventions import fits
 from viscorough_study.page.results import Number, read_published

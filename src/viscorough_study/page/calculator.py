@@ -1,10 +1,10 @@
-"""Build the calculator of the page: the calibrated law as numbers for a script that mirrors viscorough.estimates."""
+"""Write the numbers of the calibrated law for the calculator of the page, which repeats viscorough.estimate."""
 
 import json
 
 from markupsafe import Markup
 
-from viscorough.calibrated_law import ACROSS, interface_calibration
+from viscorough.law.calibrated_law import ACROSS, interface_calibration
 from viscorough.reference import one_element_stiffness
 
 

@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.performance import timing
 from viscorough_study.run.names import AUTOMATIC, BY_HAND, NAIVE
 

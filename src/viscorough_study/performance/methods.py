@@ -12,10 +12,10 @@ from functools import partial
 import numpy as np
 
 from viscorough import reference
+from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.loading_path import indent
-from viscorough.errors import AccuracyWarning
 from viscorough.mdr import reduce
-from viscorough.surfaces import self_affine_line
+from viscorough.surfaces.self_affine import self_affine_line
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.stepping import march_steps
 

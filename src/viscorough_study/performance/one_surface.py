@@ -13,16 +13,16 @@ import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from viscorough.calibrated_law import penetration_law
+from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.grid_error import every_nth_point
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
-from viscorough.errors import AccuracyWarning
+from viscorough.law.calibrated_law import penetration_law
 from viscorough.mdr import reduce
-from viscorough.surfaces import self_affine_disc, self_affine_line
+from viscorough.media.kinds import StandardLinearSolid
+from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
 from viscorough.viscous.identification import identify_medium
 from viscorough.viscous.kinetics import kinetics
-from viscorough.viscous.media import StandardLinearSolid
 from viscorough_study.performance import timing
 from viscorough_study.run.kernels import compile_kernels
 from viscorough_study.run.names import CONTACT, GRID, LAW, MDR, REQUEST

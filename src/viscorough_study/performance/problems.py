@@ -9,8 +9,8 @@ import numpy as np
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.seeds import method_problem_key, realization_seed
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}

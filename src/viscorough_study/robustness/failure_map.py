@@ -10,8 +10,8 @@ import warnings
 import numpy as np
 import pandas as pd
 
-from viscorough.errors import AccuracyWarning, ConvergenceError
-from viscorough.viscous.load import Load
+from viscorough.basics.errors import AccuracyWarning, ConvergenceError
+from viscorough.media.load import Load
 from viscorough_study.robustness.stress_cases import stress_cases
 from viscorough_study.robustness.stress_solutions import METHODS, MODELS, reference_solution
 from viscorough_study.run.seeds import failure_map_key, realization_seed

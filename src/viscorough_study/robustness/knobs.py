@@ -13,9 +13,9 @@ import warnings
 import numpy as np
 import pandas as pd
 
+from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.halfspace.influence import influence_coefficient
-from viscorough.errors import AccuracyWarning
-from viscorough.surfaces import cut_disc, self_affine_disc
+from viscorough.surfaces.self_affine import cut_disc, self_affine_disc
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.stepping import march_steps
 from viscorough_study.ensembles.pool import ensembles, select

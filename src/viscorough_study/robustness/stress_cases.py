@@ -6,9 +6,9 @@ from functools import partial
 import numpy as np
 
 from viscorough import reference
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.media import KelvinVoigt, Maxwell, Prony, StandardLinearSolid
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Prony, StandardLinearSolid
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import self_affine_disc
 
 NOT_SELF_AFFINE = "the indenter is no isotropic self-affine surface, which a line with its spectrum stands for"
 ROLL_OFF = "the spectrum rolls off: there is no power law"

@@ -13,19 +13,19 @@ from itertools import accumulate, pairwise
 import numpy as np
 
 from viscorough import reference
+from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
-from viscorough.errors import AccuracyWarning
 from viscorough.mdr import reduce
-from viscorough.surfaces import self_affine_line
+from viscorough.media.kinds import Newtonian
+from viscorough.media.load import Load
+from viscorough.surfaces.self_affine import self_affine_line
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.march import march
 from viscorough.viscous.integration.stepping import march_steps
 from viscorough.viscous.kinetics import kinetics
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import Newtonian
 
 DENSE_ONLY = SolverOptions(dense_contacts=10**9, dense_interactions=10**12)
 GRID_ONLY = SolverOptions(dense_contacts=0, dense_interactions=0)

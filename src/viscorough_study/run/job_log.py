@@ -4,7 +4,7 @@ import logging
 import sys
 import traceback
 
-from viscorough.errors import ConvergenceError
+from viscorough.basics.errors import ConvergenceError
 
 
 def run_job(names, call):

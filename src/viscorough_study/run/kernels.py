@@ -22,9 +22,9 @@ def compile_kernels():
     The disc is large enough for the preconditioner to use coarse grids.
     """
     from viscorough.contact.loading_path import indent
-    from viscorough.lines import SelfAffineLines
     from viscorough.mdr import reduce_heights
-    from viscorough.surfaces import self_affine_disc
+    from viscorough.surfaces.lines import SelfAffineLines
+    from viscorough.surfaces.self_affine import self_affine_disc
     from viscorough.viscous.integration.events import march_events
 
     indent(self_affine_disc(0.6, 129, seed=0))

@@ -124,7 +124,7 @@ def _too_short_curve(settings):
 
 
 def _wrong_medium(settings):
-    from viscorough.io.media import medium_from_mapping  # this import takes long
+    from viscorough.io.medium_files import medium_from_mapping  # this import takes long
 
     for i, case in enumerate(settings.media.cases):
         try:

@@ -10,12 +10,12 @@ import numpy as np
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
+from viscorough.media.kinds import Newtonian
+from viscorough.media.load import Load
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough.viscous.integration.internal_variables import integrate_steps
 from viscorough.viscous.integration.march import march
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import Newtonian
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 from viscorough_study.verdicts.evidence import exact, hurst_name
 

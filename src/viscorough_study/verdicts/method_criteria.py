@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from viscorough.surfaces import cut_disc
+from viscorough.surfaces.self_affine import cut_disc
 from viscorough_study.fits.intervals import UNDEFINED, difference
 from viscorough_study.verdicts.evidence import exact, judged
 

@@ -9,7 +9,8 @@ import pytest
 
 import viscorough
 from support.command_line import python, run, sphere_heights
-from viscorough import ConvergenceError, cli, sum_rules
+from viscorough import ConvergenceError, cli
+from viscorough.contact import sum_rules
 from viscorough.io import netcdf
 
 

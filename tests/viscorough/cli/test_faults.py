@@ -43,7 +43,9 @@ def here(here):
 
 def test_incomplete_compiled_code_is_compiled_again(here, caplog, monkeypatch):
     monkeypatch.setattr("numba.core.config.CACHE_DIR", str(here / "cache"))
-    (here / "ours.py").write_text("from viscorough.compilation import njit\n@njit\ndef double(x):\n    return 2 * x\n")
+    (here / "ours.py").write_text(
+        "from viscorough.basics.compilation import njit\n@njit\ndef double(x):\n    return 2 * x\n"
+    )
     for damage in (None, DAMAGES["truncated"], DAMAGES["second half zeros"], lambda whole: b""):
         if damage:
             (file,) = here.glob("cache/*")

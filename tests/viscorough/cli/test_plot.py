@@ -124,8 +124,8 @@ def test_axes_are_in_si_units_with_a_modulus(here):
 
 
 def test_missing_matplotlib_is_one_line_that_names_the_extra(monkeypatch, complaint):
-    monkeypatch.delattr(viscorough, "plotting")
-    monkeypatch.setitem(sys.modules, "viscorough.plotting", None)  # as if the import failed
+    monkeypatch.delattr("viscorough.io.plotting")
+    monkeypatch.setitem(sys.modules, "viscorough.io.plotting", None)  # as if the import failed
     line = complaint("plot curve.nc -o figure.png")
     assert line == 'viscorough plot: matplotlib is not installed; pip install "viscorough[plot]" installs it\n'
 

@@ -6,7 +6,7 @@ import pytest
 from viscorough import Indenter, SolverOptions, complete_contact, indent, self_affine_disc
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.reference import sphere
-from viscorough.surfaces import self_affine_square
+from viscorough.surfaces.self_affine import self_affine_square
 
 
 def with_hole(heights):

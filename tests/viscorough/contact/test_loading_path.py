@@ -5,8 +5,8 @@ import pytest
 
 from support.contract import refused
 from viscorough import Indenter, SolverOptions, contact_at, indent, reference, self_affine_disc
+from viscorough.basics.errors import ConvergenceError
 from viscorough.contact.prescribed_depth import ContactSolver
-from viscorough.errors import ConvergenceError
 from viscorough.viscous.integration.events import march_events
 
 

@@ -7,7 +7,7 @@ from viscorough import ConvergenceError, Indenter, SolverOptions, contact_at, in
 from viscorough.contact import prescribed_force
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.surfaces import self_affine_disc, self_affine_square
+from viscorough.surfaces.self_affine import self_affine_disc, self_affine_square
 
 # From one element in contact to nearly all.
 FORCES = np.array([1e-8, 1e-3, 0.1, 0.5, 2.0, 3.0, 10.0, 100.0])

@@ -9,7 +9,7 @@ from viscorough import Indenter, SolverOptions, contact_at, indent
 from viscorough.contact.halfspace import tiles
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.ranking import Ranking
-from viscorough.surfaces import self_affine_square
+from viscorough.surfaces.self_affine import self_affine_square
 
 HEIGHTS = self_affine_square(0.8, 200, seed=4)
 ROW, COLUMN = np.mgrid[:200, :200]

@@ -16,7 +16,7 @@ UTM, FEET, METRES_ABOVE_FEET = "EPSG:32633", "EPSG:2263+6360", "EPSG:2263+5703"
 SURVEY_FOOT = 1200 / 3937  # metres
 LEFT, TOP = 5e5, 5e6
 GRID = rasterio.transform.from_origin(LEFT, TOP, 2, 3)
-pytestmark = pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::viscorough.basics.errors.AccuracyWarning")
 
 
 def elevation(path, heights=HEIGHTS, *, crs=UTM, transform=GRID, unit=None, mask=None, scale=None, **options):

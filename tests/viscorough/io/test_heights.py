@@ -7,7 +7,8 @@ import xarray as xr
 
 import viscorough
 from support.contract import refused
-from viscorough import read_heights, units
+from viscorough import read_heights
+from viscorough.basics import units
 from viscorough.io.datasets import write_dataset
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from support.contract import refused
 from viscorough import read_load
-from viscorough.io.media import medium_from_mapping
+from viscorough.io.medium_files import medium_from_mapping
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from viscorough import AccuracyWarning, read_heights
 
 SurfaceTopography = pytest.importorskip("SurfaceTopography", reason="the extra 'formats' is not installed")
 FILES = Path(__file__).with_name("instrument_files")
-pytestmark = pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::viscorough.basics.errors.AccuracyWarning")
 
 
 @pytest.mark.parametrize(

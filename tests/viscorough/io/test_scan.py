@@ -5,7 +5,8 @@ import pytest
 import xarray as xr
 
 from support.contract import refused
-from viscorough import read_heights, units
+from viscorough import read_heights
+from viscorough.basics import units
 from viscorough.io.scan import uniform_spacing
 
 HEIGHTS = np.random.default_rng(0).random((3, 4))

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from viscorough import Indenter, indent, self_affine_disc
-from viscorough.errors import AccuracyWarning
+from viscorough.basics.errors import AccuracyWarning
 from viscorough.io.load_tables import LoadRows
 from viscorough.io.scan_rows import evaluated, rows_at_loads
-from viscorough.preparation import doubts
+from viscorough.surfaces.preparation import doubts
 
 GRID_ERRORS = ["grid_error", "force_grid_error", "area_change"]
 

@@ -152,7 +152,7 @@ def test_records_that_no_growing_contact_can_have_are_refused():
 
 
 @pytest.mark.parametrize("kind", ["table", "springpot"])
-@pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
+@pytest.mark.filterwarnings("ignore::viscorough.basics.errors.AccuracyWarning")
 def test_force_may_step_down_in_a_record(kind):
     """The depth in a fluid goes on growing, although that in the fitted medium recedes a little at the step."""
     times, force = np.array([0.0, 5.0, 5.0, 60.0]), np.array([1.0, 1.0, 0.6, 0.6])
@@ -164,7 +164,7 @@ def test_force_may_step_down_in_a_record(kind):
     assert found.compliance[-1] == pytest.approx(20, rel=0.02)
 
 
-@pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
+@pytest.mark.filterwarnings("ignore::viscorough.basics.errors.AccuracyWarning")
 @pytest.mark.parametrize(("rows", "seed"), [(6, 152), (8, 98), (20, 15), (100, 4), (200, 11)])
 def test_noise_of_level_records_is_not_taken_for_receding_depths(rows, seed):
     """Few rows show their own standard deviation badly, and the last depths of this record are equal but for noise."""
@@ -206,7 +206,7 @@ FORCES = [
 ]
 
 
-@pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
+@pytest.mark.filterwarnings("ignore::viscorough.basics.errors.AccuracyWarning")
 @pytest.mark.parametrize(("history", "name"), FORCES)
 def test_exact_forces_give_the_compliance(history, name):
     """Within 1 % from the first row to the last one; a table of chords is no medium of springs and dashpots."""

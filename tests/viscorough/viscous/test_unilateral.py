@@ -6,8 +6,8 @@ import pytest
 from support.media import SPRINGS_AND_DASHPOTS
 from support.small_motion import SpringsAndDashpots, row_of_springs, small_motion
 from viscorough import Springpot
-from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
-from viscorough.viscous.spectra import power_law_spectrum, relaxation_spectrum
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
+from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum
 from viscorough.viscous.unilateral import BEYOND, INFINITE, SETTLED, law_of, move_row
 
 

@@ -5,9 +5,9 @@ import pytest
 from scipy import stats
 
 from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
 from viscorough.mdr import line_of_surface, reduce
-from viscorough.surfaces import self_affine_square
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import self_affine_square
 from viscorough_study.comparisons.mdr_comparison import COLUMNS, compare_reduction, is_power_of_ten, mean_gaps
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from support.command_line import run
 from support.tables import read_table
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.comparisons.measured import CONTACTS, measured_contacts
 
 SCAN = {"name": "ground_a", "group": "ground", "file": "a.npy", "digest": "", "spacing": [10.0], "unit": "um"}

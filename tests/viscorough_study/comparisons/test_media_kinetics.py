@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from viscorough.contact.loading_path import indent
-from viscorough.loading_curve import LoadingCurve
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Springpot
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Springpot
+from viscorough.results.loading_curve import LoadingCurve
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.comparisons.media_kinetics import COLUMNS, media_table
 from viscorough_study.ensembles.averages import abscissa
 

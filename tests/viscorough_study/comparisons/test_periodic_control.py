@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.errors import ConvergenceError
+from viscorough.basics.errors import ConvergenceError
 from viscorough_study.comparisons import periodic_control
 from viscorough_study.comparisons.periodic_control import COLUMNS, mean_separations, periodic_contact
 

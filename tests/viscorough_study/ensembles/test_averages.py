@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.study import aggregate, line_curve
-from viscorough.loading_curve import LoadingCurve
+from viscorough.results.loading_curve import LoadingCurve
 from viscorough_study.ensembles.averages import abscissa
 
 pytestmark = pytest.mark.filterwarnings("error")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.surfaces import cut_disc, self_affine_square
+from viscorough.surfaces.self_affine import cut_disc, self_affine_square
 from viscorough_study.ensembles.discs import ensemble_disc
 from viscorough_study.ensembles.pool import elements_across
 from viscorough_study.run.seeds import realization_seed

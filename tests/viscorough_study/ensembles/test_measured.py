@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from support.workflow import load_script
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.ensembles.surface_files import read_surfaces
 
 

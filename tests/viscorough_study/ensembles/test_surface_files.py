@@ -6,7 +6,7 @@ import pytest
 
 from support.cf import violations
 from support.contract import refused
-from viscorough.indenter import Indenter
+from viscorough.surfaces.indenter import Indenter
 from viscorough_study.ensembles.batches import Realization
 from viscorough_study.ensembles.surface_files import read_surfaces, write_surfaces
 

@@ -10,7 +10,7 @@ from support.study import SHOWN, aggregate, pool_of
 from support.workflow import FIGURES
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
-from viscorough.surfaces import self_affine_disc, self_affine_line
+from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
 from viscorough_study.ensembles.pool import ensembles
 
 

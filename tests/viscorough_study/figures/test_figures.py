@@ -9,7 +9,7 @@ from support import figures as tables
 from support.figures import X, dashed, drawn_points, plot, published, whole_on_page, without_region
 from support.study import SHOWN
 from viscorough import reference
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.figures.collapse import SHIFT
 from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS

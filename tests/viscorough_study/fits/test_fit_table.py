@@ -5,9 +5,10 @@ import pandas as pd
 import pytest
 
 from support.study import ELEMENTS, HURST, LIMITS, SHOWN, aggregate, ensemble, ensemble_of, pool_of, three_regions
-from viscorough import calibrated_law, reference
+from viscorough import reference
+from viscorough.law import calibrated_law
 from viscorough.mdr import reduce
-from viscorough.surfaces import self_affine_line
+from viscorough.surfaces.self_affine import self_affine_line
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.conventions import FITTED, GAMMA, select, zeta_scale
 from viscorough_study.fits.fit_table import COLUMNS, SIZES, calibrated, fit_rows, sizes_table

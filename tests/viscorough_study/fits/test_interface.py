@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.study import ensemble_of, pool_of
-from viscorough.calibrated_law import interface_velocity
+from viscorough.law.calibrated_law import interface_velocity
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.flat_punch import punch_stiffness
 from viscorough_study.fits.interface import COLUMNS, CURVES, fit_interface, interface_tables

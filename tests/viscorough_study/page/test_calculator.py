@@ -10,8 +10,8 @@ import pytest
 
 from support.page import BROWSER, Page, number_in, opened
 from support.study import ROOT
-from viscorough.calibrated_law import penetration_law
-from viscorough.estimates import estimate
+from viscorough.law.calibrated_law import penetration_law
+from viscorough.viscous.law_estimate import estimate
 from viscorough_study.page.calculator import calculator, law_table
 
 SCRIPT = (ROOT / "workflow/page/calculator.js").read_text(encoding="utf-8")

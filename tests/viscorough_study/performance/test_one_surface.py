@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.performance import one_surface
 
 

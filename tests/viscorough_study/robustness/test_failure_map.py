@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.figures.failure_map import CONCERNED
 from viscorough_study.robustness.failure_map import COLUMNS, VERDICTS, failure_map
 from viscorough_study.robustness.stress_cases import StressCase, stress_cases

@@ -7,8 +7,8 @@ import xarray as xr
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
-from viscorough.indenter import Indenter
-from viscorough.surfaces import cut_disc
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import cut_disc
 from viscorough_study.robustness import knobs
 
 

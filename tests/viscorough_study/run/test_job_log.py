@@ -7,7 +7,7 @@ import pytest
 
 SCRIPT = """
 import logging, warnings
-from viscorough.errors import ConvergenceError
+from viscorough.basics.errors import ConvergenceError
 from viscorough_study.run.job_log import log_to
 log_to("job.log")
 logging.info("100 %s of it", "%")

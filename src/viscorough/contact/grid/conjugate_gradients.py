@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from viscorough.basics.types import Array, Integers
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, joined
 from viscorough.contact.halfspace.operator import Convolution
@@ -17,7 +18,6 @@ from viscorough.contact.halfspace.tiles import TiledHalfspace
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.multilevel import Preconditioner
 from viscorough.contact.state import ContactSet
-from viscorough.types import Array, Integers
 
 # Largest share of the last change of pressure in the next direction: a safeguard if many elements left the set.
 _LARGEST_SHARE = 1.0

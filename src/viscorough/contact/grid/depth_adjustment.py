@@ -7,10 +7,10 @@ together, so a contact at a force takes few more iterations than a contact at a 
 
 import numpy as np
 
+from viscorough.basics.types import Array, Integers
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients, PreconditionedResidual
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.state import BoundedField, TargetForce
-from viscorough.types import Array, Integers
 
 # Largest ratio of depths in one iteration.
 _LARGEST_RATIO = 2.0

@@ -7,7 +7,7 @@ Fields are changed in place only where the docstring says so.
 
 import numpy as np
 
-from viscorough.compilation import njit
+from viscorough.basics.compilation import njit
 from viscorough.contact.preconditioner.multilevel import REACH
 
 # Avoids a division by zero.

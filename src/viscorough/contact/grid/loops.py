@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.grid import kernels
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import GridFields
-from viscorough.types import Array, Integers, Mask
 
 
 def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:

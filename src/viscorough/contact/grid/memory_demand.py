@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from viscorough import memory
+from viscorough.basics import memory
+from viscorough.basics.types import Array
 from viscorough.contact.halfspace.operator import convolution_lengths
 from viscorough.contact.parallel import BLOCK
 from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import Elements
-from viscorough.types import Array
 
 # Bytes of the rank, place, gap and temporary arrays of an element.
 _PER_ELEMENT = 60
@@ -44,7 +44,7 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
 
     The estimate follows the allocation: it is proportional to the number of points of the padded grid around all
     elements, including its border, which for narrow strips are several times as many as the elements. It exceeds the
-    memory taken by up to a factor of two (tests/viscorough/test_memory.py).
+    memory taken by up to a factor of two (tests/viscorough/basics/test_memory.py).
     """
     inside = np.isfinite(heights)
     rows, columns = (int(np.ptp(np.flatnonzero(inside.any(axis=axis)))) + 1 for axis in (1, 0))

@@ -15,11 +15,11 @@ step, which applies the operator anyway.
 
 from dataclasses import dataclass
 
+from viscorough.basics.types import Array, Mask
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients, Direction
 from viscorough.contact.grid.depth_adjustment import DepthAdjustment
 from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.state import BoundedField, ContactSet, TargetForce
-from viscorough.types import Array, Mask
 
 # Remove unloaded elements that the first step would put under tension before this step, if they exceed this share of
 # the set: the preconditioned residual of a far too large set is of little use.

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import field_to_fill
 from viscorough.contact.grid.pressure_iteration import PressureIteration, TrialContact
@@ -32,7 +33,6 @@ from viscorough.contact.state import (
     MemberLoads,
     TargetForce,
 )
-from viscorough.types import Array, Integers, Mask
 
 # A box with more than this ratio of rows to columns is transposed: the operator works on blocks of columns, which few
 # columns do not fill.

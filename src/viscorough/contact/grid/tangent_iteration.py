@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from viscorough.basics.types import Array
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE
 from viscorough.contact.state import BoundedField, ContactSet
-from viscorough.types import Array
 
 # Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
 _TANGENT_TOLERANCE = 1e-2

@@ -6,11 +6,11 @@ a combination of these three fields.
 
 import numpy as np
 
+from viscorough.basics.types import Array
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.pressure_iteration import TrialContact
 from viscorough.contact.state import BoundedField, ContactSet, GridContact
-from viscorough.types import Array
 
 # Eigenvalues of the energies of the loads, over the largest, that are zero but for rounding.
 _DEPENDENT = 1e-10

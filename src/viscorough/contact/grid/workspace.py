@@ -16,7 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from viscorough.argument_names import argument
+from viscorough.basics.argument_names import argument
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.types import Array, Mask
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
 from viscorough.contact.grid.loops import GridLoops
@@ -25,8 +27,6 @@ from viscorough.contact.halfspace.tiles import TiledHalfspace
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
-from viscorough.errors import ConvergenceError
-from viscorough.types import Array, Mask
 
 # Initial gap of places without an element, far beyond the largest depth.
 _OUTSIDE = 1e30

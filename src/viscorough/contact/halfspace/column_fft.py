@@ -11,9 +11,9 @@ import ducc0
 import numpy as np
 from numpy.typing import DTypeLike
 
-from viscorough.compilation import njit
+from viscorough.basics.compilation import njit
+from viscorough.basics.types import Array, Complex
 from viscorough.contact.parallel import BLOCK, Buffer, aligned_zeros, run_blocks
-from viscorough.types import Array, Complex
 
 # Columns of a block, which is small enough for the cache.
 _BLOCK = 64

@@ -7,7 +7,7 @@ is tested against a full factorisation. Compiled functions take plain arrays, he
 
 import numpy as np
 
-from viscorough.compilation import njit
+from viscorough.basics.compilation import njit
 
 
 @njit(inner=True, fastmath=True)

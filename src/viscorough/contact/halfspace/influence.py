@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from viscorough.compilation import njit
-from viscorough.types import Array, Integers
+from viscorough.basics.compilation import njit
+from viscorough.basics.types import Array, Integers
 
 # Beyond this distance (in sides of an element or of its parts) the series below is more accurate than the difference
 # of logarithms.

@@ -7,10 +7,10 @@ import ducc0
 import numpy as np
 from numpy.typing import DTypeLike
 
+from viscorough.basics.types import Array
 from viscorough.contact.halfspace.column_fft import ColumnConvolution, LibraryConvolution, good_length
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, Buffer, run_blocks
-from viscorough.types import Array
 
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
 # that.

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import DTypeLike
 
-from viscorough.compilation import njit
+from viscorough.basics.compilation import njit
+from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.halfspace.operator import Convolution, convolution_lengths, spectrum_of_kernel
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import Buffer, run_blocks
-from viscorough.types import Array, Integers, Mask
 
 # Elements along the side of a tile, a multiple of _STRIDE.
 SIDE = 120

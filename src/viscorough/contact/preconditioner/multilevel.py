@@ -26,13 +26,13 @@ from typing import Any
 
 import numpy as np
 
-from viscorough.compilation import njit
+from viscorough.basics.compilation import njit
+from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.halfspace.growing_cholesky import solve_factored
 from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.parallel import run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH
 from viscorough.contact.preconditioner.sparse_factor import SparseFactor
-from viscorough.types import Array, Integers, Mask
 
 # Lower bound of the eigenvalues of M K (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35

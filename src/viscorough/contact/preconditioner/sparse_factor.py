@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from viscorough.compilation import njit
+from viscorough.basics.compilation import njit
+from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH, factor_entries
-from viscorough.types import Array, Integers, Mask
 
 # Blocks side by side that are processed together if any of them has elements in contact: wide enough for registers.
 _TOGETHER = 4

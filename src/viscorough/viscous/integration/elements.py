@@ -5,11 +5,11 @@ from functools import cached_property
 
 import numpy as np
 
-from viscorough import memory
+from viscorough.basics import memory
+from viscorough.basics.types import Array, Integers
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.state import ElementGrid, Elements, Units
-from viscorough.indenter import Indenter, check_indenter
-from viscorough.types import Array, Integers
+from viscorough.surfaces.indenter import Indenter, check_indenter
 
 
 @dataclass(frozen=True)

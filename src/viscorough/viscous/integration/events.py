@@ -11,14 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough import memory
-from viscorough.arrays import ReadOnlyArrays, fraction, real_numbers
-from viscorough.compilation import njit
+from viscorough.basics import memory
+from viscorough.basics.arrays import ReadOnlyArrays, fraction, real_numbers
+from viscorough.basics.compilation import njit
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.interrupts import uninterrupted
+from viscorough.basics.types import Array, Integers
 from viscorough.contact.halfspace.growing_cholesky import append_element, solve_flat_punch
-from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
-from viscorough.interrupts import uninterrupted
-from viscorough.types import Array, Integers
+from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.elements import elements_of_map
 
 

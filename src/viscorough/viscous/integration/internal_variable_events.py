@@ -28,17 +28,17 @@ import numpy as np
 from scipy.linalg import lapack
 from scipy.special import exprel, hyp1f1
 
-from viscorough.argument_names import argument
-from viscorough.arrays import jumps_and_slopes
-from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
-from viscorough.types import Array, Integers
-from viscorough.viscous.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
+from viscorough.basics.argument_names import argument
+from viscorough.basics.arrays import jumps_and_slopes
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.types import Array, Integers
+from viscorough.media.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
+from viscorough.media.load import Load
+from viscorough.media.medium import Medium, RelaxationSpectrum
+from viscorough.results.motion import Motion
+from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.internal_variables import check_overflow, checked_input
-from viscorough.viscous.load import Load
-from viscorough.viscous.medium import Medium, RelaxationSpectrum
-from viscorough.viscous.motion import Motion
 
 
 def integrate_events(

@@ -16,15 +16,15 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.special import exprel
 
-from viscorough import units
-from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter, check_indenter
-from viscorough.types import Array, Integers, Mask, Progress
+from viscorough.basics import units
+from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.types import Array, Integers, Mask, Progress
+from viscorough.media.kinds import medium_of
+from viscorough.media.load import Load
+from viscorough.media.medium import Medium, RelaxationSpectrum
+from viscorough.results.motion import Motion
+from viscorough.surfaces.indenter import Indenter, check_indenter
 from viscorough.viscous.integration.elements import MapElements, elements_of_map
-from viscorough.viscous.load import Load
-from viscorough.viscous.media import medium_of
-from viscorough.viscous.medium import Medium, RelaxationSpectrum
-from viscorough.viscous.motion import Motion
 
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
 # Rounding of gaps, relative to the initial gap, the depth, and the largest displacement of the surface so far.

@@ -1,12 +1,12 @@
 """Direct integration of the viscoelastic contact problem in time."""
 
-from viscorough.indenter import Indenter
-from viscorough.types import Progress
+from viscorough.basics.types import Progress
+from viscorough.media.load import Load
+from viscorough.media.medium import Medium
+from viscorough.results.motion import Motion
+from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.internal_variable_events import integrate_events
 from viscorough.viscous.integration.internal_variables import integrate_steps
-from viscorough.viscous.load import Load
-from viscorough.viscous.medium import Medium
-from viscorough.viscous.motion import Motion
 
 METHODS = ("implicit", "events")
 

@@ -13,16 +13,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, increasing, real_number
+from viscorough.basics import units
+from viscorough.basics.arrays import ReadOnlyArrays, increasing, real_number
+from viscorough.basics.errors import AccuracyWarning, ConvergenceError
+from viscorough.basics.summaries import unit_power
+from viscorough.basics.types import Progress
 from viscorough.contact.gap_map import gap_map
 from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.prescribed_depth import ContactSolver
-from viscorough.errors import AccuracyWarning, ConvergenceError
-from viscorough.indenter import Indenter
-from viscorough.summaries import unit_power
-from viscorough.types import Progress
+from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.elements import elements_of_map
 
 # Overlap over the depth from which on a warning is given: the error of the depth is about as large.

@@ -11,8 +11,8 @@ from support.contract import refused
 from support.marching import evented, stepped
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
 from viscorough import Indenter, Load, indent, kinetics, reference, self_affine_disc
-from viscorough.errors import ConvergenceError
-from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.basics.errors import ConvergenceError
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
 SPRINGY = ["maxwell", "solid", "prony"]

@@ -16,9 +16,9 @@ import pytest
 from support.marching import stepped
 from support.small_motion import SpringsAndDashpots, half_space, row_of_springs, small_motion
 from viscorough import Indenter
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
+from viscorough.media.medium import Medium
 from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
-from viscorough.viscous.medium import Medium
 
 COUNT = int(os.environ.get("MOTIONS", "40"))
 TOLERANCE = 1e-9

@@ -1,0 +1,191 @@
+"""Cache compiled functions on disk; incomplete cache files are no error, and interrupts wait for the compiler.
+
+Compiled code is kept in the user's cache folder (~/.cache/viscorough), or in NUMBA_CACHE_DIR. Where a file cannot be
+loaded, the function is compiled again. Where nothing can be kept on disk, functions are compiled in every process, and
+one line says so. Only these functions are affected, not numba itself or functions of other packages.
+"""
+
+import contextlib
+import functools
+import gc
+import logging
+import pickle
+import sys
+import types
+import uuid
+from collections.abc import Callable, Iterator
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+from numba.core import caching, config
+from numba.core.compiler import CompileResult
+from numba.core.dispatcher import Dispatcher
+from numba.core.serialize import dumps
+from numba.core.types import unliteral
+from numba.misc.appdirs import AppDirs
+
+from viscorough.basics.interrupts import uninterrupted
+
+
+@functools.cache  # once per process
+def _announce_compilation() -> None:
+    """Announce on a terminal or in a notebook why the first computation takes longer."""
+    if "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty()):
+        print("viscorough: compiling once, which takes about 10 s", file=sys.stderr, flush=True)
+
+
+class _Cache(caching.NullCache):
+    """Compiled code of one function on disk: a file for each set of types of its arguments.
+
+    The name of a file has a digest of all that determines the code. Hence all copies of the same source share the
+    files, and a change of a function, or of one that it calls, is never missed.
+    """
+
+    def __init__(self, compiled: Any) -> None:
+        self._compiled = compiled
+
+    @property
+    def cache_path(self) -> str:
+        folder = config.CACHE_DIR  # type: ignore[attr-defined]
+        return folder or str(AppDirs("viscorough", appauthor=False).user_cache_dir)
+
+    @functools.cached_property
+    def _digest(self) -> str:
+        # At the first call, when the functions that this one calls exist.
+        content = sys.version_info[:2], numba.__version__, _content(self._compiled, ())
+        return sha256(repr(content).encode()).hexdigest()
+
+    def _file(self, argument_types: Any, processor: tuple[Any, ...]) -> Path:
+        function, key = self._compiled.py_func, repr((self._digest, argument_types, processor))
+        name = f"{function.__module__}.{function.__name__}-{sha256(key.encode()).hexdigest()[:32]}.pickle"
+        return Path(self.cache_path, name)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        target_context.refresh()
+        file = self._file(sig, target_context.codegen().magic_tuple())
+        try:
+            stored = file.read_bytes()
+        except OSError:  # mostly because it does not exist
+            _announce_compilation()
+            return None
+        try:
+            with uninterrupted():
+                return CompileResult._rebuild(target_context, *pickle.loads(stored))
+        except Exception as error:  # reading a file that a power failure cut off can fail in any way
+            text = "compiled code of %s in %s is damaged (%s): it is compiled again"
+            logging.warning(text, self._compiled.py_func.__name__, file.parent, error)
+            with contextlib.suppress(OSError):
+                file.unlink()
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        if data.lifted or data.library.has_dynamic_globals:  # has addresses of this process
+            return
+        file = self._file(sig, data.codegen.magic_tuple())
+        temporary = file.with_name(f"{file.name}.{uuid.uuid4().hex}")
+        try:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            try:
+                temporary.write_bytes(dumps(data._reduce()))
+                temporary.replace(file)
+            finally:
+                temporary.unlink(missing_ok=True)
+        except OSError:  # a full disk, for example
+            _warn_cache_disabled()
+
+
+def _content(value: Any, callers: tuple[Any, ...]) -> Any:
+    """Return all that determines the compiled code of a function, or the part of a value in it, as nested tuples.
+
+    callers : functions that call this one and are already described
+    """
+    if isinstance(value, Dispatcher):
+        function = value.py_func
+        if value in callers:
+            return function.__name__
+        names = {name for code in _codes(function.__code__) for name in code.co_names} & set(function.__globals__)
+        used = [(name, _content(function.__globals__[name], (*callers, value))) for name in sorted(names)]
+        enclosed = [_content(cell.cell_contents, (*callers, value)) for cell in function.__closure__ or ()]
+        options = sorted(value.targetoptions.items())
+        return options, [_instructions(code, function.__doc__) for code in _codes(function.__code__)], used, enclosed
+    if isinstance(value, np.ndarray):
+        return value.dtype.str, value.shape, value.tobytes()
+    if isinstance(value, types.ModuleType):
+        return value.__name__
+    if callable(value):  # the class of a named tuple has fields
+        return getattr(value, "__module__", ""), getattr(value, "__qualname__", ""), getattr(value, "_fields", ())
+    return type(value).__name__, repr(value)
+
+
+def _codes(code: types.CodeType) -> list[types.CodeType]:
+    """Return a code object and all code objects nested in it."""
+    return [code, *(each for const in code.co_consts if isinstance(const, types.CodeType) for each in _codes(const))]
+
+
+def _instructions(code: types.CodeType, docstring: str | None) -> tuple[Any, ...]:
+    """Return the instructions of a code object, with names and constants but without line numbers and docstring."""
+    constants = [each for each in code.co_consts if not isinstance(each, types.CodeType) and each != docstring]
+    return code.co_code, code.co_names, code.co_varnames, code.co_freevars, repr(constants)
+
+
+@functools.cache  # once per process
+def _warn_cache_disabled() -> None:
+    logging.warning(
+        "compiled code cannot be kept on disk, so every process compiles it again, which takes up to half a minute; "
+        "set NUMBA_CACHE_DIR to a folder that is writable and has room"
+    )
+
+
+def njit(
+    function: Callable[..., Any] | None = None, *, inner: bool = False, fastmath: bool = False
+) -> Callable[..., Any]:
+    """Compile a function for the types of its arguments, and cache it on disk. Use as a decorator.
+
+    All functions release the interpreter's lock, and divide by zero without an error, as numpy does. They share these
+    options because numba compiles its own functions (zeros, for example) once for each set of options.
+
+    inner : True if only other compiled functions call it. Its code becomes part of theirs, so it is neither cached nor
+        callable from Python, which saves half of the compile time of a short function
+    fastmath : True if the compiler may reorder sums and assume that numbers are finite
+    """
+    if function is None:
+        return functools.partial(njit, inner=inner, fastmath=fastmath)
+    options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": fastmath}
+    options |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": inner}  # no function is called from C
+    compiled: Any = numba.njit(function, **options)
+    if compiled is function:  # NUMBA_DISABLE_JIT is set
+        return function
+    if inner:
+
+        def refuse(*arguments: Any, **options: Any) -> Any:
+            raise TypeError(f"{function.__name__} can only be called by other compiled functions")
+
+        # Without a wrapper, a call from Python would crash: keep numba from finding the compiled code.
+        compiled._compile_for_args, compiled._insert = refuse, lambda *arguments, **options: None
+    else:
+        compiled._cache = _Cache(compiled)
+    compile_types = uninterrupted()(compiled.compile)
+
+    def compile_once(argument_types: Any) -> Any:
+        # A literal number in a call needs no separate variant of the function.
+        with _no_garbage_collection():
+            return compile_types(tuple(map(unliteral, argument_types)))
+
+    compiled.compile = compile_once
+    return compiled
+
+
+@contextlib.contextmanager
+def _no_garbage_collection() -> Iterator[None]:
+    """Pause the search for unreachable objects, which takes a tenth of the time that the compiler takes."""
+    if not gc.isenabled():  # in a function that another one calls
+        yield
+        return
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()

@@ -1,0 +1,84 @@
+"""Elastic constants: from Young's modulus E and Poisson ratio ν to the shear modulus that the solvers use.
+
+Contact without friction depends on E/(1 − ν²) alone. A half-space is therefore as stiff as an incompressible
+half-space with the shear modulus
+
+    G = E/(1 − ν²)/4,    E/3 if ν = 1/2.
+
+In a linear viscoelastic medium with a constant Poisson ratio this holds for Young's modulus at every time. A contact
+responds as on an incompressible medium, whose moduli and viscosities are the medium's moduli E/(2(1 + ν)) and
+viscosities in shear, divided by 2(1 − ν).
+"""
+
+import math
+from typing import Any
+
+from viscorough.basics import units
+from viscorough.basics.argument_names import spelled
+
+INCOMPRESSIBLE = 0.5  # Poisson ratio
+UNIT_SQUARE_DEFLECTION = 4 * math.log(1 + math.sqrt(2))  # K₀₀ = πE*u/(pd), u at the centre of a loaded square
+
+
+def shear_modulus_of(
+    length_unit: str, shear_modulus: Any = None, young_modulus: Any = None, poisson: Any = None
+) -> float | None:
+    """Return G of the incompressible half-space that is as stiff as the given half-space; None without a modulus.
+
+    shear_modulus, young_modulus : G or E in Pa, or with a unit; in consistent units if the unit of length is not known
+    poisson : ν, with Young's modulus only; default: 0.5
+
+    Raises ValueError, which names the argument, for other numbers, and for arguments that exclude each other.
+    """
+    from viscorough.basics.arrays import (
+        positive,  # numpy takes long to import, and reading the options does not need it
+    )
+
+    names = {"shear_modulus": spelled("--shear-modulus", "shear_modulus"), "young": spelled("--young", "young_modulus")}
+    if shear_modulus is not None and young_modulus is not None:
+        raise ValueError(f"{' and '.join(names.values())} exclude each other; one of them is allowed")
+    if young_modulus is None:
+        if poisson is not None:
+            raise ValueError(f"{spelled('--poisson', 'poisson')} is for use with {names['young']}")
+        if shear_modulus is None:
+            return None
+        return positive(names["shear_modulus"], units.number(shear_modulus, "Pa", length_unit, names["shear_modulus"]))
+    ratio = poisson_ratio(spelled("--poisson", "poisson"), poisson)
+    modulus = positive(names["young"], units.number(young_modulus, "Pa", length_unit, names["young"]))
+    return modulus / young_over_shear(ratio)
+
+
+def poisson_ratio(name: str, value: Any) -> float:
+    """Return ν as a float, 0.5 for None. Raises ValueError, which starts with the name, unless −1 < ν ≤ 0.5."""
+    from viscorough.basics.arrays import real_number
+
+    ratio = INCOMPRESSIBLE if value is None else real_number(name, value)
+    if not -1 < ratio <= INCOMPRESSIBLE:
+        raise ValueError(f"{name}: must be above -1 and at most 0.5, not {ratio!r}")
+    return ratio
+
+
+def young_over_shear(poisson: float) -> float:
+    """Return the factor 4(1 − ν²), from the modulus in shear of the incompressible medium to Young's modulus."""
+    return 4 * (1 - poisson**2)
+
+
+def shear_over_incompressible(poisson: float) -> float:
+    """Return the factor 2(1 − ν), from the incompressible medium to the moduli and viscosities in shear."""
+    return 2 * (1 - poisson)
+
+
+def one_element_stiffness(elements_across: int) -> float:
+    """Return κ while one square element is in contact (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ.
+
+    A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> round(reference.one_element_stiffness(11), 3)
+    0.081
+    """
+    from viscorough.basics.arrays import whole_number
+
+    return math.pi / (UNIT_SQUARE_DEFLECTION * whole_number("elements_across", elements_across, at_least=1))

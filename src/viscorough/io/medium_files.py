@@ -1,0 +1,219 @@
+"""Read and write media as YAML files: one mapping with the kind of medium and its parameters."""
+
+import contextlib
+import dataclasses
+import inspect
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, cast
+
+import yaml
+
+from viscorough.basics.types import FilePath
+from viscorough.io import tables
+from viscorough.io.atomic import atomic_write, path_named, reading
+from viscorough.io.columns import read_columns
+from viscorough.io.netcdf import Content, Quantities, described
+from viscorough.io.suffixes import MEDIA, check_suffix
+from viscorough.io.unique_keys import UniqueKeys
+from viscorough.media import kinds
+from viscorough.media.identified_medium import IdentifiedMedium
+from viscorough.media.medium import Medium
+
+# Classes of media by kind. The keys of a kind are the parameters of its class; a creep table is in a separate file.
+KINDS: dict[str, Any] = {
+    "newtonian": kinds.Newtonian,
+    "maxwell": kinds.Maxwell,
+    "kelvin_voigt": kinds.KelvinVoigt,
+    "standard_linear_solid": kinds.StandardLinearSolid,
+    "prony": kinds.Prony,
+    "springpot": kinds.Springpot,
+    "creep_table": kinds.CreepTable,
+}
+# Columns of the table of an identified medium: common ones, and further ones by the measured quantity.
+_COMPLIANCE: dict[str, tuple[str, int | str]] = {
+    "time": ("time since a step of the force", "s"),
+    "compliance": ("creep compliance J", "1/Pa"),
+}
+_TABLES: dict[str, Quantities] = {
+    "depth": _COMPLIANCE
+    | {
+        "low": ("creep compliance J, lower end of 95 %, missing if the scatter is unknown", "1/Pa"),
+        "high": ("creep compliance J, upper end of 95 %, missing if the scatter is unknown", "1/Pa"),
+    },
+    "force": _COMPLIANCE
+    | {
+        "relaxation_modulus": ("relaxation modulus at this time after a step of the depth", "Pa"),
+        "low": ("relaxation modulus, lower end of 95 %, missing if the scatter is unknown", "Pa"),
+        "high": ("relaxation modulus, upper end of 95 %, missing if it or the scatter is unknown", "Pa"),
+    },
+}
+_LARGEST_FILE = 1_000_000  # bytes
+
+
+def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
+    """Read a medium from a YAML file with one mapping: its kind and its parameters.
+
+    The path of a creep table is relative to the YAML file.
+
+    Parameters
+    ----------
+    path : path
+        YAML file. `viscorough kinetics --help` lists the kinds of media and their keys.
+    length_unit : str, optional
+        Unit of length of the indenter, such as "um". Values are then in Pa and s, or have units. By default all values
+        are plain numbers in consistent units.
+
+    Returns
+    -------
+    Medium
+
+    Raises
+    ------
+    ValueError
+        For a missing or damaged file, an unknown kind or key, and values out of range. The message has one line.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import viscorough
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with open(f"{folder}/medium.yaml", "w") as file:
+    ...         _ = file.write("{kind: maxwell, shear_modulus: 2, viscosity: 5}")
+    ...     medium = viscorough.read_medium(f"{folder}/medium.yaml")
+    >>> medium
+    Maxwell(shear_modulus=2.0, viscosity=5.0)
+    """
+    with path_named(path):
+        return medium_from_mapping(_mapping(path), length_unit, folder=Path(path).parent)
+
+
+def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, folder: Path = Path()) -> Medium:
+    """Return the medium that a mapping describes.
+
+    mapping : `kind`, one of KINDS, and all parameters of this kind. Young's moduli (kinds.YOUNG) may replace the moduli
+        in shear; `poisson` is then an optional key. The key `file` of a creep table names a file with the columns time
+        and compliance, in s and 1/Pa or in the units of its heading
+    length_unit : unit of length of the indenter. If it is known, plain moduli are in Pa, viscosities in Pa s and times
+        in s, and values may have units ("2 MPa"), except for a springpot. If it is "1", all values are plain numbers in
+        consistent units of the user's choice
+    folder : folder that the file of a creep table is relative to
+
+    Raises a one-line ValueError for an unknown kind or key, missing keys, and values out of range.
+    """
+    kind = mapping.get("kind")
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise ValueError(f"kind {repr(kind)[:60]}; allowed: {', '.join(KINDS)}")
+    make = KINDS[kind]
+    needed = ["file"] if make is kinds.CreepTable else [field.name for field in dataclasses.fields(make)]
+    keys = ["file"] if make is kinds.CreepTable else list(inspect.signature(make).parameters)
+    if unknown := [key for key in mapping if key != "kind" and key not in keys]:
+        raise ValueError(f"unknown key {repr(unknown[0])[:60]}; allowed for {kind}: {', '.join(keys)}")
+    if missing := [key for key in needed if not {key, kinds.YOUNG.get(key)} & mapping.keys()]:
+        needs = [f"{key} (or {kinds.YOUNG[key]})" if kinds.YOUNG.get(key) in keys else key for key in needed]
+        raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(needs)}")
+    if make is kinds.CreepTable:
+        name, columns = mapping["file"], {"time": "s", "compliance": "1/Pa"}
+        if not isinstance(name, str) or not name or "\0" in name:
+            raise ValueError(f"file: {repr(name)[:60]}; allowed: the name of a .csv or .npy file")
+        return make(*read_columns(folder / name, "a creep table", columns, length_unit))
+    return make(**{key: _values(key, value, length_unit) for key, value in mapping.items() if key != "kind"})
+
+
+def creep_table_of(path: FilePath) -> Path | None:
+    """Return the path of the creep table that a YAML file names, which may not exist; None for other media."""
+    name = _mapping(path).get("file")
+    return Path(path).parent / name if isinstance(name, str) and name and "\0" not in name else None
+
+
+def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: Any) -> None:
+    """Write an IdentifiedMedium as YAML for `read_medium`, atomically.
+
+    A creep table is written to a second file in the same folder, with the suffix .csv. It has the columns time,
+    compliance, and low and high, the ends of the interval of the compliance, which are empty if the scatter of the
+    record is unknown.
+
+    Parameters
+    ----------
+    identified : IdentifiedMedium
+        Result of `identify_medium`.
+    path : path
+        YAML file to write or replace.
+    **attributes : Any
+        Further attributes of the table.
+
+    Raises
+    ------
+    ValueError
+        For a path that is not .yaml or cannot be written.
+    OSError
+        If writing fails.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import viscorough
+    >>> curve = viscorough.indent(viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1))
+    >>> record = viscorough.kinetics(curve, 5e-6, 1e6, np.geomspace(0.1, 100, 50))
+    >>> identified = viscorough.identify_medium(curve, 5e-6, record.time, record.depth)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     viscorough.save(identified, f"{folder}/medium.yaml")
+    ...     medium = viscorough.read_medium(f"{folder}/medium.yaml")
+    >>> type(medium).__name__
+    'CreepTable'
+    """
+    path, medium, table = Path(path), identified.medium, check_medium_file(path)
+    (kind,) = (kind for kind, make in KINDS.items() if make is type(medium))
+    mapping: dict[str, Any] = {"kind": kind}
+    if isinstance(medium, kinds.CreepTable):
+        tables.write(identified_to_content(identified).with_attributes(**attributes), table)
+        mapping["file"] = table.name
+    else:
+        mapping |= dataclasses.asdict(cast(Any, medium))
+    with atomic_write(path) as temporary:
+        temporary.write_text(yaml.safe_dump(mapping, sort_keys=False, allow_unicode=True), encoding="utf-8")
+
+
+def identified_to_content(identified: IdentifiedMedium) -> Content:
+    """Convert an IdentifiedMedium to a Content: compliance and the ends of its interval over time."""
+    quantities = _TABLES[identified.measured]
+    values = {name: getattr(identified, name) for name in quantities}
+    variables = described(("level",), values, quantities, identified.length_unit)
+    return Content(variables, {"title": f"Medium identified from a record of {identified.measured} over time"})
+
+
+def check_medium_file(path: FilePath) -> Path:
+    """Return the path of the creep table of a YAML file. Raises ValueError for suffixes other than .yaml and .yml."""
+    check_suffix(path, MEDIA)
+    return Path(path).with_suffix(".csv")
+
+
+class _WithoutAliases(UniqueKeys):
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        if self.check_event(yaml.AliasEvent):
+            raise yaml.YAMLError("aliases are not allowed")
+        return super().compose_node(parent, index)
+
+
+def _mapping(path: FilePath) -> dict[str, Any]:
+    with reading(path, "one mapping of YAML with the kind of medium and its parameters is needed"):
+        if Path(path).stat().st_size > _LARGEST_FILE:
+            raise ValueError("it is too large")
+        content = yaml.load(Path(path).read_bytes(), Loader=_WithoutAliases)
+        if not isinstance(content, dict):
+            raise ValueError(f"it holds {repr(content)[:60]}")
+    return content
+
+
+def _values(key: str, value: object, length_unit: str) -> Any:
+    """Convert a value of a mapping, or a list of values, to an argument of the class of a medium."""
+    if isinstance(value, list):
+        return [_values(f"{key}[{i}]", entry, length_unit) for i, entry in enumerate(value)]
+    if isinstance(value, str):
+        with contextlib.suppress(ValueError):
+            return float(value)  # YAML reads 1e6, without a point, as a text
+        if length_unit == "1":
+            text = "allowed: a plain number, since the unit of length is not known"
+            raise ValueError(f"{key}: {repr(value)[:60]}; {text}")
+    return value

@@ -1,0 +1,1 @@
+"""The calibrated penetration law, and the depths that it gives."""

@@ -1,0 +1,62 @@
+"""The depth and the velocity of a rough indenter over time, as the calibrated penetration law gives them."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscorough.basics.arrays import ReadOnlyArrays
+from viscorough.basics.summaries import span
+from viscorough.law.calibrated_law import PenetrationLaw
+
+
+@dataclass(frozen=True)
+class Estimate(ReadOnlyArrays):
+    """Depth and velocity over time by the penetration law, arrays of shape (times,); nan outside the range of the law.
+
+    time : times t
+    x : dimensionless force X = F·J(t)/(4hL)
+    depth, velocity : u and v = du/dt, arithmetic means over many surfaces at the same X, with h of each surface in X;
+        u in the unit of the rms height, v in that unit per unit of time
+    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that contain 95 % of single surfaces
+    law : PenetrationLaw, which holds from law.x_low to law.x_high. The relative differences between its depth and
+        velocity and the means over many surfaces are at most law.depth_error and law.velocity_error
+    """
+
+    time: np.ndarray
+    x: np.ndarray
+    depth: np.ndarray
+    depth_low: np.ndarray
+    depth_high: np.ndarray
+    velocity: np.ndarray
+    velocity_low: np.ndarray
+    velocity_high: np.ndarray
+    law: PenetrationLaw
+
+    @property
+    def where(self) -> NDArray[Any]:
+        """Return for every time "" in the range of the law, "below" or "above" outside it."""
+        return np.select([self.x < self.law.x_low, self.x > self.law.x_high], ["below", "above"], "")
+
+    def __repr__(self) -> str:
+        """Return the number of times, and the ranges of times, X, depths and velocities."""
+        ranges = (f"{name} {span(getattr(self, name))}" for name in ("time", "x", "depth", "velocity"))
+        return f"Estimate at {self.time.size} times, {', '.join(ranges)}"
+
+    def __str__(self) -> str:
+        """Return a table of time, X, depth and velocity with intervals of single surfaces, and the errors of means."""
+        head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
+        columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)
+        columns += (self.velocity, self.velocity_low, self.velocity_high)
+        rows = [
+            " ".join(f"{'-' if np.isnan(value) else f'{value:.4g}':>10}" for value in row)
+            + (f"  {where}" if where else "")
+            for *row, where in zip(*columns, self.where, strict=True)
+        ]
+        law = self.law
+        intervals = (
+            f"from, to: 95 % of single surfaces; mean of many surfaces: depth ± {100 * law.depth_error:.2g} %, "
+            f"velocity ± {100 * law.velocity_error:.2g} %"
+        )
+        return "\n".join([head, *rows, intervals])

@@ -1,0 +1,1 @@
+"""Linear viscoelastic media, and the histories of force or depth that act on them."""

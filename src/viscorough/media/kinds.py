@@ -1,0 +1,589 @@
+"""Linear viscoelastic media, by their creep compliance J(t) and relaxation modulus ψ(t) in shear.
+
+Each is a `Medium` (viscorough.media.medium). A function that takes a medium also takes a number, the viscosity of a
+Newtonian one.
+
+The half-space is incompressible at all times. Moduli are in one unit, times in another, viscosities in their product
+and compliances in the inverse of the modulus; a text with a unit, as "2 MPa", is converted to SI units. In all
+media J does not decrease and is concave, as in every medium that relaxes (ψ a sum of decaying exponentials with
+positive weights).
+
+Moduli are those in shear. Keywords of their own (`YOUNG`) take Young's moduli instead, E = 3 G. With a constant Poisson
+ratio other than 0.5 the medium is the incompressible one that responds in the same way (viscorough.basics.elasticity).
+"""
+
+from __future__ import annotations
+
+import contextlib
+from abc import abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import gamma
+
+from viscorough.basics import units
+from viscorough.basics.argument_names import spelled
+from viscorough.basics.arrays import (
+    ReadOnlyArrays,
+    increasing,
+    integral,
+    read_only,
+    real_number,
+    samples,
+    shown,
+    unit_attribute,
+)
+from viscorough.basics.elasticity import poisson_ratio, shear_over_incompressible, young_over_shear
+from viscorough.basics.summaries import span
+from viscorough.basics.types import Array, Scalar, Several
+from viscorough.media.medium import Medium, RelaxationSpectrum, RetardationSpectrum
+from viscorough.media.spectra import retardation_spectrum
+
+_NONE = np.array([])
+UNITS = {  # of values that are given with a unit, by the name of the parameter
+    **dict.fromkeys(("shear_modulus", "instantaneous_modulus", "relaxed_modulus", "moduli"), "Pa"),
+    **dict.fromkeys(("relaxation_time", "relaxation_times"), "s"),
+    "viscosity": "Pa s",
+}
+YOUNG = {  # Young's moduli, by the name of the modulus in shear that they replace
+    "shear_modulus": "young_modulus",
+    "instantaneous_modulus": "instantaneous_young_modulus",
+    "relaxed_modulus": "relaxed_young_modulus",
+    "moduli": "young_moduli",
+    "modulus": "young_modulus",
+}
+_LISTS = ("moduli", "relaxation_times")
+_TABLE_ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much
+_LAST_DIGITS = 1e-14  # relative; rounding of compliances, which their slopes show where J hardly grows
+
+
+class _Exponential(Medium):
+    """A medium of springs and dashpots, which has discrete spectra: `relaxation` and `retardation`."""
+
+    @property
+    @abstractmethod
+    def relaxation(self) -> RelaxationSpectrum: ...
+
+    @cached_property
+    def retardation(self) -> RetardationSpectrum:
+        return retardation_spectrum(self.relaxation)
+
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """J at times t ≥ 0, any shape; J(0+) at time 0."""
+        instantaneous, fluidity, compliances, times = self.retardation
+        delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
+        return instantaneous + np.multiply(fluidity, time) + delayed
+
+    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
+        """dJ/dt at times t ≥ 0, any shape."""
+        _, fluidity, compliances, times = self.retardation
+        return fluidity + (compliances / times * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
+
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫J dt from start ≥ 0 to end ≥ start."""
+        instantaneous, fluidity, compliances, times = self.retardation
+        length, before = np.subtract(end, start), np.divide.outer(start, times)
+        x = np.divide.outer(length, times)
+        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-before) * np.expm1(-x))
+        return (instantaneous + 0.5 * fluidity * np.add(start, end)) * length + delayed.sum(axis=-1)
+
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
+        """ψ at times t > 0, any shape, and its limit at time 0, without the pulse η δ(t) of a dashpot."""
+        _, relaxed, moduli, times = self.relaxation
+        return relaxed + (moduli * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
+
+    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse η δ(t) of a dashpot."""
+        _, relaxed, moduli, times = self.relaxation
+        length = np.subtract(end, start)
+        decayed = -np.expm1(-np.divide.outer(length, times)) * np.exp(-np.divide.outer(start, times))
+        return relaxed * length + (moduli * times * decayed).sum(axis=-1)
+
+    def _check_spectra(self) -> None:
+        """Raise ValueError if spectra cannot be held in double precision."""
+        with np.errstate(all="ignore"):
+            rates = 1 / self.relaxation.times, 1 / self.retardation.times
+            values = np.hstack([*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates])
+        if not np.isfinite(values).all():
+            name = type(self).__name__
+            raise ValueError(f"{name}: its values are too far apart for double precision; closer ones are allowed")
+
+
+@dataclass(frozen=True)
+class Newtonian(_Exponential):
+    """A linearly viscous medium, that of the paper: J = t/η, ψ = η δ(t).
+
+    Parameters
+    ----------
+    viscosity : float
+        η. Raises ValueError unless it is a finite number above 0.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> float(viscorough.Newtonian(viscosity=5.0).creep_compliance(10.0))
+    2.0
+    """
+
+    viscosity: float
+
+    def __post_init__(self) -> None:
+        _set_parameters(self, {"viscosity": self.viscosity})
+        self._check_spectra()
+
+    @cached_property
+    def relaxation(self) -> RelaxationSpectrum:
+        return RelaxationSpectrum(self.viscosity, 0.0, _NONE, _NONE)
+
+
+@dataclass(frozen=True, init=False)
+class _SpringAndDashpot(_Exponential):
+    shear_modulus: float
+    viscosity: float
+
+    def __init__(
+        self,
+        shear_modulus: Scalar | str | None = None,
+        viscosity: Scalar | str | None = None,
+        *,
+        young_modulus: Scalar | str | None = None,
+        poisson: float | None = None,
+    ) -> None:
+        given = {"shear_modulus": shear_modulus, "viscosity": viscosity}
+        _set_parameters(self, given, {"shear_modulus": young_modulus}, poisson)
+        self._check_spectra()
+
+
+class Maxwell(_SpringAndDashpot):
+    """A spring and a dashpot in series: J = 1/G + t/η, ψ = G exp(−t/τ), τ = η/G.
+
+    Parameters
+    ----------
+    shear_modulus : float or str
+        G, or a text as "2 MPa".
+    viscosity : float or str
+        η in shear, or a text as "2 kPa s".
+    young_modulus : float or str, optional
+        Young's modulus E instead of G: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5. The
+        medium then is the incompressible one of the same E(t)/(1 − ν²), so that also η is divided by 2(1 − ν).
+
+    Raises
+    ------
+    ValueError
+        Unless both are finite numbers above 0, and for a Poisson ratio outside these limits.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> float(viscorough.Maxwell(shear_modulus=2.0, viscosity=5.0).creep_compliance(10.0))
+    2.5
+    >>> viscorough.Maxwell(young_modulus="6 MPa", viscosity="5 kPa s")
+    Maxwell(shear_modulus=2000000.0, viscosity=5000.0)
+    """
+
+    @cached_property
+    def relaxation(self) -> RelaxationSpectrum:
+        modulus = np.array([self.shear_modulus])
+        return RelaxationSpectrum(0.0, 0.0, modulus, self.viscosity / modulus)
+
+
+class KelvinVoigt(_SpringAndDashpot):
+    """A spring and a dashpot side by side: J = (1 − exp(−t/θ))/G, θ = η/G, ψ = G + η δ(t).
+
+    Parameters
+    ----------
+    shear_modulus : float or str
+        G, or a text as "2 MPa".
+    viscosity : float or str
+        η in shear, or a text as "2 kPa s".
+    young_modulus : float or str, optional
+        Young's modulus E instead of G: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5. The
+        medium then is the incompressible one of the same E(t)/(1 − ν²), so that also η is divided by 2(1 − ν).
+
+    Raises
+    ------
+    ValueError
+        Unless both are finite numbers above 0, and for a Poisson ratio outside these limits.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> viscorough.KelvinVoigt(shear_modulus=2.0, viscosity=5.0).retardation.times.tolist()
+    [2.5]
+    """
+
+    @cached_property
+    def relaxation(self) -> RelaxationSpectrum:
+        return RelaxationSpectrum(self.viscosity, self.shear_modulus, _NONE, _NONE)
+
+
+@dataclass(frozen=True, init=False)
+class StandardLinearSolid(_Exponential):
+    """J = 1/G∞ − (1/G∞ − 1/G₀) exp(−t/θ), θ = τ G₀/G∞; ψ = G∞ + (G₀ − G∞) exp(−t/τ).
+
+    Parameters
+    ----------
+    instantaneous_modulus : float or str
+        G₀, or a text as "2 MPa".
+    relaxed_modulus : float or str
+        G∞ < G₀.
+    relaxation_time : float or str
+        τ, or a text as "20 ms".
+    instantaneous_young_modulus, relaxed_young_modulus : float or str, optional
+        Young's moduli instead of G₀ and G∞: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with Young's moduli, by default 0.5.
+
+    Raises
+    ------
+    ValueError
+        Unless all are finite numbers above 0 and G∞ < G₀, and for a Poisson ratio outside these limits.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> solid = viscorough.StandardLinearSolid(4.0, 1.0, relaxation_time=0.5)
+    >>> float(solid.creep_compliance(0.0)), solid.retardation.times.tolist()
+    (0.25, [2.0])
+    """
+
+    instantaneous_modulus: float
+    relaxed_modulus: float
+    relaxation_time: float
+
+    def __init__(
+        self,
+        instantaneous_modulus: Scalar | str | None = None,
+        relaxed_modulus: Scalar | str | None = None,
+        relaxation_time: Scalar | str | None = None,
+        *,
+        instantaneous_young_modulus: Scalar | str | None = None,
+        relaxed_young_modulus: Scalar | str | None = None,
+        poisson: float | None = None,
+    ) -> None:
+        given = {"instantaneous_modulus": instantaneous_modulus, "relaxed_modulus": relaxed_modulus}
+        young = {"instantaneous_modulus": instantaneous_young_modulus, "relaxed_modulus": relaxed_young_modulus}
+        _set_parameters(self, given | {"relaxation_time": relaxation_time}, young, poisson)
+        self._check_spectra()
+
+    @cached_property
+    def relaxation(self) -> RelaxationSpectrum:
+        branch = self.instantaneous_modulus - self.relaxed_modulus
+        if not branch > 0:
+            raise ValueError(
+                f"StandardLinearSolid: relaxed_modulus {self.relaxed_modulus:g}; "
+                f"allowed: below instantaneous_modulus, {self.instantaneous_modulus:g}"
+            )
+        return RelaxationSpectrum(0.0, self.relaxed_modulus, np.array([branch]), np.array([self.relaxation_time]))
+
+
+@dataclass(frozen=True, init=False)
+class Prony(_Exponential):
+    """A Prony series: ψ = G∞ + Σ G_i exp(−t/τ_i); J from the zeros of its relaxance, exactly.
+
+    Parameters
+    ----------
+    relaxed_modulus : float or str
+        G∞ ≥ 0, 0 for a medium that flows; or a text as "2 MPa".
+    moduli : list
+        G_i > 0, numbers or texts.
+    relaxation_times : list
+        τ_i > 0, numbers or texts as "20 ms", in any order.
+    relaxed_young_modulus : float or str, optional
+        Young's modulus instead of G∞: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
+    young_moduli : list, optional
+        Young's moduli instead of G_i.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with Young's moduli, by default 0.5.
+
+    Raises
+    ------
+    ValueError
+        For values outside these ranges, and unless there are as many times as moduli, at least one.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> medium = viscorough.Prony(1.0, moduli=[2.0, 3.0], relaxation_times=[0.1, 10.0])
+    >>> float(medium.relaxation.instantaneous_modulus)
+    6.0
+    """
+
+    relaxed_modulus: float
+    moduli: tuple[float, ...]
+    relaxation_times: tuple[float, ...]
+
+    def __init__(
+        self,
+        relaxed_modulus: Scalar | str | None = None,
+        moduli: Several | None = None,
+        relaxation_times: Several | None = None,
+        *,
+        relaxed_young_modulus: Scalar | str | None = None,
+        young_moduli: Several | None = None,
+        poisson: float | None = None,
+    ) -> None:
+        given = {"relaxed_modulus": relaxed_modulus, "moduli": moduli, "relaxation_times": relaxation_times}
+        young = {"relaxed_modulus": relaxed_young_modulus, "moduli": young_moduli}
+        _set_parameters(self, given, young, poisson, zero="relaxed_modulus")
+        if len(self.moduli) != len(self.relaxation_times):
+            raise ValueError(
+                f"Prony: {len(self.moduli)} moduli and {len(self.relaxation_times)} relaxation_times; "
+                "allowed: one time for every modulus"
+            )
+        self._check_spectra()
+
+    @cached_property
+    def relaxation(self) -> RelaxationSpectrum:
+        times = np.array(self.relaxation_times)
+        # Branches of one rate are one branch.
+        _, first, branch = np.unique(1 / times, return_index=True, return_inverse=True)
+        moduli = np.bincount(branch, self.moduli).astype(float)
+        return RelaxationSpectrum(0.0, self.relaxed_modulus, moduli, times[first])
+
+
+@dataclass(frozen=True, init=False)
+class Springpot(Medium):
+    """Creep by a power law: J = t^a/(K Γ(1+a)), ψ = K t^(−a)/Γ(1−a).
+
+    Parameters
+    ----------
+    modulus : float
+        K [modulus · time^a].
+    exponent : float
+        a.
+    young_modulus : float, optional
+        The same of Young's modulus, E = E₁ t^(−a)/Γ(1−a), instead of K: K = E₁/(1 − ν²)/4, which is E₁/3 for ν = 0.5.
+    poisson : float, optional
+        Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5.
+
+    Raises
+    ------
+    ValueError
+        Unless K is a finite number above 0 and 0 < a < 1, and for a Poisson ratio outside these limits.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> round(float(viscorough.Springpot(modulus=1.0, exponent=0.5).creep_compliance(4.0)), 4)
+    2.2568
+    """
+
+    modulus: float
+    exponent: float
+
+    def __init__(
+        self,
+        modulus: Scalar | None = None,
+        exponent: Scalar | None = None,
+        *,
+        young_modulus: Scalar | None = None,
+        poisson: float | None = None,
+    ) -> None:
+        _set_parameters(self, {"modulus": modulus, "exponent": exponent}, {"modulus": young_modulus}, poisson)
+        if not self.exponent < 1:
+            text = "allowed: above 0 and below 1 (1 is a Newtonian medium)"
+            raise ValueError(f"Springpot: exponent {self.exponent:g}; {text}")
+        if np.isinf(1 / self.modulus):
+            raise ValueError(f"Springpot: modulus {self.modulus:g}; allowed: numbers whose inverse is finite")
+
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """J at times t ≥ 0, any shape."""
+        return np.asarray(time, dtype=float) ** self.exponent / (self.modulus * gamma(1 + self.exponent))
+
+    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
+        """dJ/dt at times t ≥ 0, any shape; infinite at time 0."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(time, dtype=float) ** (self.exponent - 1) / (self.modulus * gamma(self.exponent))
+
+    def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """J(end) − J(start) for 0 ≤ start ≤ end, to rounding."""
+        return _power_increment(start, end, self.exponent) / (self.modulus * gamma(1 + self.exponent))
+
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫J dt from start ≥ 0 to end ≥ start, to rounding."""
+        return _power_increment(start, end, 1 + self.exponent) / (self.modulus * gamma(2 + self.exponent))
+
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
+        """ψ at times t ≥ 0, any shape; infinite at time 0."""
+        with np.errstate(divide="ignore"):
+            return self.modulus * np.asarray(time, dtype=float) ** -self.exponent / gamma(1 - self.exponent)
+
+    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫ψ dt from start ≥ 0 to end ≥ start, to rounding."""
+        return self.modulus * _power_increment(start, end, 1 - self.exponent) / gamma(2 - self.exponent)
+
+
+@dataclass(frozen=True)
+class CreepTable(ReadOnlyArrays, Medium):
+    """A measured creep compliance, linear between its points.
+
+    Parameters
+    ----------
+    times : array
+        0 and increasing.
+    compliances : array
+        J at these times, J(0+) first; arrays of shape (points,), copied.
+
+    Raises
+    ------
+    ValueError
+        Unless there are two points, all are finite and J is 0 or more, does not decrease and is concave, as the
+        compliance of every medium that relaxes is: noise has to be smoothed first. Beyond its last point nothing is
+        known.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> table = viscorough.CreepTable([0.0, 1.0, 10.0], [0.2, 0.5, 0.9])
+    >>> float(table.creep_compliance(1.0))
+    0.5
+    """
+
+    times: np.ndarray
+    compliances: np.ndarray
+
+    def __repr__(self) -> str:
+        """Number of points and their range, instead of all numbers."""
+        return f"CreepTable of {len(self.times)} points, t {span(self.times)}, J {span(self.compliances)}"
+
+    def __post_init__(self) -> None:
+        times = increasing("CreepTable: times", units.numbers(self.times, "s", "m", "CreepTable: times"))
+        if times[0] != 0 or times.size < 2:
+            raise ValueError("CreepTable: allowed are two or more times that start with 0")
+        values = units.numbers(self.compliances, "1/Pa", "m", "CreepTable: compliances")
+        values = samples("CreepTable: compliances", values, times)
+        for name, array in (("times", times), ("compliances", values)):
+            object.__setattr__(self, name, read_only(array))
+        slopes = self._slopes
+        if not ((slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
+            raise ValueError("CreepTable: allowed is a compliance that starts at 0 or more, grows and never decreases")
+        rounding = _LAST_DIGITS * values[1:-1] / np.minimum(np.diff(times)[1:], np.diff(times)[:-1])
+        if (steeper := slopes[1:] > slopes[:-1] * (1 + _TABLE_ROUNDING) + rounding).any():
+            where = self.times[1 + int(np.argmax(steeper))]
+            raise ValueError(
+                f"CreepTable: J grows faster after time {where:g} than before; allowed: a concave J, as of every "
+                "medium that relaxes (smooth what was measured)"
+            )
+
+    @cached_property
+    def _slopes(self) -> Array:
+        return np.diff(self.compliances) / np.diff(self.times)
+
+    @property
+    def last_time(self) -> float:
+        return self.times[-1]
+
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """J at times 0 ≤ t up to the last point, any shape; nan beyond it."""
+        return np.interp(np.asarray(time, dtype=float), self.times, self.compliances, right=np.nan)
+
+    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
+        """dJ/dt at times 0 ≤ t up to the last point, any shape: that after each point, or with `left` before it."""
+        place = np.searchsorted(self.times, time, side="left" if left else "right") - 1
+        return self._slopes[np.clip(place, 0, self._slopes.size - 1)]
+
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫J dt from start ≥ 0 to end ≥ start."""
+        return integral(self.times, self.compliances, end) - integral(self.times, self.compliances, start)
+
+
+def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) -> Medium:
+    """The medium; a number, or a text as "2 kPa s", is the viscosity of a Newtonian one.
+
+    length_unit : of the indenter; where it is not known, a viscosity has no unit. Raises ValueError for anything else.
+    """
+    if isinstance(medium, Medium):
+        return medium
+    viscosity: Any = medium
+    if isinstance(medium, str) or unit_attribute(medium):
+        viscosity = units.number(medium, "Pa s", length_unit, "viscosity")
+    try:
+        return Newtonian(viscosity)
+    except ValueError as error:
+        allowed = spelled(
+            "allowed: a finite number above 0 whose inverse is finite",
+            "allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian one, a finite number above 0",
+        )
+        raise ValueError(f"{spelled('--viscosity', 'medium')}: {shown(medium)}; {allowed}") from error
+
+
+def _power_increment(start: ArrayLike, end: ArrayLike, power: float) -> Array:
+    """end^power − start^power for 0 ≤ start ≤ end and power > 0, to rounding."""
+    start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        increment = start**power * np.expm1(power * np.log1p((end - start) / start))
+    return np.where(start > 0, increment, end**power)
+
+
+def _set_parameters(
+    medium: Medium,
+    given: dict[str, Any],
+    young: dict[str, Any] | None = None,
+    poisson: float | None = None,
+    *,
+    zero: str = "",
+) -> None:
+    """Set the parameters of a medium: finite numbers above 0, in SI units if they have a unit.
+
+    given : {parameter: value}; a value is None if it is missing, or if Young's modulus is given instead
+    young : {modulus in shear: Young's modulus instead}, None if it is not given
+    poisson : Poisson ratio, with Young's moduli; None: 0.5
+    zero : parameter that may be 0
+
+    Raises ValueError, which names medium and parameter.
+    """
+    name, young = type(medium).__name__, young or {}
+    keywords = ", ".join(YOUNG[modulus] for modulus in young)
+    by_young = any(value is not None for value in young.values())
+    if by_young and any(given[modulus] is not None for modulus in young):
+        text = f"{name}: {', '.join(young)} and {keywords} exclude each other"
+        raise ValueError(f"{text}; one of these kinds of moduli is allowed")
+    if poisson is not None and not by_young:
+        raise ValueError(f"{name}: poisson is for use with {keywords}")
+    ratio = poisson_ratio(f"{name}: poisson", poisson)
+    for parameter, value in given.items():
+        divisor, spelled = 1.0, parameter
+        if by_young and parameter in young:
+            divisor, spelled, value = young_over_shear(ratio), YOUNG[parameter], young[parameter]
+        elif parameter == "viscosity":
+            divisor = shear_over_incompressible(ratio)
+        if value is None:
+            instead = f" or {YOUNG[parameter]}" if parameter in young and not by_young else ""
+            raise ValueError(f"{name}: {spelled}{instead} is missing")
+        checked: Any
+        if parameter in _LISTS:
+            checked = tuple(number / divisor for number in _numbers(name, spelled, value, UNITS[parameter]))
+        else:
+            checked = _number(name, spelled, value, UNITS.get(parameter), zero=parameter == zero) / divisor
+        object.__setattr__(medium, parameter, checked)
+
+
+def _numbers(medium: str, name: str, values: Any, unit: str) -> list[float]:
+    """Return the values of a list as floats. Raises ValueError as `_number`, and for anything but a list."""
+    entries = list(values) if isinstance(values, list | tuple) or np.ndim(values) == 1 else []
+    if not entries:
+        raise ValueError(f"{medium}: {name} {shown(values)}; allowed: a list of one or more numbers above 0")
+    return [_number(medium, f"{name}[{i}]", entry, unit) for i, entry in enumerate(entries)]
+
+
+def _number(medium: str, name: str, value: Any, unit: str | None, *, zero: bool = False) -> float:
+    """Return the value as a float, of a text with a unit in SI units.
+
+    Raises ValueError unless it is a finite number above 0, or 0 where that is allowed.
+    """
+    if unit and (isinstance(value, str) or hasattr(value, "units")):
+        value = units.number(value, unit, "m", f"{medium}: {name}")
+    with contextlib.suppress(ValueError):
+        number = real_number(name, value)
+        if number > 0 or (zero and number == 0):
+            return number
+    allowed = "0 or a finite number above 0" if zero else "a finite number above 0"
+    raise ValueError(f"{medium}: {name} {shown(value)}; allowed: {allowed}")

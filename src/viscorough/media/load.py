@@ -1,0 +1,155 @@
+"""Load on an indenter: its depth or the force on it over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscorough.basics import units
+from viscorough.basics.arrays import ReadOnlyArrays, increasing, integral, read_only, real_numbers
+from viscorough.basics.summaries import span
+from viscorough.basics.types import Array, Integers
+
+# Times that differ by less than this share of them are the same to rounding: within a shorter interval the slope of a
+# load would be lost in rounding.
+_SAME_TIME = 1e-13
+
+
+@dataclass(frozen=True)
+class Load(ReadOnlyArrays):
+    """Force or depth over time, linear between samples; read-only arrays of shape (samples,).
+
+    Before the first sample there is neither force nor depth, so that a first value above zero is a step. Numbers are
+    plain: in s, N and the unit of length of the indenter, or in consistent units if this unit is not known.
+
+    Parameters
+    ----------
+    time : array_like
+        Times t, increasing; a time given twice is a step from one value to the other.
+    force : array_like, optional
+        Force F ≥ 0 at these times. Without adhesion no force pulls.
+    depth : array_like, optional
+        Depth u at these times. Below zero the indenter is lifted above the plane of first contact. One of force and
+        depth is needed.
+
+    Raises
+    ------
+    ValueError
+        For times that decrease, values that are not finite, a negative force, and unless one of force and depth is
+        given.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> load = viscorough.Load([0.0, 1.0, 3.0], force=[0.0, 2.0, 2.0])  # a ramp and a hold
+    >>> load.integral.tolist()
+    [0.0, 1.0, 5.0]
+    """
+
+    time: np.ndarray
+    force: np.ndarray | None = None
+    depth: np.ndarray | None = None
+
+    if TYPE_CHECKING:  # it takes lists, too, which become arrays
+
+        def __init__(self, time: ArrayLike, force: ArrayLike | None = None, depth: ArrayLike | None = None) -> None: ...
+
+    def __repr__(self) -> str:
+        """Number of samples and their range, instead of all numbers."""
+        name = "depth" if self.by_depth else "force"
+        return f"Load of {self.time.size} samples, time {span(self.time)}, {name} {span(self.values)}"
+
+    def __post_init__(self) -> None:
+        if (self.force is None) == (self.depth is None):
+            raise ValueError("Load: one of force and depth is needed")
+        name = "depth" if self.force is None else "force"
+        time = increasing("Load: time", self.time, steps=f"the {name}")
+        values = real_numbers(f"Load: {name}", getattr(self, name))
+        if values.shape != time.shape:
+            raise ValueError(
+                f"Load: {name}: samples of shape {values.shape}; allowed: one per time, shape {time.shape}"
+            )
+        allowed = np.isfinite(values) if self.by_depth else np.isfinite(values) & (values >= 0)
+        if not allowed.all():
+            where = int(np.argmin(allowed))
+            text = "finite" if self.by_depth else "finite, 0 or more (without adhesion a pull opens the contact)"
+            raise ValueError(f"Load: {name}: sample {where} is {values[where]}; allowed: {text}")
+        object.__setattr__(self, "time", read_only(time))
+        object.__setattr__(self, name, read_only(values))
+
+    @property
+    def by_depth(self) -> bool:
+        """True if the depth is prescribed, False if the force is."""
+        return self.force is None
+
+    @property
+    def values(self) -> Array:
+        """The depth or the force, shape (samples,)."""
+        values = self.depth if self.force is None else self.force
+        assert values is not None
+        return values
+
+    @property
+    def integral(self) -> Array:
+        """∫F dt or ∫u dt from the first sample to each sample, shape (samples,)."""
+        return integral(self.time, self.values, self.time)
+
+    def with_times(self, times: ArrayLike) -> tuple[Load, Integers]:
+        """Return the load with further samples at these times, and their indices; after a step at its time.
+
+        Times that are equal to rounding share a sample. Raises ValueError for times that do not increase or lie outside
+        the load.
+        """
+        times = increasing("times", times)
+        rounding = _SAME_TIME * np.abs(times)
+        if times[0] < self.time[0] - rounding[0] or times[-1] > self.time[-1] + rounding[-1]:
+            kind = "depth" if self.by_depth else "force"
+            raise ValueError(
+                f"times: from {times[0]:g} to {times[-1]:g}; allowed: within the history of the {kind}, "
+                f"{self.time[0]:g} to {self.time[-1]:g}"
+            )
+        apart = (_distance(times, self.time) > rounding) & (np.diff(times, prepend=-np.inf) > rounding)
+        new = times[apart]
+        place = np.searchsorted(self.time, new)
+        values = np.insert(self.values, place, np.interp(new, self.time, self.values))
+        load = Load(np.insert(self.time, place, new), **{"depth" if self.by_depth else "force": values})
+        return load, np.searchsorted(load.time, times + rounding, side="right") - 1
+
+    def in_units_of(self, length_unit: str) -> Load:
+        """Return the load with forces in N divided by the area of a square of the unit of length, in m².
+
+        Forces are then consistent with moduli in Pa and this unit. A load without forces, or of an unknown unit, is
+        returned unchanged.
+        """
+        area = units.square_metres(length_unit)
+        return self if self.by_depth or area == 1 else Load(self.time, force=self.values / area)
+
+
+def _distance(times: Array, samples: Array) -> Array:
+    """Distance of each time from the nearest of the increasing samples."""
+    after = np.searchsorted(samples, times)
+    before = np.abs(times - samples[np.maximum(after - 1, 0)])
+    return np.minimum(before, np.abs(samples[np.minimum(after, samples.size - 1)] - times))
+
+
+def force_load(force: Any, times: Array, length_unit: str) -> Load:
+    """Return a force as a Load in consistent units.
+
+    force : a Load of a force; samples at `times`; or a constant, also with a unit, from time 0 to the last of `times`
+    """
+    if isinstance(force, Load):
+        if force.by_depth:
+            raise ValueError("force: a Load of a depth; allowed: a Load of a force, samples or a constant")
+        return force.in_units_of(length_unit)
+    values = units.numbers(force, "N", length_unit, "force")
+    if values.ndim:
+        return Load(times, force=values).in_units_of(length_unit)
+    if not 0 < values < np.inf:
+        raise ValueError(f"constant force: {values}; allowed: a finite number above 0")
+    if times[0] < 0:
+        raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
+    samples = np.unique([0.0, times[-1]])
+    return Load(samples, force=np.full(samples.size, float(values))).in_units_of(length_unit)

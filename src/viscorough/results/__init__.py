@@ -1,0 +1,1 @@
+"""Results of computations: loading curves, contacts and motions."""

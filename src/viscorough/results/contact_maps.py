@@ -1,0 +1,192 @@
+"""The result of one contact: maps of pressure, gap and contact, with areas, pressures and patches."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from viscorough.basics.arrays import ReadOnlyArrays, ReadOnlyTuple, real_number
+from viscorough.basics.summaries import span, unit_power, with_unit
+from viscorough.basics.types import Mask
+from viscorough.basics.units import in_metres, result_units, square_metres
+
+# Whole elements exceed the contact at its edge. Mean excess area per change of contact between two neighbouring
+# elements, over the area dx dy of an element.
+EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
+
+
+class _Patches(NamedTuple):
+    labels: np.ndarray
+    areas: np.ndarray
+
+
+class Patches(ReadOnlyTuple, _Patches):
+    """Contact patches of a map: connected regions of elements in contact.
+
+    Attributes
+    ----------
+    labels : array
+        Number of the patch of each element, from 1 for the largest patch; 0 for elements without contact.
+    areas : array
+        Areas of the patches in this order, shape (patches,) [length²].
+    """
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        """Return the number and areas of the patches, not the map."""
+        areas = f", areas {span(self.areas)}" if len(self.areas) else ""
+        return f"Patches: {len(self.areas)} of the contact{areas}"
+
+
+@dataclass(frozen=True)
+class Contact(ReadOnlyArrays):
+    """Contact of a rigid indenter with an elastic half-space at one depth, the result of `contact_at`.
+
+    Arrays are copied and read-only.
+
+    Attributes
+    ----------
+    pressure : array
+        Pressure p/G, with G the shear modulus of the incompressible half-space, shape (rows, columns) [1]. It is zero
+        outside the contact and nan outside the indenter.
+    gap : array
+        Gap between the deformed surface and the indenter, nan outside the indenter [length]. Its magnitude in contact,
+        and its overlap elsewhere, are at most `residual` times the depth.
+    contact : array
+        True for elements in contact, whose pressure is above zero.
+    depth : float
+        Depth u from first contact [length].
+    force : float
+        Force F/G, the sum of the pressures times the area of an element [length²].
+    stiffness : float
+        Tangent stiffness k/G = d(F/G)/du of the elements in contact [length].
+    residual : float
+        Largest gap in contact, or overlap outside it, over the depth, rounding included [1].
+    tolerance : float
+        Requested bound of the residual [1].
+    spacing, row_spacing : float
+        Distances dx and dy between neighbouring columns and rows [length].
+    length_unit : str
+        Unit of all lengths; "1" if it is not known.
+    shear_modulus : float or None
+        Shear modulus G [Pa], or in consistent units if the unit of length is not known; None if it was not given.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> contact = viscorough.contact_at(disc, depth=0.005)
+    >>> contact.pressure.shape, bool(contact.contact.any())
+    ((17, 17), True)
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    contact: Mask
+    depth: float
+    force: float
+    stiffness: float
+    residual: float
+    tolerance: float
+    spacing: float
+    row_spacing: float
+    length_unit: str = "1"
+    shear_modulus: float | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("depth", "force", "stiffness", "residual", "tolerance", "spacing", "row_spacing"):
+            real_number(f"Contact: {name}", getattr(self, name))
+        if self.shear_modulus is not None:
+            real_number("Contact: shear_modulus", self.shear_modulus)
+        if not self.pressure.shape == self.gap.shape == self.contact.shape:
+            shapes = f"{self.pressure.shape}, {self.gap.shape} and {self.contact.shape}"
+            raise ValueError(f"Contact: pressure, gap and contact have the shapes {shapes}; one shape is needed")
+
+    def __str__(self) -> str:
+        """Return a summary: elements in contact; depth, force and stiffness; area and pressure."""
+        unit, area = self.length_unit, unit_power(self.length_unit, 2)
+        text = (
+            f"Contact of {self.contact_count} of {self.elements} elements\n"
+            f"depth u {with_unit(self.depth, unit)}, force F/G {with_unit(self.force, area)}, "
+            f"stiffness k/G {with_unit(self.stiffness, unit)}\n"
+            f"contact area {with_unit(self.contact_area, area)} ({100 * self.contact_fraction:.3g} %), "
+            f"corrected {with_unit(self.corrected_contact_area, area)}, "
+            f"mean p/G {with_unit(self.mean_pressure)}, largest p/G {with_unit(self.largest_pressure)}"
+        )
+        if self.shear_modulus is not None:
+            read = result_units(unit, self.shear_modulus)
+            text += f"\nforce F {read['force'].text(self.force)}, mean p {read['pressure'].text(self.mean_pressure)}, "
+            text += f"largest p {read['pressure'].text(self.largest_pressure)}, "
+            text += f"stiffness k {read['stiffness'].text(self.stiffness)}"
+        return text
+
+    @property
+    def normal_force(self) -> float | None:
+        """Return the force F [N], in consistent units if the unit of length is not known; None without a modulus."""
+        if self.shear_modulus is None:
+            return None
+        return self.force * self.shear_modulus * square_metres(self.length_unit)
+
+    @property
+    def normal_stiffness(self) -> float | None:
+        """Return the stiffness k = dF/du [N/m], in consistent units like `normal_force`; None without a modulus."""
+        if self.shear_modulus is None:
+            return None
+        return self.stiffness * self.shear_modulus * in_metres(self.length_unit)
+
+    @property
+    def elements(self) -> int:
+        """Return the number of elements of the indenter."""
+        return int(np.count_nonzero(~np.isnan(self.pressure)))
+
+    @property
+    def contact_count(self) -> int:
+        """Return the number of elements in contact."""
+        return int(np.count_nonzero(self.contact))
+
+    @property
+    def contact_fraction(self) -> float:
+        """Return the share of the indenter's elements that are in contact [1]."""
+        return self.contact_count / self.elements
+
+    @property
+    def contact_area(self) -> float:
+        """Return the area of the elements in contact [length²]."""
+        return self.contact_count * self.spacing * self.row_spacing
+
+    @property
+    def corrected_contact_area(self) -> float:
+        """Return the contact area without the excess of whole elements at its edge [length²].
+
+        A* = A − ((π − 1 + ln 2)/24) M dx dy, with the contact area A of whole elements, and the number M of changes
+        between contact and no contact along all rows and columns. The edge of the indenter counts no changes. The
+        formula of square elements holds for rectangular ones, too: stretching a map changes neither M nor A/(dx dy).
+
+        Source: V. A. Yastrebov, G. Anciaux, J.-F. Molinari, Tribology International 114, 161 (2017).
+        """
+        inside, changes = ~np.isnan(self.pressure), 0
+        for contact, within in ((self.contact, inside), (self.contact.T, inside.T)):
+            changes += np.count_nonzero((contact[1:] != contact[:-1]) & within[1:] & within[:-1])
+        return self.contact_area - float(EXCESS_PER_CHANGE * changes * self.spacing * self.row_spacing)
+
+    @property
+    def mean_pressure(self) -> float:
+        """Return the mean of p/G over the contact [1]."""
+        return self.force / self.contact_area
+
+    @property
+    def largest_pressure(self) -> float:
+        """Return the largest p/G [1]."""
+        return float(np.nanmax(self.pressure))
+
+    def patches(self) -> Patches:
+        """Return the Patches of the contact: regions of elements in contact that are connected by their sides."""
+        from scipy import ndimage  # takes long to import
+
+        labels, count = ndimage.label(self.contact)
+        sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+        order = np.argsort(-sizes, kind="stable")
+        rank = np.append(0, 1 + np.argsort(order)).astype(labels.dtype)
+        return Patches(rank[labels], sizes[order] * self.spacing * self.row_spacing)

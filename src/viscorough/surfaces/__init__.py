@@ -1,0 +1,1 @@
+"""Rigid indenters: their type, and generation and preparation of their heights."""

@@ -1,0 +1,192 @@
+"""Rigid indenters: height maps and lines, with the spacing of their points."""
+
+import math
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from viscorough.basics import units
+from viscorough.basics.arrays import (
+    ReadOnlyArrays,
+    is_whole,
+    named,
+    positive,
+    read_only,
+    real_numbers,
+    shown,
+    unit_attribute,
+)
+from viscorough.basics.summaries import with_unit
+from viscorough.basics.types import Array
+
+# Largest ratio of the sides of an element.
+LARGEST_ASPECT = 5
+# Double precision cannot represent all whole numbers above this one.
+_LARGEST_WHOLE = 2**53
+
+
+@dataclass(frozen=True)
+class Indenter(ReadOnlyArrays):
+    """Rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
+
+    Parameters
+    ----------
+    heights : array
+        Map of shape (rows, columns), nan outside the indenter, or line of shape (points,) [length]. Larger is higher,
+        and the highest point touches first. The array is copied and read-only. Masked entries become nan. Single
+        precision is kept; all other numbers become double precision.
+    spacing : float
+        Distance dx between neighbouring columns of a map, or points of a line [length]; or the pair (dx, dy).
+    row_spacing : float
+        Distance dy between neighbouring rows of a map, from a fifth of dx to five times dx; by default dx [length].
+    length_unit : str
+        Unit of heights and spacings, as UDUNITS spells it ("um"); "1" if it is not known.
+
+    Raises
+    ------
+    ValueError
+        For heights that are not real numbers in one or two dimensions, are whole numbers beyond 2**53, are infinite,
+        differ by more than double precision can represent, are all nan, or are nan on a line; for spacings that are
+        not positive, differ by more than a factor of five, or differ on a line; and for a unit that is not a text.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscorough
+    >>> indenter = viscorough.Indenter(np.array([[0.0, 1.0], [np.nan, 0.5]]), 2.0)
+    >>> indenter.elements, indenter.row_spacing
+    (3, 2.0)
+    """
+
+    heights: np.ndarray
+    spacing: float
+    row_spacing: float = None  # type: ignore[assignment]  # a number in every Indenter: by default the spacing
+    length_unit: str = "1"
+
+    def __post_init__(self) -> None:
+        unit = self.length_unit
+        if not isinstance(unit, str) or not unit.strip():
+            raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {shown(unit)}")
+        if unit_attribute(self.heights):
+            object.__setattr__(self, "heights", units.numbers(self.heights, unit, unit, "indenter heights"))
+        with named("indenter heights"):
+            heights = read_only(self.heights)
+        if heights.dtype.kind == "O" or not isinstance(self.heights, np.ndarray):
+            numbers = real_numbers("indenter heights", self.heights)
+            if heights.dtype.kind == "O":
+                if any(is_whole(height) and abs(height) > _LARGEST_WHOLE for height in heights.flat):
+                    raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
+                heights = numbers
+        if heights.dtype.kind not in "fiu":
+            raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
+        if heights.ndim not in (1, 2):
+            raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
+        whole = np.ma.asanyarray(self.heights)  # masked entries are ignored
+        if whole.dtype.kind in "iu" and whole.count() and max(-int(whole.min()), int(whole.max())) > _LARGEST_WHOLE:
+            raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
+        # Single or double precision, in rows and in the byte order of this machine.
+        precision = np.float32 if heights.dtype == np.float32 else np.float64
+        with np.errstate(over="ignore"):  # numbers that are too large become infinite
+            heights = np.ascontiguousarray(heights, dtype=precision)
+        heights.flags.writeable = False
+        if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
+            raise ValueError("indenter heights: must have at least one element that is not nan")
+        if not math.isfinite(float(highest) - float(np.fmin.reduce(heights, axis=None))):
+            raise ValueError(
+                "indenter heights: must be finite (nan: outside), also their differences; some are infinite"
+            )
+        if heights.ndim == 1 and np.isnan(heights.min()):
+            raise ValueError("indenter heights: must not be nan on a line")
+        object.__setattr__(self, "heights", heights)
+        spacing, row_spacing = _spacings(self.spacing, self.row_spacing, unit)
+        if heights.ndim == 1 and row_spacing != spacing:
+            raise ValueError("indenter row_spacing: a line has no rows, only one spacing is allowed")
+        object.__setattr__(self, "spacing", spacing)
+        object.__setattr__(self, "row_spacing", row_spacing)
+
+    def __str__(self) -> str:
+        """Return a summary: kind and numbers of points; spacings; difference of the heights."""
+        points, unit = " x ".join(map(str, self.heights.shape)), self.length_unit
+        difference = np.nanmax(self.heights) - np.nanmin(self.heights)
+        text = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements\n"
+        text += f"spacing {with_unit(self.spacing, unit)}\n"
+        if self.aspect != 1:
+            text += f"row spacing {with_unit(self.row_spacing, unit)}\n"
+        return f"{text}highest over lowest point {with_unit(difference, unit)}"
+
+    def to(self, unit: str) -> "Indenter":
+        """Convert lengths to another unit, such as "m". Raises ValueError if the unit of the indenter is not known."""
+        if self.length_unit == units.UNKNOWN:
+            raise ValueError(f"indenter: its unit of length is not known, so that it cannot be converted to {unit}")
+        unit = units.length_unit(unit)
+        factor = units.factor(self.length_unit, unit)
+        return Indenter(self.heights * factor, self.spacing * factor, self.row_spacing * factor, unit)
+
+    @property
+    def aspect(self) -> float:
+        """Return the aspect dy/dx of an element; 1 for squares."""
+        return self.row_spacing / self.spacing
+
+    @property
+    def element_side(self) -> float:
+        """Return the side d = √(dx dy) of a square with the area of an element [length]."""
+        return self.spacing * math.sqrt(self.aspect)
+
+    @property
+    def elements(self) -> int:
+        """Return the number of elements, which are the points that are not nan."""
+        return int(np.count_nonzero(~np.isnan(self.heights)))
+
+    @property
+    def rms_slope(self) -> float:
+        """Return the rms slope, √⟨(∇h)²⟩ from differences of neighbours [1]; 0 for a single element."""
+        slopes = [0.0]
+        with np.errstate(over="ignore", under="ignore"):  # a slope that overflows is infinite
+            for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):
+                slope = np.abs(np.diff(self.heights.astype(float), axis=axis)) / spacing
+                largest = np.fmax.reduce(slope, axis=None, initial=0.0)
+                # Slopes are divided by the largest before squaring: the square of a slope below 1e-162 would be 0.
+                relative = slope / largest if 0 < largest < np.inf else np.ones(1)
+                slopes.append(largest * np.sqrt(np.nanmean(relative**2)))
+        return float(np.hypot.reduce(slopes))
+
+    @property
+    def initial_gap(self) -> Array:
+        """Return the depth of each element below the highest element, shape of the heights [length]."""
+        return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
+
+
+def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, float]:
+    """Convert both spacings to (dx, dy) in the unit of length."""
+    if unit_attribute(spacing):
+        spacing = units.numbers(spacing, length_unit, length_unit, "indenter spacing")
+    if unit_attribute(row_spacing):
+        row_spacing = units.numbers(row_spacing, length_unit, length_unit, "indenter row_spacing")
+    if row_spacing is None and np.shape(spacing) == (2,):
+        spacing, row_spacing = spacing
+    spacing = positive("indenter spacing", spacing)
+    row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
+    if min(spacing, row_spacing) < sys.float_info.min:
+        raise ValueError(f"indenter spacing: {spacing:g} is too small to represent; a smaller unit of length is needed")
+    largest = LARGEST_ASPECT * (1 + 1e-9)  # computed spacings may exceed it by rounding
+    if not 1 / largest <= row_spacing / spacing <= largest:
+        raise ValueError(
+            f"indenter spacing: {spacing:g} between columns and {row_spacing:g} between rows differ by more than "
+            f"a factor of {LARGEST_ASPECT}, which is the largest allowed; resample the map"
+        )
+    return spacing, row_spacing
+
+
+def check_indenter(caller: str, indenter: object, dimensions: int | None = None) -> None:
+    """Raise TypeError, which starts with the caller, for anything but an Indenter, such as an array of heights.
+
+    dimensions : of the heights, 2 for a map, 1 for a line, None for either; ValueError is raised for others
+    """
+    if not isinstance(indenter, Indenter):
+        text = "an Indenter is needed, as viscorough.Indenter(heights, spacing) or viscorough.read_heights makes it"
+        raise TypeError(f"{caller}: {type(indenter).__name__}; {text}")
+    if dimensions is not None and indenter.heights.ndim != dimensions:
+        needed = {1: "one-dimensional (maps are for indent)", 2: "two-dimensional (lines are for reduce)"}[dimensions]
+        raise ValueError(f"{caller}: the indenter's heights must be {needed}")

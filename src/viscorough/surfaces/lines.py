@@ -1,0 +1,124 @@
+"""Generate realizations of self-affine lines; quantities that do not depend on the realization are computed once.
+
+Heights are the Fourier transform of random waves (`line_waves`). For an even number n of points in single precision,
+the heights are a complex transform of half the length, m = n/2, over pairs of points. The transform has four steps
+(D. H. Bailey, FFTs in external or hierarchical memory, 1990): with m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂,
+    z_j = Σ_k₂ exp(2πi j₂k₂/N₂) exp(2πi j₁k₂/m) Σ_k₁ exp(2πi j₁k₁/N₁) Z_k,
+so that every transform fits in the cache. Pairs are then stored in the order of (j₁, j₂), which is irrelevant to the
+method of dimensionality reduction. All other lines are computed by an ordinary real transform.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+from ducc0 import fft
+from numpy.typing import DTypeLike
+
+from viscorough.basics import memory
+from viscorough.basics.argument_names import argument
+from viscorough.basics.arrays import positive, whole_number
+from viscorough.basics.types import Array, Integers, Seed
+from viscorough.surfaces import line_waves, spectrum
+
+# Factor between the rms height and the limits of the floating-point type.
+_ROOM = 1000
+# Waves computed at a time in double precision.
+_BLOCK = 16384
+# Memory that must be available, in multiples of the heights of a line, since the Fourier transform copies them. The
+# second number is for numbers of points with large prime factors (tests/viscorough/basics/test_memory.py).
+_COPIES, _MOST_COPIES = 2.6, 17
+
+
+class SelfAffineLines:
+    """Generator of periodic self-affine lines with one spectrum.
+
+    Raises the errors of `surfaces.self_affine_line`.
+
+    hurst, points, rms, length, dtype : arguments of `surfaces.self_affine_line`
+    waves : its arguments roll_off_wavelength, roll_off_level and amplitudes
+    spacing : distance between neighbouring points, length/points [length]
+    """
+
+    def __init__(
+        self,
+        hurst: float,
+        points: int,
+        *,
+        rms: float = 1.0,
+        length: float = 1.0,
+        dtype: DTypeLike = np.float32,
+        **waves: Any,
+    ) -> None:
+        self._points = points = whole_number("points", points, at_least=2)
+        self._exponent = spectrum.hurst_exponent(hurst) + 0.5
+        self._rms, length = positive("rms", rms), positive("length", length)
+        *self._roll_off, self._fixed = spectrum.wave_options(period=1, **waves)
+        self._dtype = np.dtype(dtype)
+        if self._dtype not in (np.float32, np.float64):
+            raise ValueError(f"dtype: must be float32 or float64, not {self._dtype}")
+        low, high = _ROOM * np.finfo(self._dtype).tiny, np.finfo(self._dtype).max / _ROOM
+        if not low <= self._rms <= high:
+            raise ValueError(
+                f"{argument('rms')}: must be from {low:.2g} to {high:.2g} for {self._dtype}, not {self._rms:g}"
+            )
+        copies = _COPIES if fft.good_size(points, True) == points else _MOST_COPIES
+        memory.require(copies * self._dtype.itemsize * points, f"a line of {points} points")
+        if points // 2 > line_waves.MOST_WAVES:
+            raise ValueError(f"{argument('points')}: must be at most {2 * line_waves.MOST_WAVES + 1}, not {points}")
+        self.spacing = length / points
+        self._in_pairs = self._dtype == np.float32 and points % 2 == 0
+        if self._in_pairs:
+            self._amplitude = self._moduli(0, points // 2 + 1)
+            pairs = points // 2
+            rows = next(d for d in range(math.isqrt(pairs), 0, -1) if pairs % d == 0)  # the divisor nearest to √pairs
+            self._packed = np.empty((rows, pairs // rows), np.complex64)
+
+    def heights(self, seed: Seed) -> Array:
+        """Return the heights of the realization of a seed, in order, shape (points,), read-only [length]."""
+        heights = self.heights_in_any_order(seed)
+        if self._in_pairs:  # y_2j + i y_2j+1 at [j₁, j₂]
+            ordered = heights.view(np.complex64).reshape(self._packed.shape).T.copy()
+            ordered.flags.writeable = False  # so that an Indenter does not copy them
+            heights = ordered.reshape(-1).view(np.float32)
+        return heights
+
+    def heights_in_any_order(self, seed: Seed) -> Array:
+        """Return the same heights in unspecified order, read-only; the next call of a method overwrites them."""
+        key = line_waves.key_of(spectrum.seed_sequence(seed))
+        if not self._in_pairs:
+            return self._by_real_transform(key)
+        packed = self._packed
+        mean_square = line_waves.fill_packed_spectrum(packed.reshape(-1), key, self._amplitude, fixed=self._fixed)
+        fft.c2c(packed, axes=[0], forward=False, out=packed)
+        line_waves.twiddle(packed.view(np.float32), np.float32(spectrum.scale_factor(self._rms, mean_square)))
+        fft.c2c(packed, axes=[1], forward=False, out=packed)
+        heights = packed.reshape(-1).view(np.float32)
+        heights.flags.writeable = False
+        return heights
+
+    def _by_real_transform(self, key: Integers) -> Array:
+        points = self._points
+        memory_ = np.empty(2 * (points // 2 + 1), self._dtype)
+        coefficients = memory_.view(np.result_type(self._dtype, np.complex64))  # of the waves k = 0, 1, ...
+        mean_square = 0.0
+        for start in range(1, len(coefficients), _BLOCK):
+            block = coefficients[start : start + _BLOCK]
+            amplitude = self._moduli(start, len(block), float)
+            block[:] = waves = line_waves.waves(start, key, amplitude, fixed=self._fixed)
+            mean_square += 2 * np.vdot(waves, waves).real
+        if points % 2 == 0:
+            shortest = line_waves.shortest_wave(points, key, amplitude[-1], fixed=self._fixed)
+            mean_square += shortest**2 - 2 * abs(waves[-1]) ** 2
+            coefficients[-1] = shortest
+        # The heights overwrite their spectrum: the mean, then real and imaginary parts of wave after wave.
+        heights = memory_[1 : points + 1]
+        heights[0] = 0
+        heights *= spectrum.scale_factor(self._rms, mean_square)
+        fft.r2r_fftpack(heights, axes=[0], real2hermitian=False, forward=False, out=heights)
+        memory_.flags.writeable = heights.flags.writeable = False
+        return heights
+
+    def _moduli(self, first: int, count: int, dtype: DTypeLike = np.float32) -> Array:
+        """Return the moduli of the waves first, first + 1, ...; the modulus of wave 0 has no meaning."""
+        return spectrum.amplitude(np.arange(first, first + count, dtype=dtype), self._exponent, *self._roll_off)

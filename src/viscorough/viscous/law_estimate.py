@@ -1,0 +1,76 @@
+"""Estimate depth and velocity of a rough indenter from the calibrated penetration law, without a simulation.
+
+A constant force F on a medium of creep compliance J(t) acts as the elastic force F/G = F·J(t) (viscous.kinetics).
+With X = F·J(t)/(4hL) the law gives
+
+    u = h·(u/h)(X),    v = h·(J'(t)/J(t))·(vt/h)(X),    for a Newtonian medium J = t/η: v = (h/t)·(vt/h)(X).
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscorough.basics.argument_names import argument
+from viscorough.basics.arrays import increasing, positive, real_numbers
+from viscorough.basics.summaries import span
+from viscorough.law.calibrated_law import penetration_law
+from viscorough.law.estimate import Estimate
+from viscorough.media.creep_response import constant_creep
+from viscorough.media.kinds import medium_of
+from viscorough.media.medium import Medium
+
+
+def estimate(
+    hurst: float, rms: float, diameter: float, force: float, medium: Medium | float, times: "ArrayLike"
+) -> Estimate:
+    """Estimate depth and velocity of a self-affine indenter under a constant force by the calibrated law.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, from 0.1 to 1 [1].
+    rms : float
+        Rms height h [length].
+    diameter : float
+        Diameter L of the indenter [length].
+    force : float
+        Force F > 0, constant from time 0 on, in units such that F·J is a length².
+    medium : Medium or float
+        Medium such as viscorough.Maxwell, or the viscosity of a Newtonian medium.
+    times : array_like
+        Times above 0, increasing.
+
+    Returns
+    -------
+    Estimate
+
+    Raises
+    ------
+    ValueError
+        For values outside these ranges, and if the law holds at none of the times.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> motion = viscorough.estimate(0.7, rms=0.1, diameter=1.0, force=1.0, medium=1.0, times=[0.01, 0.1])
+    >>> bool(motion.depth_low[0] < motion.depth[0] < motion.depth_high[0])
+    True
+    """
+    law, medium = penetration_law(hurst), medium_of(medium)
+    rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
+    times = np.atleast_1d(real_numbers(argument("times"), times))
+    times = increasing(argument("times"), times, above_zero=True)
+    creep, rate = constant_creep(force, medium, times)
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        x = creep / (4 * rms * diameter)
+    inside = (x >= law.x_low) & (x <= law.x_high)
+    if not inside.any():
+        raise ValueError(
+            f"{argument('times')}: X = F·J(t)/(4hL) is {span(x)}; allowed: {law.x_low:.3g} to {law.x_high:.3g}, where "
+            "the law holds; elsewhere indent a surface made by viscorough generate"
+        )
+    per_time, covered = rms * rate[inside] / creep[inside], x[inside]
+    values = np.full((6, times.size), np.nan)
+    values[:3, inside] = rms * np.array([law.depth(covered), *law.depth_interval(covered)])
+    values[3:, inside] = per_time * np.array([law.velocity(covered), *law.velocity_interval(covered)])
+    depth, depth_low, depth_high, velocity, velocity_low, velocity_high = values
+    return Estimate(times, x, depth, depth_low, depth_high, velocity, velocity_low, velocity_high, law)

@@ -1,0 +1,114 @@
+"""The rate of the creep under force histories against closed forms, and where Φ decreases; Φ itself: test_kinetics."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from support.media import MEDIA
+from viscorough import KelvinVoigt, Load, Maxwell, Newtonian, Prony, StandardLinearSolid
+from viscorough.media.creep_response import by_states, creep_response
+from viscorough.media.first_decrease import first_decrease, rate_at_samples
+
+MEDIA = MEDIA | {"prony liquid": Prony(0.0, [1e6, 1.0], [1e-5, 4.0])}
+# A ramp, a step up, a hold and a slower ramp.
+TIMES = np.array([0.5, 1.0, 2.5, 2.5, 4.0, 9.0])
+FORCE = np.array([0.2, 1.0, 1.0, 1.8, 1.8, 2.5])
+
+
+def rate_from_closed_forms(medium, time, *, after):
+    """dΦ/dt right or left of a time: F₀ J'(t − t₀) + ∫ F'(s) J'(t − s) ds, with the integral of J' in closed form."""
+    rate = FORCE[0] * medium.creep_rate(time - TIMES[0])
+    for (start, end), (first, last) in zip(pairwise(TIMES), pairwise(FORCE), strict=True):
+        if start == end:
+            rate += (last - first) * medium.creep_rate(time - start) if time > start else 0
+        elif start < time or (after and start == time):
+            ended = end < time or (after and end == time)
+            integral = medium.creep_compliance(time - start) - (medium.creep_compliance(time - end) if ended else 0)
+            rate += (last - first) / (end - start) * integral
+    return rate
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_rate_is_that_of_ramps_and_steps(name):
+    """Right of every sample, left of the last one and of a step."""
+    rate = creep_response(MEDIA[name], Load(TIMES, force=FORCE)).rate
+    for sample, after in ((1, True), (2, False), (4, True), (5, False)):
+        exact = rate_from_closed_forms(MEDIA[name], TIMES[sample], after=after)
+        assert rate[sample] == pytest.approx(exact, rel=1e-11)
+
+
+def test_short_and_long_times_lose_no_digits():
+    """Steps of 1e-12 and 1e12 retardation times: Φ of a step is J(t), and its rate J'(t)."""
+    for medium in (KelvinVoigt(2.0, 5.0), Prony(1.0, [1e10, 1.0], [1e-8, 1e8])):
+        for times in (np.linspace(0, 1e-12, 5), np.linspace(0, 50, 5), np.linspace(0, 1e12, 5)):
+            creep, rate, _ = creep_response(medium, Load(times, force=np.ones(5)))
+            np.testing.assert_allclose(creep, medium.creep_compliance(times), rtol=1e-12, atol=0)
+            np.testing.assert_allclose(rate, medium.creep_rate(times), rtol=1e-11, atol=1e-300)
+
+
+# ---- where the creep decreases
+
+
+def receding_from(medium, force, times):
+    return creep_response(medium, Load(times, force=force)).receding_from
+
+
+def test_maxwell_may_unload_slowly():
+    """Φ' = F'/G + F/η: unloading is allowed until F = η |F'|/G, here at F = 2.5·0.2 = 0.5."""
+    medium, times = Maxwell(2.0, 5.0), [0.0, 4.0, 5.0]
+    assert np.isnan(receding_from(medium, [1.3, 0.5, 0.5], times))
+    assert receding_from(medium, [1.3, 0.5 - 1e-6, 0.5], times) == pytest.approx(4.0, abs=1e-4)
+    assert receding_from(medium, [1.0, 0.2, 0.2], times) == pytest.approx(2.5, rel=1e-5)
+
+
+def test_first_decrease_against_dense_sampling():
+    """Random histories in random media, those that recede within an interval and move on before its end included."""
+    random, within = np.random.default_rng(4), 0
+    for _ in range(100):
+        medium = Prony(random.choice([0.0, 1.0]), 10 ** random.uniform(-1, 1, 3), 10 ** random.uniform(-2, 2, 3))
+        times = np.append(0, np.cumsum(10 ** random.uniform(-1, 1, 4)))
+        force = 1 + 0.05 * random.standard_normal(5) + np.array([0, 0.1, 0, 0, 0.1])
+        dense = np.unique(np.concatenate([times, np.linspace(0, times[-1], 4001)]))
+        _, finely = by_states(medium.retardation, Load(dense, force=np.interp(dense, times, force)))
+        _, coarsely = by_states(medium.retardation, Load(times, force=force))
+        decrease = first_decrease(times, coarsely)
+        down = np.flatnonzero(rate_at_samples(dense, finely) < -1e-9)
+        expected = dense[down[0]] if down.size else np.inf
+        assert decrease <= expected
+        assert decrease == expected or decrease > dense[max(down[0] - 1, 0)] - 1e-9
+        within += np.isfinite(decrease) and rate_at_samples(times, coarsely).min() > 0
+    assert within > 0
+
+
+@pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "prony liquid", "springpot", "table"])
+def test_creep_decreases_at_a_step_down_where_the_medium_springs_at_once(name):
+    assert receding_from(MEDIA[name], [1.0, 1.0, 0.9, 0.9], [0.0, 1.0, 1.0, 2.0]) == 1.0
+
+
+def test_steps_down_that_viscous_media_carry():
+    """Newtonian: any. Kelvin-Voigt: down to the force of the spring, G y; below it the contact recedes."""
+    times = [0.0, 1.0, 1.0, 2.0]
+    assert np.isnan(receding_from(Newtonian(3.0), [1.0, 1.0, 0.0, 0.0], times))
+    held = -np.expm1(-1 / 2.5)
+    assert np.isnan(receding_from(KelvinVoigt(2.0, 5.0), [1.0, 1.0, held + 1e-9, held + 1e-9], times))
+    assert receding_from(KelvinVoigt(2.0, 5.0), [1.0, 1.0, held - 1e-3, held - 1e-3], times) == 1.0
+
+
+@pytest.mark.parametrize("name", ["springpot", "table"])
+def test_decrease_is_where_dense_sampling_finds_it(name):
+    """Loaded at once, held and unloaded slowly: the first time at which a dense sampling of Φ decreases."""
+    medium, dense = MEDIA[name], np.linspace(1, 21, 4001)
+    time = receding_from(medium, [1.0, 1.0, 0.0], [0.0, 1.0, 21.0])
+    creep = medium.creep_compliance(dense) - 0.05 * medium.creep_integral(0 * dense, dense - 1)
+    first = dense[np.flatnonzero(np.diff(creep) < 0)[0]]
+    assert time == pytest.approx(first, abs=0.02)
+
+
+def test_noise_of_rounding_is_no_decrease():
+    """A long hold after loading: nothing moves any more."""
+    times = np.linspace(0, 1e4, 20_001)
+    force = np.minimum(times, 1.0) * 0.3
+    for medium in (StandardLinearSolid(4.0, 1.5, 0.3), KelvinVoigt(2.0, 5.0), Newtonian(1.0)):
+        rate = creep_response(medium, Load(times, force=force)).rate
+        assert (rate >= 0).all()

@@ -40,7 +40,7 @@ from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 _ROUNDING = 1e-14
 # A time of an event is found if the function is this close to zero, over its rounding.
 _CLOSE = 0.2
-# Events within this share of an interval belong to the sample at its start.
+# Events within this share of the time, or of the first interval, belong to the sample before them.
 _AT_ONCE = 1e-11
 # The force of a spring is a sum of exponentials from the start of an interval. Branches that have relaxed since then
 # were large, and their rounding errors remain. If a release lies more relaxation times of the fastest branch ahead than
@@ -581,10 +581,14 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 approaches = approaches and s * fastest > _FORGOTTEN and t + _APPROACH * s > t
                 if approaches:
                     s *= _APPROACH
-                if k and not started and t + s - last > _AT_ONCE * length:
+                if k and not started and t + s - last > _AT_ONCE * (last if last > 0 else length):
                     started = True
-                    force[k - 1], velocity[k - 1], in_contact[k - 1] = now, speed, count
-                    largest[k - 1] = count >= state.most[0]
+                    velocity[k - 1] = speed
+                    # At a prescribed depth a force changes at once with the rate only in a parallel dashpot. The fast
+                    # branches of a springpot release springs soon after the sample, but not at it.
+                    if law.viscosity > 0 or not by_depth:
+                        force[k - 1], in_contact[k - 1] = now, count
+                        largest[k - 1] = count >= state.most[0]
                 u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
                 t = times[k] if arrives else t + s
                 # From the end of the interval with the smaller load, so that a load that vanishes keeps its digits.

@@ -21,6 +21,7 @@ from viscorough import (
     AccuracyWarning,
     Indenter,
     Load,
+    Springpot,
     StandardLinearSolid,
     indent,
     kinetics,
@@ -230,6 +231,16 @@ def test_samples_of_a_linear_history_do_not_matter(name, control):
     for name in ("depth", "force", "velocity", "contact_fraction"):
         values = getattr(few, name)
         np.testing.assert_allclose(getattr(many, name), values, rtol=0, atol=1e-9 * np.abs(values).max())
+
+
+@pytest.mark.parametrize("exponent", [0.3, 0.955])
+def test_force_is_continuous_where_a_depth_begins_to_retreat(exponent):
+    """A springpot relaxes fast at first, and springs let go soon after the turn, but not at it."""
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 0.2, 101))
+    load = Load([0.0, 1.0, 2.0, 3.0], depth=[0.0, 0.1, 0.1, 0.0])
+    motion = kinetics(curve, load, Springpot(1.0, exponent), [2 - 1e-7, 2.0])
+    assert motion.force[1] == pytest.approx(motion.force[0], rel=1e-6)
+    assert motion.contact_fraction[1] == motion.contact_fraction[0]
 
 
 def test_default_curves_are_fine_enough():

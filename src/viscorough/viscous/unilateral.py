@@ -557,31 +557,32 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 _remainders_in_contact(row, law, state, t, u, f, count, remainders)
         else:
             rate, f = (load[k] - before) / length, before
-            started, events, at, pauses = False, 0, t, 0
+            # The time since the start of the interval has more digits than the time itself: first springs may be soft.
+            passed, started, events, at, pauses = 0.0, False, 0, 0.0, 0
             while True:
                 now, speed = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
                 touch = _next_touch(
-                    row, law, state, t, u, f, rate, count, by_depth, remainders, times[k] - t, touch_amounts, drive
+                    row, law, state, t, u, f, rate, count, by_depth, remainders, length - passed, touch_amounts, drive
                 )
                 release = np.inf
                 if count > (0 if by_depth else 1):
                     value, slope, rounding = _release(row, law, state, t, u, f, rate, count, by_depth, release_amounts)
-                    end = min(times[k] - t, touch)
+                    end = min(length - passed, touch)
                     release = _first_crossing(end, rounding, value, slope, 0.0, release_amounts, none, law.rates)
                 event = min(touch, release)
                 if events > _MOST_AT_ONCE * springs + 8:
                     # Equal contacts alternate within rounding, where a force vanishes: move on without an event.
                     events, event, pauses = 0, np.inf, pauses + 1
-                    s = min(_PAUSE * times[k] * 2.0**pauses, times[k] - t)
-                    paused, arrives = True, s == times[k] - t
+                    s = min(_PAUSE * times[k] * 2.0**pauses, length - passed)
+                    paused, arrives = True, s == length - passed
                 else:
-                    paused, arrives = False, event > times[k] - t
-                    s = times[k] - t if arrives else event
+                    paused, arrives = False, event > length - passed
+                    s = length - passed if arrives else event
                 approaches = release < touch and not arrives and not paused
-                approaches = approaches and s * fastest > _FORGOTTEN and t + _APPROACH * s > t
+                approaches = approaches and s * fastest > _FORGOTTEN and passed + _APPROACH * s > passed
                 if approaches:
                     s *= _APPROACH
-                if k and not started and t + s - last > _AT_ONCE * (last if last > 0 else length):
+                if k and not started and passed + s > _AT_ONCE * (last if last > 0 else length):
                     started = True
                     velocity[k - 1] = speed
                     # At a prescribed depth a force changes at once with the rate only in a parallel dashpot. The fast
@@ -590,9 +591,10 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                         force[k - 1], in_contact[k - 1] = now, count
                         largest[k - 1] = count >= state.most[0]
                 u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
-                t = times[k] if arrives else t + s
+                passed = length if arrives else passed + s
+                t = times[k] if arrives else last + passed
                 # From the end of the interval with the smaller load, so that a load that vanishes keeps its digits.
-                f = before + rate * (t - last) if abs(before) < abs(load[k]) else load[k] - rate * (times[k] - t)
+                f = before + rate * passed if abs(before) < abs(load[k]) else load[k] - rate * (length - passed)
                 if arrives:
                     break
                 if pauses > _MOST_PAUSES:
@@ -600,8 +602,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     break
                 if approaches or paused:
                     continue
-                events = events + 1 if t == at else 1
-                at = t
+                events = events + 1 if passed == at else 1
+                at = passed
                 if release < touch:
                     count = _let_go(row, law, state, t, u, count)
                     if count > 0 and not by_depth:

@@ -503,8 +503,11 @@ def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders,
 
 
 @njit(inner=True)
-def _move(row, law, state, t, u, force, rate, count, by_depth, remainders, s):
-    """Move by a time s without events; returns u. The common variables and the remainders are changed in place."""
+def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
+    """Move by a time s without events, to the time `end`, and return u; common variables and remainders are changed.
+
+    The end is passed because it is rounded: offsets of springs that touch there must decay from the same time.
+    """
     if by_depth:
         for b in range(law.rates.size):
             x = law.rates[b] * s
@@ -521,7 +524,7 @@ def _move(row, law, state, t, u, force, rate, count, by_depth, remainders, s):
         variable = law.fluidity * (force + rate * s) / law.rates[b]
         for j in range(law.decays.size):
             variable += law.branches[b, j] * remainders[j]
-        variable -= state.total[count - 1, b] * np.exp(-law.rates[b] * (t + s - state.joined[count - 1]))
+        variable -= state.total[count - 1, b] * np.exp(-law.rates[b] * (end - state.joined[count - 1]))
         state.common[b] = variable / stiffness
     return u + rise / stiffness
 
@@ -590,9 +593,9 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     if law.viscosity > 0 or not by_depth:
                         force[k - 1], in_contact[k - 1] = now, count
                         largest[k - 1] = count >= state.most[0]
-                u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
                 passed = length if arrives else passed + s
                 t = times[k] if arrives else last + passed
+                u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
                 # From the end of the interval with the smaller load, so that a load that vanishes keeps its digits.
                 f = before + rate * passed if abs(before) < abs(load[k]) else load[k] - rate * (length - passed)
                 if arrives:

@@ -1,1 +1,1 @@
-"""Contacts on the grid of the elements around the contact: iterations with the half-space operator, and their loops."""
+"""Solve contacts on a grid of the elements around the contact, by iterations with the half-space operator."""

@@ -1,7 +1,13 @@
-"""Preconditioned conjugate gradients on the contact sets of a grid, one after the other.
+"""Search for the pressure or the tangent on a contact set by preconditioned conjugate gradients.
 
-One iteration: `ConjugateGradients.precondition` makes a PreconditionedResidual from the gap, `next_direction` makes a
-Direction from it, and one of the two kinds of step of the Direction changes pressure and gap.
+The contact set may change between the steps. An iteration has three parts:
+
+1. `ConjugateGradients.precondition` computes the preconditioned residual z = M e from the gap e.
+2. `ConjugateGradients.next_direction` computes the search direction d from z.
+3. `Direction.step` or `Direction.step_and_release` takes a step along d.
+
+Symbols are defined in contact.state. The formulas of this module are for the pressure P and the gap e. For a tangent,
+read q for P and e_q for e.
 """
 
 from collections.abc import Callable
@@ -19,50 +25,53 @@ from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.multilevel import Preconditioner
 from viscorough.contact.state import ContactSet
 
-# Largest share of the last change of pressure in the next direction: a safeguard if many elements left the set.
+# Largest magnitude of the conjugacy factor (`Direction.conjugacy_factor`) after a release step: a safeguard in case the
+# step has removed many elements from the contact set.
 _LARGEST_SHARE = 1.0
 
 
 class PreconditionedResidual:
-    """The gap e on a contact set, or e_q, and z = M e with the preconditioner M.
+    """The gap e on a contact set, and the preconditioned residual z = M e with the Preconditioner M.
 
-    gap, preconditioned : e and z on the set, flat fields that the next residual overwrites
-    contact_set : ContactSet
-    loops : GridLoops
+    gap : e (or the tangent gap e_q) on the contact set, flat field that the next iteration overwrites
+    preconditioned : z on the contact set, flat field that the next iteration overwrites
+    contact_set : ContactSet on which e and z are defined
+    loops : GridLoops that run the loops over the contact set
     """
 
     def __init__(self, gap: Array, preconditioned: Array, contact_set: ContactSet, loops: GridLoops) -> None:
         self.gap, self.preconditioned, self.contact_set, self._loops = gap, preconditioned, contact_set, loops
 
     def total_preconditioned(self) -> float:
-        """Return Σz over the set."""
+        """Return Σz, the sum of the preconditioned residual over the contact set."""
         return self._loops.total(self.preconditioned, self.contact_set.places)
 
     def energy(self) -> float:
-        """Return zᵀe, the square of the norm of the residual."""
+        """Return zᵀe = eᵀ M e, the square of the norm of the residual with the preconditioner M."""
         return self._loops.inner_product(self.preconditioned, self.gap, self.contact_set.places)
 
     def shift(self, depth_step: float, response: Array) -> None:
-        """Change e and z on the set, in place, for a step of the depth.
+        """Subtract Δu from e and Δu M 1 from z on the contact set, in place, because the depth has grown by Δu.
 
-        response : M 1, from `ConjugateGradients.uniform_response`
+        depth_step : Δu
+        response : M 1 on the contact set, from `ConjugateGradients.uniform_response`
         """
         fixed = np.float32(depth_step), self.gap, self.preconditioned
         self._loops.each(kernels.shift_on_set, fixed, self.contact_set.places, response)
 
 
 class Direction:
-    """A search direction d on a contact set, and the steps along it; take one of the two kinds of step.
+    """A search direction d on a contact set. Take one step along d, by `step` or by `step_and_release`.
 
-    d is the load array of the half-space operator itself: applying the operator gives K d without a copy. The next
+    d is stored in the load array of the half-space operator, so that the operator gives K d without a copy. The next
     direction overwrites d.
 
-    halfspace : Halfspace with d as its load
-    residual : PreconditionedResidual that d follows from
-    stencil : preconditioner.load_redistribution_stencil
-    loops : GridLoops
+    halfspace : half-space operator whose load array contains d
+    residual : PreconditionedResidual that d was computed from
+    stencil : array of shares from `preconditioner.multilevel.load_redistribution_stencil`
+    loops : GridLoops that run the loops over the contact set
 
-    released : indices in d of the elements that a step has released
+    released : indices in the flattened load array of the elements that `step_and_release` removed from the contact set
     """
 
     def __init__(
@@ -74,17 +83,18 @@ class Direction:
     ) -> None:
         self._halfspace, self._values, self._residual = halfspace, halfspace.load.ravel(), residual
         self._stencil, self._loops = stencil, loops
-        self._deflection: Array | None = None  # K d of the last step, as a flat array
+        self._deflection: Array | None = None  # K d, flattened, once `_deflect` has computed it
         self._limit = np.inf
         self.released: Integers = np.empty(0, dtype=int)
 
     def conjugacy_factor(self, residual: PreconditionedResidual) -> float:
-        """Return the share of this direction in the next one, which makes them conjugate.
+        """Return the factor β of this direction d in the next direction β d − z, which makes the two conjugate.
 
-        A release step does not minimise the energy along its direction, so its conjugacy factor is corrected. The
-        coming step is assumed to have length 1.
+        β = (z·Kd − d·e)/(d·Kd), with e and z after the step along d. The term d·e is zero after a step that minimises
+        the energy along d. After a release step the term corrects β, on the assumption that the next step has length 1.
+        β is 0 if no K d was computed.
 
-        residual : PreconditionedResidual after the step
+        residual : PreconditionedResidual (e and z) after the step along d
         """
         if self._deflection is None:
             return 0.0
@@ -94,33 +104,39 @@ class Direction:
         return max(-self._limit, min((by_preconditioned - by_gap) / by_direction, self._limit))
 
     def step(self, pressure: Array, gap: Array) -> bool:
-        """Take a step of conjugate gradients, which changes pressure and gap in place.
+        """Take the step along d that minimises the energy; change pressure and gap in place.
 
-        gap : e − g, or e_q, flat field
+        pressure : P (or the tangent q), flat field
+        gap : e − g (or the tangent gap e_q), flat field
 
         Returns True if any pressure is negative.
         """
         deflection = self._deflect()
         _, by_gap, by_direction = self._sums(self._residual)
-        # Fields must keep their precision in the loops. If the guess was exact, there is no direction.
+        # The length has the precision of the gap, so that the loops compute in this precision. If the first guess was
+        # exact, d is zero, and so is the length.
         length = gap.dtype.type(-by_gap / by_direction if by_direction > 0 else 0.0)
         self._loops.update_gap(length, deflection, gap)
         return any(self._over_set(kernels.update_pressure, length, self._values, pressure))
 
     def unloaded_under_tension(self, pressure: Array) -> Integers:
-        """Return places of elements without pressure that a step along the direction would put under tension."""
+        """Return the places of elements without pressure that any step along d would put under tension."""
         return joined(self._over_set(kernels.unloaded_under_tension, self._values, pressure))
 
     def causes_tension(self, length: float, pressure: Array) -> bool:
-        """Return True if a step of that length along the direction puts any element under tension."""
+        """Return True if a step of the given length along d would put any element under tension."""
         return any(self._over_set(kernels.step_causes_tension, length, self._values, pressure))
 
     def step_and_release(self, length: float, pressure: Array, width: int) -> None:
-        """Take a step of given length, then remove elements under tension from the set; changes both in place.
+        """Take a step of given length along d, then remove elements under tension from the contact set.
 
+        Pressure and contact set are changed in place. Neighbours of a removed element take over parts of its load (see
+        `kernels.release`). The array of d becomes the total change of pressure. The gap is not changed: call
+        `update_gap`, or recompute the gap from the pressure.
+
+        length : multiple of d that is added to the pressure
+        pressure : P, flat field
         width : length of a row of flat fields
-
-        The direction becomes the change of pressure. The gap is not changed: update or recompute it.
         """
         direction, (inside, places, slots) = self._values, self._residual.contact_set
         neighbours = self._stencil, width, self._halfspace.load.shape[1]
@@ -129,8 +145,9 @@ class Direction:
             return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
 
         released = joined(self._loops.over(places, step))
-        # Elements of a band of rows leave one after the other, since neighbours share their loads. Bands have at least
-        # two rows, so every other band can be processed at the same time.
+        # An element that leaves changes the loads of its neighbours, so neighbours must leave one after the other. The
+        # rows of the grid are divided into bands of at least two rows, and within a band all elements leave one after
+        # the other. Every second band can be processed at the same time: no element has neighbours in two such bands.
         band = max(BLOCK // width, 2) * width
         bands = np.split(released, np.searchsorted(places[released], np.arange(band, pressure.size, band)))
 
@@ -143,34 +160,40 @@ class Direction:
         self.released, self._limit = slots[released], _LARGEST_SHARE
 
     def update_gap(self, gap: Array) -> None:
-        """Change the gap, e − g, by the deflection of the direction, in place."""
+        """Add the deflection K d to e − g in place; call this method after `step_and_release`.
+
+        gap : e − g, flat field
+        """
         self._loops.update_gap(gap.dtype.type(1), self._deflect(), gap)
 
     def _deflect(self) -> Array:
-        """Return K d in rows and columns; valid until the next call."""
+        """Return the deflection K d in rows and columns; the next application of the operator overwrites the array."""
         deflection = self._halfspace.apply()
         self._deflection = deflection.ravel()
         return deflection[:, : self._halfspace.shape[1]]
 
     def _sums(self, residual: PreconditionedResidual) -> Array:
-        """Return z·Kd, d·e and d·Kd over the set of a residual."""
+        """Return z·Kd, d·e and d·Kd, summed over a contact set; the residual has the set and the fields e and z."""
         fields = self._values, self._deflection, residual.preconditioned, residual.gap
         members = residual.contact_set
         return sum(self._loops.each(kernels.direction_sums, fields, members.places, members.slots))
 
     def _over_set(self, kernel: Callable[..., Any], *fixed: Any) -> Any:
-        """Return results of kernel(*fixed, places, slots) for the blocks of the set."""
+        """Call kernel(*fixed, places, slots) for every block of the contact set (see `GridLoops.each`).
+
+        Returns the results of all calls, in the order of the blocks.
+        """
         members = self._residual.contact_set
         return self._loops.each(kernel, fixed, members.places, members.slots)
 
 
 class ConjugateGradients:
-    """Search directions for x with K x given on a contact set; x is P or q, the residual −e or −e_q.
+    """Conjugate gradients for K x = b on a contact set, with x = P and b − K x = −e, or with x = q and b − K x = −e_q.
 
-    halfspace : Halfspace or TiledHalfspace; its load is the current direction, so that it can serve one search only
-    preconditioner : Preconditioner
-    contact_set : ContactSet
-    loops : GridLoops
+    halfspace : half-space operator; its load array holds the current direction, so only one search can use it at a time
+    preconditioner : Preconditioner M
+    contact_set : ContactSet to start with
+    loops : GridLoops that run the loops over the contact set
     """
 
     def __init__(
@@ -181,36 +204,36 @@ class ConjugateGradients:
         loops: GridLoops,
     ) -> None:
         self._halfspace, self._preconditioner, self._loops = halfspace, preconditioner, loops
-        self._values = halfspace.load.ravel()  # a view: the direction is the operator's load
+        self._values = halfspace.load.ravel()  # a view of the operator's load array, which holds the direction
         loops.fill(self._values, 0)
         self._last: Direction | None = None
         self.change_set(contact_set)
 
     def change_set(self, contact_set: ContactSet) -> None:
-        """Continue with another contact set; the direction is zero on elements that have joined or left."""
+        """Continue on another contact set; the last direction is zero on elements that have joined or left."""
         if self._last:
             self._values[self._last.released] = 0
         self._set = contact_set
         self._preconditioner.prepare(contact_set.inside, contact_set.places.size)
 
     def uniform_response(self, ones: Array) -> Array:
-        """Return M 1 on the set, in the order of its places; it approximates the tangent.
+        """Return M 1 ≈ K⁻¹ 1, an approximation of the tangent, in the order of the places of the contact set.
 
-        ones : flat field
+        ones : flat field of ones
         """
         return self._preconditioner.apply(ones)[self._set.places]
 
     def precondition(self, gap: Array) -> PreconditionedResidual:
-        """Compute z = M e on the set.
+        """Compute the preconditioned residual z = M e on the contact set.
 
-        gap : e or e_q on the set, flat field
+        gap : e (or the tangent gap e_q) on the contact set, flat field
         """
         return PreconditionedResidual(gap, self._preconditioner.apply(gap), self._set, self._loops)
 
     def next_direction(self, residual: PreconditionedResidual) -> Direction:
-        """Return the search direction that follows from a residual, conjugate to the last direction.
+        """Compute the next search direction d from a residual, conjugate to the last direction.
 
-        It overwrites the last direction.
+        The last direction is overwritten.
         """
         factor = self._last.conjugacy_factor(residual) if self._last else 0.0
         fixed = self._values, residual.preconditioned, factor

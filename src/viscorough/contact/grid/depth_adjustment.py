@@ -1,8 +1,9 @@
 """Adjust the depth of a contact to a given force while its pressures are iterated.
 
-With the preconditioner M ≈ K⁻¹ a full step leads to the pressures P − M e, and a change Δu of the depth adds Δu M 1 to
-them. Before every step the depth is changed so that these pressures sum to the force: residual and depth converge
-together, so a contact at a force takes few more iterations than a contact at a depth.
+With the preconditioner M ≈ K⁻¹ a step of length 1 leads to the pressures P − M e. A change Δu of the depth adds Δu M 1
+to these pressures. Before every step Δu is chosen so that the pressures after the step sum to the force. The residual
+and the depth then converge together, and a contact at a given force takes few more iterations than a contact at a given
+depth. Symbols are defined in contact.state.
 """
 
 import numpy as np
@@ -12,19 +13,21 @@ from viscorough.contact.grid.conjugate_gradients import ConjugateGradients, Prec
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.state import BoundedField, TargetForce
 
-# Largest ratio of depths in one iteration.
+# Largest factor by which the depth grows or shrinks in one iteration.
 _LARGEST_RATIO = 2.0
-# The force counts as met within this distance of the depth, over the largest residual: the tangent corrects the rest.
+# The force counts as met if the error of the depth is at most this share of the largest allowed residual. The remaining
+# difference is corrected along the tangent.
 _ACCURACY = 0.2
-# Σq of a single square element, used until a set is prepared: no contact has a smaller Σq.
+# Stiffness Σq of a single square element, which is used until `prepare` is called: no contact has a smaller Σq.
 _LEAST_STIFFNESS = 0.28
 
 
 class DepthAdjustment:
-    """Adjusts the depth of a contact to a TargetForce.
+    """Adjustment of the depth of a contact to a given force.
 
-    size : size of flat fields
-    loops : GridLoops
+    target : TargetForce with the force and the largest allowed depth
+    size : number of entries of a flat field
+    loops : GridLoops that run the loops over the contact set
     """
 
     def __init__(self, target: TargetForce, size: int, loops: GridLoops) -> None:
@@ -33,17 +36,21 @@ class DepthAdjustment:
         self._stiffness = _LEAST_STIFFNESS
 
     def prepare(self, search: ConjugateGradients, places: Integers) -> None:
-        """Prepare for another contact set, the set of the ConjugateGradients.
+        """Compute M 1 and its sum for a new contact set.
 
-        places : places of its elements in flat fields
+        search : ConjugateGradients on the new contact set
+        places : indices of the elements of the contact set in flat fields
         """
         self._places, self._response = places, search.uniform_response(self._ones)
         self._stiffness = float(self._response.sum(dtype=float))
 
     def is_met(self, pressure: Array, places: Integers, depth: float, limit: float) -> bool:
-        """Return True if the pressures at these places sum to the force, or would do so only above the largest depth.
+        """Return True if the pressures sum to the force, or if they sum to less at the largest allowed depth.
 
-        limit : largest residual
+        pressure : P, flat field
+        places : indices of the elements in contact in flat fields
+        depth : reduced depth u
+        limit : largest allowed residual
         """
         missing = self._target.pressure_sum - self._loops.total(pressure, places)
         return abs(missing) <= _ACCURACY * limit * self._stiffness or (
@@ -53,9 +60,12 @@ class DepthAdjustment:
     def adjust_depth(
         self, residual: PreconditionedResidual, pressure: Array, change: BoundedField, depth: float
     ) -> float:
-        """Change the depth, and the residual and e − g in place; return the depth.
+        """Change the depth so that the pressures after a step of length 1 sum to the force; return the new depth.
 
-        change : BoundedField of e − g
+        residual : PreconditionedResidual, which is changed in place for the new depth
+        pressure : P, flat field
+        change : BoundedField of e − g, which is changed in place for the new depth
+        depth : reduced depth u before the change
         """
         largest_depth = self._target.largest_depth
         predicted = self._loops.total(pressure, self._places) - residual.total_preconditioned()

@@ -1,8 +1,12 @@
-"""Loop over flat fields with a border, or over the places of a contact set, for the grid solver.
+"""Run compiled loops of the grid solver over whole flat fields, or over the elements of a contact set.
 
-Compiled functions take plain arrays, hence their many arguments: they accept neither keyword-only arguments nor the
-types of `state`, whose symbols are used here. Arrays that are divided into blocks come last (loops.GridLoops.each).
-Fields are changed in place only where the docstring says so.
+Flat fields are the arrays of the grid with a border. `places` are indices of elements in flat fields. `slots` are
+indices of the same elements in the flattened load array of the half-space operator, which has no border. Symbols are
+defined in contact.state.
+
+The functions have many arguments, since compiled code accepts neither keyword-only arguments nor the types of
+contact.state. The arrays that `GridLoops.each` divides into blocks are the last arguments. An argument is changed in
+place only if the docstring says so.
 """
 
 import numpy as np
@@ -10,13 +14,16 @@ import numpy as np
 from viscorough.basics.compilation import njit
 from viscorough.contact.preconditioner.multilevel import REACH
 
-# Avoids a division by zero.
+# Smallest divisor, to avoid a division by zero.
 _TINY = 1e-30
 
 
 @njit(fastmath=True)
 def inner_product(left, right, slots):
-    """Return Σ left·right over the contact set in double precision, for arrays laid out as the operator's load."""
+    """Return Σ left·right over the contact set, in double precision.
+
+    slots : indices of the elements of the contact set in both arrays
+    """
     total = 0.0
     for t in range(slots.size):
         total += np.float64(left[slots[t]]) * np.float64(right[slots[t]])
@@ -25,7 +32,7 @@ def inner_product(left, right, slots):
 
 @njit
 def total(field, places):
-    """Return the sum of a field over places, in double precision."""
+    """Return the sum of a flat field over the elements at `places`, in double precision."""
     result = 0.0
     for t in range(places.size):
         result += np.float64(field[places[t]])
@@ -34,7 +41,10 @@ def total(field, places):
 
 @njit
 def gap_on_set(gap_change, initial_gap, gap, places):
-    """Store e on the set in the flat field `gap`; return the largest |e| there."""
+    """Compute the gap e = (e − g) + g at `places` and store it in the flat field `gap`; return the largest |e|.
+
+    gap_change, initial_gap : e − g and g, flat fields
+    """
     largest = 0.0
     for t in range(places.size):
         i = places[t]
@@ -46,7 +56,7 @@ def gap_on_set(gap_change, initial_gap, gap, places):
 
 @njit
 def gather_on_set(field, gathered, places):
-    """Store a field on the set in the flat field `gathered`; return its largest magnitude there."""
+    """Copy a flat field at `places` to the flat field `gathered`; return the largest magnitude of the copied values."""
     largest = 0.0
     for t in range(places.size):
         gathered[places[t]] = field[places[t]]
@@ -56,7 +66,12 @@ def gather_on_set(field, gathered, places):
 
 @njit
 def shift_on_set(depth_step, gap, preconditioned, places, response):
-    """Compute e −= Δu and z −= Δu M 1 on the set, in place."""
+    """Subtract Δu from the gap e, and Δu M 1 from z = M e, at `places`, in place.
+
+    depth_step : Δu
+    gap, preconditioned : e and z, flat fields
+    response : M 1 at `places`, with the preconditioner M
+    """
     for t in range(places.size):
         gap[places[t]] -= depth_step
         preconditioned[places[t]] -= depth_step * response[t]
@@ -66,11 +81,14 @@ def shift_on_set(depth_step, gap, preconditioned, places, response):
 def energies(
     depths, pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap, places
 ):  # fmt: skip
-    """Return inner products over a contact set: P, last P and last q with the deflections of each, and with 1.
+    """Return the inner products of three loads with the deflections by the same loads, and the sum of each load.
 
-    depths : of the two pressures, the last one second
+    The loads are the pressure P, the pressure of the last contact, and the tangent q of the last contact. All sums are
+    over the elements at `places`. The deflections are K P = (e − g) + u and K q = e_q + 1.
 
-    The deflections are K P = (e − g) + u and K q = e_q + 1. Returns arrays of shapes (3, 3) and (3,).
+    depths : u of the contact, and u of the last contact
+
+    Returns the products of load i and deflection j, shape (3, 3), and the sums of the loads, shape (3,).
     """
     a = b = c = aa = ab = ac = ba = bb = bc = ca = cb = cc = 0.0
     for t in range(places.size):
@@ -89,11 +107,14 @@ def energies(
 def predict(
     depth_step, early_step, predicted, predicted_change, inside, pressure, tangent, gap_change, tangent_gap, initial_gap
 ):  # fmt: skip
-    """Store P + Δu q in `predicted`, e − g + Δu e_q in `predicted_change`, and the first contact set in `inside`.
+    """Predict pressure, gap and contact set after a step of the depth, along the tangent.
 
-    early_step : step of the depth within which elements that are in the first set touch
+    Stores P + Δu q in `predicted`, e − g + Δu e_q in `predicted_change`, and the first guess of the contact set in
+    `inside`: all elements with a predicted pressure, and elements that touch within `early_step`. Elements whose
+    predicted pressure is negative (tension) are in this set, too; they leave it during the iteration.
 
-    Elements under tension are inside, too; they leave later.
+    depth_step : Δu
+    early_step : shorter step of the depth, which excludes elements that touch late
     """
     for i in range(pressure.size):
         predicted[i] = pressure[i] + depth_step * tangent[i]
@@ -107,10 +128,11 @@ def combine(
     weights, shift, tangent, tangent_gap,
     pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap,
 ):  # fmt: skip
-    """Store q as a combination of two pressures and a tangent in `tangent`, and K q − 1 in `tangent_gap`.
+    """Combine two pressures and a tangent to a new tangent q; store q in `tangent`, and e_q = K q − 1 in `tangent_gap`.
 
-    weights : of the pressure, of the last pressure and of the last tangent
-    shift : constant part of K q − 1, from K P = (e − g) + u for both pressures and K q = e_q + 1 for the last tangent
+    weights : weights of the pressure, of the pressure of the last contact, and of the tangent of the last contact
+    shift : constant part of e_q. It follows from the deflections K P = (e − g) + u by the pressures, and K q = e_q + 1
+        by the tangent of the last contact
     """
     pressure_weight, last_pressure_weight, tangent_weight = weights
     for i in range(pressure.size):
@@ -123,7 +145,12 @@ def combine(
 
 @njit(fastmath=True)
 def update_gap(length, deflection, gap):
-    """Add α K d to e − g, or to e_q, everywhere, in place."""
+    """Add length · deflection to a flat field at all elements of the grid, in place.
+
+    length : length of a step along the search direction d
+    deflection : K d, in rows and columns
+    gap : e − g or e_q, flat field
+    """
     rows, columns = deflection.shape
     for i in range(rows):
         start = (i + REACH) * (columns + 2 * REACH) + REACH
@@ -133,7 +160,7 @@ def update_gap(length, deflection, gap):
 
 @njit(fastmath=True)
 def update_pressure(length, direction, pressure, places, slots):
-    """Add α d to P on the set, in place; return True if any pressure is negative."""
+    """Add length · direction to the pressure on the contact set, in place; return True if any pressure is negative."""
     lowest = 0.0
     for t in range(places.size):
         i = places[t]
@@ -144,17 +171,22 @@ def update_pressure(length, direction, pressure, places, slots):
 
 @njit(fastmath=True)
 def update_search_direction(direction, preconditioned, factor, places, slots):
-    """Compute d = β d − z on the set, in place, with z the preconditioned residual, a flat field."""
+    """Replace the search direction d on the contact set by β d − z, in place.
+
+    direction : d, laid out like the load array of the operator
+    preconditioned : preconditioned residual z, flat field
+    factor : β
+    """
     for t in range(slots.size):
         direction[slots[t]] = factor * direction[slots[t]] - preconditioned[places[t]]
 
 
 @njit(fastmath=True)
 def direction_sums(direction, deflection, preconditioned, gap, places, slots):
-    """Return z·Kd, d·e and d·Kd over the set.
+    """Return the inner products z·Kd, d·e and d·Kd over the contact set.
 
-    direction, deflection : d and K d, laid out like the load of the operator
-    preconditioned, gap : z and e, flat fields
+    direction, deflection : search direction d and its deflection K d, laid out like the load array of the operator
+    preconditioned, gap : preconditioned residual z and gap e, flat fields
     """
     by_preconditioned = by_gap = by_direction = 0.0
     for t in range(slots.size):
@@ -167,17 +199,18 @@ def direction_sums(direction, deflection, preconditioned, gap, places, slots):
 
 @njit
 def unloaded_under_tension(direction, pressure, places, slots):
-    """Return places of elements without pressure that a step along the direction would put under tension."""
+    """Return the places of elements without pressure that any step along the direction would put under tension."""
     found, count = np.empty(places.size, places.dtype), 0
     for t in range(places.size):
-        found[count] = places[t]  # overwritten unless it is one, which takes less time than a branch
+        # Every place is stored, and overwritten by the next place unless `count` grows: faster than a branch.
+        found[count] = places[t]
         count += (pressure[places[t]] == 0) & (direction[slots[t]] < 0)
     return found[:count]
 
 
 @njit
 def step_causes_tension(length, direction, pressure, places, slots):
-    """Return True if a step of that length would put any element under tension."""
+    """Return True if a step of the given length along the direction would put any element under tension."""
     for t in range(places.size):
         stepped = pressure[places[t]] + length * direction[slots[t]]
         if stepped < 0:
@@ -187,11 +220,13 @@ def step_causes_tension(length, direction, pressure, places, slots):
 
 @njit
 def step_and_find_tension(length, direction, pressure, inside, places, slots, first):
-    """Add α d to P, replace d by α d, and mark elements under tension as outside; all in place.
+    """Add length · direction to the pressure, and mark elements under tension as outside the contact set, in place.
 
-    first : index of the first of these places in the set
+    The direction becomes the change of pressure, length · direction.
 
-    Returns the indices in the set of the elements under tension.
+    first : position of places[0] among all places of the contact set
+
+    Returns the positions of the elements under tension among all places of the contact set.
     """
     released, count = np.empty(places.size, np.int64), 0
     for t in range(places.size):
@@ -199,22 +234,25 @@ def step_and_find_tension(length, direction, pressure, inside, places, slots, fi
         direction[slots[t]] = change
         pressure[i] += change
         inside[i] = pressure[i] >= 0
-        released[count] = first + t  # overwritten unless under tension, which takes less time than a branch
+        # Every position is stored, and overwritten by the next position unless `count` grows: faster than a branch.
+        released[count] = first + t
         count += not inside[i]
     return released[:count]
 
 
 @njit
 def release(direction, pressure, inside, places, slots, released, stencil, width, stride):
-    """Let elements under tension leave the set; the direction becomes the total change of pressure; all in place.
+    """Set the pressure of elements under tension to zero, and change the pressure of their neighbours, in place.
 
-    When an element under tension leaves, the load of its neighbours changes. They take the change that eliminating the
-    element from the influence matrix would give, which saves iterations, but lose at most half of their pressure.
+    The pressure of a neighbour changes as it does when the element under tension is eliminated from the influence
+    matrix, which saves iterations. No neighbour loses more than half of its pressure. All changes are also added to the
+    direction, so that it becomes the total change of pressure in the step.
 
-    released : indices of these elements in the set
-    stencil : preconditioner.load_redistribution_stencil
+    inside : True for elements in contact, flat field; already False for elements under tension
+    released : indices of the elements under tension in `places` and `slots`
+    stencil : array of shares from `preconditioner.multilevel.load_redistribution_stencil`
     width : length of a row of flat fields
-    stride : length of a row of the load array
+    stride : length of a row of the operator's load array
     """
     for t in released:
         i = places[t]
@@ -232,7 +270,12 @@ def release(direction, pressure, inside, places, slots, released, stencil, width
 
 @njit
 def add_penetrating_elements(limit, gap_change, initial_gap, inside):
-    """Let elements that overlap the surface by more than `limit` join the set, in place; return their number."""
+    """Add elements that overlap the surface by more than `limit` to the contact set, in place.
+
+    inside : True for elements in the contact set, flat field
+
+    Returns the number of elements that were added.
+    """
     joined = 0
     for i in range(gap_change.size):
         if gap_change[i] + initial_gap[i] < -limit and not inside[i]:
@@ -243,7 +286,7 @@ def add_penetrating_elements(limit, gap_change, initial_gap, inside):
 
 @njit
 def has_open_gap(limit, gap_change, initial_gap, places):
-    """Return True if the gap at any of the places is larger than `limit`; the last places are searched first."""
+    """Return True if the gap at any of the places is larger than `limit`; the search begins at the last place."""
     for t in range(places.size - 1, -1, -1):
         i = places[t]
         if gap_change[i] + initial_gap[i] > limit:
@@ -253,17 +296,18 @@ def has_open_gap(limit, gap_change, initial_gap, places):
 
 @njit
 def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, pressure, tangent):
-    """Return sums over elements that join the contact in a step of the depth, of functions of their touch.
+    """Return weighted sums over the elements that join the contact in a step Δu of the depth.
 
-    An element touches at the share t = max(−e/e_q, Δu − P/q)/Δu of the step, limited to 0 to 1, with e and e_q before
-    the step and P and q after it.
+    An element touches the surface after a share t of the step: t = max(−e/e_q, Δu − P/q)/Δu, limited to 0 to 1. Here e
+    and e_q are the gap and the tangent gap before the step, P and q the pressure and the tangent after the step.
 
-    gap_change, initial_gap, tangent_gap : flat fields before the step; places : of the elements in them
-    pressure, tangent : of the elements after the step
+    gap_change, initial_gap, tangent_gap : e − g, g and e_q before the step, flat fields
     width : Δu
-    share : shares s of the step
+    share : shares s of the step, shape (n,)
+    places : indices in the flat fields of the elements that join
+    pressure, tangent : P and q after the step of the elements that join
 
-    Returns Σe_q², Σe_q² (1 − t) and, for every s, Σe_q² max(s − t, 0).
+    Returns Σe_q², Σe_q² (1 − t) and, for every s, Σe_q² max(s − t, 0); shape (2 + n,).
     """
     sums = np.zeros(2 + share.size)
     for n in range(places.size):

@@ -1,4 +1,4 @@
-"""Run the kernels over large arrays, block by block on several threads."""
+"""Run the kernels of the grid solver over large arrays, block by block on several threads."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -14,9 +14,11 @@ from viscorough.contact.state import GridFields
 
 
 def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:
-    """Return a flat field for a loop to fill on its threads, except for the rows of its border, which are zero.
+    """Return a flat field whose first and last border rows are zero; the other entries are not initialised.
 
-    inner : slice of the field without these rows
+    A loop on several threads fills the other entries, and so allocates their memory on its threads.
+
+    inner : slice of the field between the first and the last border rows
     """
     field = np.empty(size, dtype)
     field[: inner.start] = field[inner.stop :] = 0
@@ -24,40 +26,47 @@ def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:
 
 
 def joined(parts: Sequence[Integers]) -> Integers:
-    """Join arrays of all blocks, one after the other."""
+    """Concatenate the arrays that a loop has returned for its blocks."""
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
 class GridLoops:
-    """Loops over the fields of a grid and its contact sets on so many `threads`."""
+    """Loops over the fields and the contact sets of a grid, run on `threads` threads."""
 
     def __init__(self, threads: int) -> None:
         self.threads = threads
 
     def each(self, kernel: Callable[..., Any], fixed: Sequence[Any], *arrays: Any) -> list[Any]:
-        """Return results of kernel(*fixed, *blocks) for the blocks of arrays of one length, in order."""
+        """Divide arrays of equal length into blocks, and call kernel(*fixed, *parts) for every block.
+
+        parts : the entries of the block, from each of the arrays
+
+        Returns the results of all calls, in the order of the blocks.
+        """
         return self.over(arrays[0], lambda i, j: kernel(*fixed, *(array[i:j] for array in arrays)))
 
-    # Over the places of a set.
+    # Loops over the elements of a contact set.
 
     def inner_product(self, left: Array, right: Array, slots: Integers) -> float:
-        """Return Σ left·right over the set."""
+        """Return Σ left·right over a contact set; `slots` are the indices of its elements in both arrays."""
         return sum(self.each(kernels.inner_product, (left, right), slots))
 
     def total(self, field: Array, places: Integers) -> float:
-        """Return the sum of a field over the set."""
+        """Return the sum of a flat field over the elements at `places`."""
         return sum(self.each(kernels.total, (field,), places))
 
     def largest_gap(self, gap_change: Array, initial_gap: Array, gap: Array, places: Integers) -> float:
-        """Return the largest |e| on the set, and store e in the flat field `gap`."""
+        """Compute the gap e at `places` and store it in the flat field `gap`; return the largest |e|."""
         return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
 
-    # Over the elements by rank, or over flat fields if these have the same places.
+    # A loop over all ranked elements, or over flat fields if two contacts are on the same grid.
 
     def new_places(self, after: GridFields, before: GridFields) -> tuple[Integers, Integers]:
-        """Return places of elements in contact in one GridFields but not in another, on the grids of both.
+        """Return the places of the elements that are in contact in `after` but not in `before`.
 
-        Elements without a place on the earlier grid have the place 0 there, which is outside the grid.
+        Returns two arrays of equal length: indices of these elements in the flat fields of `after`, and in the flat
+        fields of `before`. The grids may differ. An element that `before` has no place for gets the index 0 in the
+        second array; the place 0 is outside the grid.
         """
         if after.initial_gap is before.initial_gap:
             places = self.difference(after.inside, before.inside)
@@ -65,19 +74,24 @@ class GridLoops:
 
         def new(i: int, j: int) -> Integers:
             is_new = after.inside[after.place[i:j]]
-            place = before.place[i:j]  # shorter if fewer elements were ranked
+            place = before.place[i:j]  # shorter than is_new if `before` has fewer ranked elements
             is_new[: place.size] &= ~before.inside[place]
             return i + np.flatnonzero(is_new)
 
         ranks = joined(self.over(after.place, new))
         return after.place[ranks], np.append(before.place, 0)[np.minimum(ranks, before.place.size)]
 
-    # Over flat fields.
+    # Loops over flat fields.
 
     def contact_places(self, inside: Mask, width: int, stride: int) -> tuple[Integers, Integers]:
-        """Return places in contact, and their indices in the load array, as uint32, or int64 for large arrays.
+        """Return the indices of the elements in contact, in flat fields and in the flattened load array.
 
-        Loops are faster with unsigned indices: a negative index would count from the end of an array.
+        The indices are uint32, or int64 for large arrays. Loops are faster with unsigned indices, because a negative
+        index would have to be counted from the end of an array.
+
+        inside : True for elements in contact, flat field
+        width : length of a row of flat fields
+        stride : length of a row of the load array of the half-space operator
         """
         whole_number = np.uint32 if inside.size // width * max(width, stride) < 2**32 else np.int64
 
@@ -91,11 +105,11 @@ class GridLoops:
         return joined(places), joined(slots)
 
     def difference(self, inside: Mask, other: Mask) -> Integers:
-        """Return places of a set that are not in another set."""
+        """Return the places of the elements that are in contact in `inside` but not in `other`, two flat fields."""
         return joined(self.over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
 
     def largest_overlap(self, gap_change: Array, initial_gap: Array) -> float:
-        """Return the largest −e of a flat field, or 0."""
+        """Return the largest overlap −e of indenter and surface, or 0; the gap is e = gap_change + initial_gap."""
         return -min(0.0, *self.over(gap_change, lambda i, j: float(np.add(gap_change[i:j], initial_gap[i:j]).min())))
 
     def lowest(self, field: Array) -> float:
@@ -107,13 +121,18 @@ class GridLoops:
         self.over(field, lambda i, j: field[i:j].fill(value))
 
     def shifted(self, field: Array, shift: float, out: Array) -> None:
-        """Store a field minus a number; both fields are in rows and columns."""
+        """Store field − shift in `out`; both arrays are in rows and columns."""
         rows, columns = field.shape
         number = out.dtype.type(shift)
         run_blocks(lambda i, j: np.subtract(field[i:j], number, out=out[i:j]), rows, self.threads, -(-BLOCK // columns))
 
     def update_gap(self, length: float | np.floating[Any], deflection: Array, gap: Array) -> None:
-        """Add α K d to e − g, or to e_q, everywhere, in place."""
+        """Add length · deflection to a flat field at all elements of the grid, in place.
+
+        length : length of a step along the search direction d
+        deflection : K d, in rows and columns
+        gap : e − g or e_q, flat field
+        """
         rows, columns = deflection.shape
         width = gap.size // (rows + 2 * REACH)
 
@@ -123,5 +142,5 @@ class GridLoops:
         run_blocks(update, rows, self.threads, -(-BLOCK // columns))
 
     def over(self, array: NDArray[Any], function: Callable[[int, int], Any]) -> list[Any]:
-        """Return results of function(start, stop) for the blocks of an array, in order."""
+        """Call function(start, stop) for every block of an array; return all results, in the order of the blocks."""
         return run_blocks(function, array.size, self.threads)

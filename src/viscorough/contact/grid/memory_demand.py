@@ -1,4 +1,4 @@
-"""Estimate the memory for the contact of an indenter, before any of it is allocated."""
+"""Estimate the memory that the contact of an indenter needs, before the memory is allocated."""
 
 import numpy as np
 
@@ -9,42 +9,48 @@ from viscorough.contact.parallel import BLOCK
 from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import Elements
 
-# Bytes of the rank, place, gap and temporary arrays of an element.
+# Bytes per element for its rank, its place and its initial gap, and for temporary arrays.
 _PER_ELEMENT = 60
-# Bytes of an entry of a map while its elements are found.
+# Bytes per height of a map for temporary arrays, while the elements of the map are found.
 _PER_HEIGHT = 10
-# Number of flat fields of the contacts that a loading path holds: four contacts with four fields each.
+# Number of flat fields that a loading path holds for its contacts: four contacts with four fields each.
 _CONTACT_FIELDS = 16
-# The same number at small tolerances: the path then holds six contacts, since more are solved ahead.
+# Number of flat fields that a loading path holds for its contacts at small tolerances. The path then holds six contacts
+# with four fields each, since more contacts are solved ahead.
 _CONTACT_FIELDS_IF_EXACT = 24
-# Number of flat fields of the grid solver and of temporary arrays.
+# Number of other flat fields: the fields of the grid solver, and temporary fields.
 _OTHER_FIELDS = 4
-# Bytes of other arrays per place of the grid: contact sets, and the preconditioner with its fourteen entries.
+# Bytes of other arrays per place of the grid: 12 for contact sets, and 25 for the preconditioner, which has fourteen
+# entries per place.
 _PER_PLACE = 12 + 25
-# Bytes per element of the linear problems of complete contact: vectors of the iteration, and two indices.
+# Bytes per element in the linear problems of complete contact: vectors of the iteration, and two indices.
 _PER_JOINED_ELEMENT = 104
-# Bytes per place of the grid of these problems: contact set, residual and preconditioner.
+# Bytes per place of the grid in the linear problems of complete contact: contact set, residual and preconditioner.
 _PER_JOINED_PLACE = 50
-# Double-precision arrays of the size of the spectrum of the half-space: kept, and during the set-up of the operator.
+# Number of double-precision arrays with the size of the spectrum of the influence coefficients. The spectrum is kept,
+# and the set-up of the operator needs a second array.
 _SPECTRA = 2
-# Numbers in a row of the two blocks of columns that each thread convolves.
+# Each thread convolves columns in two blocks of columns, which have this number of entries per row in total.
 _NUMBERS_PER_ROW = 2 * 152
-# Columns of such a block.
+# Number of columns in a block of columns.
 _COLUMNS_PER_BLOCK = 64
-# For any size: tables, and dense solutions of hundreds of elements.
+# Bytes for a map of any size: tables, and dense solutions of hundreds of elements.
 _CONSTANT = 6e6
 
 
 def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> None:
-    """Raise MemoryError, which names the bytes needed and available, unless the contact of a map fits into memory.
+    """Raise MemoryError unless the contact of a map of heights fits into memory.
 
-    heights : a map, nan outside the indenter
+    The message of the error names the bytes needed and the bytes available.
+
+    heights : map of heights, nan outside the indenter
     exact : True if gaps are also computed in double precision
     threads : number of threads; each has its own buffers
 
-    The estimate follows the allocation: it is proportional to the number of points of the padded grid around all
-    elements, including its border, which for narrow strips are several times as many as the elements. It exceeds the
-    memory taken by up to a factor of two (tests/viscorough/basics/test_memory.py).
+    The estimate is proportional to the number of points of the padded grid around all elements, including its border,
+    because the arrays of the contact have this size. For narrow strips, these points are several times as many as the
+    elements. The estimate is up to twice as large as the memory that is used
+    (tests/viscorough/basics/test_memory.py).
     """
     inside = np.isfinite(heights)
     rows, columns = (int(np.ptp(np.flatnonzero(inside.any(axis=axis)))) + 1 for axis in (1, 0))
@@ -54,15 +60,19 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
 
 
 def require_for_box(heights: Array, box: tuple[int, ...], *, exact: bool, threads: int = 1) -> None:
-    """Raise MemoryError unless the contact in a box fits into memory; the elements exist already.
+    """Raise MemoryError unless the contact in a box of the grid fits into memory.
 
+    The arrays of the elements are not counted, since they exist already.
+
+    heights : map of heights, of which the message of the error gives the shape
     box : (first row, first column, rows, columns)
+    exact, threads : see `require_for_contact`
     """
     memory.require(_grid_bytes(*box[2:], exact=exact, threads=threads), f"contact of a map of {heights.shape} heights")
 
 
 def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
-    """Raise MemoryError unless the linear problems of complete contact fit into the memory that is left."""
+    """Raise MemoryError unless the linear problems of complete contact fit into the available memory."""
     rows, columns = elements.shape
     flat = (rows + 2 * REACH) * (columns + 2 * REACH)
     needed = _PER_JOINED_ELEMENT * elements.count + _PER_JOINED_PLACE * flat + _CONSTANT
@@ -71,7 +81,7 @@ def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
 
 
 def _grid_bytes(rows: int, columns: int, *, exact: bool, threads: int) -> float:
-    """Return bytes of a grid solver, its operators, and the contacts on its grid."""
+    """Return the number of bytes of a grid solver, including its operators and the contacts on its grid."""
     flat = (int(rows) + 2 * REACH) * (int(columns) + 2 * REACH)
     fields = 8 * (_OTHER_FIELDS + _CONTACT_FIELDS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _CONTACT_FIELDS)
     operators = _operator_bytes(rows, columns, (4, 8) if exact else (4,), threads)
@@ -79,17 +89,21 @@ def _grid_bytes(rows: int, columns: int, *, exact: bool, threads: int) -> float:
 
 
 def _operator_bytes(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], threads: int) -> float:
-    """Return bytes of half-space operators on a grid, one for each precision, and of their common spectrum."""
+    """Return the number of bytes of the half-space operators on a grid, and of the spectrum that they share.
+
+    bytes_of_numbers : bytes of a number in the precision of each operator; 4 for single, 8 for double precision
+    """
     rows, columns = sorted((int(rows), int(columns)))
     along_columns, along_rows = convolution_lengths(rows, columns)
     spectrum = (along_columns // 2 + 1) * (along_rows // 2 + 1)
     operators = 8 * _SPECTRA * spectrum
     buffers = min(threads, -(-along_rows // (2 * _COLUMNS_PER_BLOCK))) * _NUMBERS_PER_ROW * along_columns
     if rows * columns > BLOCK:
-        # Two blocks of rows; their number of rows is a multiple of 16.
+        # Each thread has two blocks of rows. The number of rows in a block is a multiple of 16.
         buffers += min(threads, -(-rows // 16)) * 2 * along_rows * (BLOCK // columns + 16)
     for bytes_of_number in bytes_of_numbers:
-        # Load and deflection (padded on small grids only) and transformed rows; the spectrum by blocks of columns.
+        # An operator has a load and a deflection (both padded on small grids only), transformed rows, and the spectrum
+        # divided into blocks of columns.
         width = along_rows if rows * columns <= BLOCK else columns
         operators += bytes_of_number * (rows * (2 * width + along_rows) + 1.2 * spectrum + buffers)
     return operators

@@ -1,16 +1,21 @@
 """Iterate for the pressure of a contact on a grid by preconditioned conjugate gradients on a shrinking contact set.
 
 Elements under tension leave the set, and elements that overlap the surface join it. The operator gives the deflection
-K d of a search direction d on the whole grid, and so the gap everywhere at no further cost. There are two phases:
+K d by a search direction d on the whole grid, so the gap is known everywhere at no further cost. There are two kinds of
+step:
 
-1. Release phase: while elements leave, the length of a step is fixed in units of the preconditioned residual. So one
-   application of the operator serves both the step and the removal of these elements.
-2. Conjugate phase: if no element leaves, a step has the length that minimises the energy, like a step of conjugate
-   gradients.
+1. Release step: the length of the step along d is fixed in advance, and elements that the step puts under tension
+   leave the set. The operator is then applied once, to the whole change of pressure by the step and by the removal of
+   elements.
+2. Conjugate step: the step has the length that minimises the energy along d, and no element leaves. This is a step of
+   the method of conjugate gradients.
 
-The phase is chosen before every step. Directions are conjugate to the last change of pressure in both. If the bound on
-the rounding error nears the tolerance, the gap is recomputed from the pressure. If possible this happens in a release
-step, which applies the operator anyway.
+Before every step, a release step is chosen if it would put any element under tension, otherwise a conjugate step. Each
+direction is conjugate to the last change of pressure, after steps of either kind. If the bound on the rounding error
+nears the tolerance, the gap is recomputed from the pressure. If possible this happens in a release step, which applies
+the operator anyway.
+
+Symbols are defined in contact.state. M is the preconditioner.
 """
 
 from dataclasses import dataclass
@@ -21,35 +26,39 @@ from viscorough.contact.grid.depth_adjustment import DepthAdjustment
 from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.state import BoundedField, ContactSet, TargetForce
 
-# Remove unloaded elements that the first step would put under tension before this step, if they exceed this share of
-# the set: the preconditioned residual of a far too large set is of little use.
+# Before the first step, elements without pressure that this step would put under tension are removed from the contact
+# set if they are more than this share of the set. The preconditioned residual of a far too large set is of little use.
 _EXCLUDED = 0.05
-# Recompute the gap in a release step if the bound on its rounding error exceeds this share of the limit, and a further
-# step adds less than this share. This saves the operator application of the step.
+# A release step recomputes the gap if the bound on the rounding error of the gap exceeds this share of the largest
+# allowed residual, and if a step adds less than this share to the bound. Recomputing then takes the place of the
+# operator application of the step.
 _INEXACT = 0.25
-# Release steps after the first step of a level are longer by this factor, about the inverse of the mean eigenvalue of M
-# K. In the first step the set is too large, so the residual overestimates the change.
+# Length of the release steps of a contact after the first, which has length 1: about the inverse of the mean eigenvalue
+# of M K. In the first step the contact set is too large, so the residual overestimates the change of pressure.
 _LATER_STEPS = 1.1
-# Halve the length of release steps after every so many of them. From the first halving on, each release step begins a
-# new search: a safeguard against cycles if the preconditioner is poor.
+# The length of release steps is halved each time this number of release steps has been taken. After the first halving,
+# conjugate gradients also start anew after every release step. This is a safeguard against cycles if the preconditioner
+# is poor.
 _HALVE_STEP_EVERY = 20
-# Share of the tolerance for the search, so that residual and rounding together stay within the tolerance.
+# The iteration aims at this share of the tolerance, so that residual and rounding error together stay within the
+# tolerance.
 _SEARCH_SHARE = 0.999
-# For contacts of fewer elements than this, the residual is smaller in proportion to their number: an element that
-# overlaps within the tolerance and does not join would carry a large part of the force.
+# If fewer elements than this are in contact, the largest allowed residual is reduced in proportion to their number. An
+# element that overlaps the surface within the tolerance does not join the contact, although it would carry a large part
+# of the force of so small a contact.
 _FEW = 100
-# Smallest residual over the depth that single precision can reach.
+# Smallest ratio of the residual to the depth that single precision can reach.
 _LEAST_RESIDUAL = 1e-5
 
 
 @dataclass
 class TrialContact:
-    """A contact while PressureIteration solves it; the iteration changes all of it, the arrays in place.
+    """First guess of a contact; PressureIteration changes the guess, its arrays in place, until it is the solution.
 
     pressure : P, flat field
     change : BoundedField of e − g
     inside : True for places in contact, flat field
-    depth : reduced depth u; it changes only if a force is given
+    depth : reduced depth u, which changes only if a force is given
     """
 
     pressure: Array
@@ -59,11 +68,11 @@ class TrialContact:
 
 
 class PressureIteration:
-    """One solution for P ≥ 0 with |e| on the set below a limit, and no overlap beyond the limit elsewhere.
+    """Iteration for one contact with P ≥ 0, until |e| in contact and the overlap elsewhere are below a limit.
 
     grid : GridWorkspace; no other iteration may use it at the same time
-    trial : TrialContact to start from; it becomes the solution
-    target : TargetForce that the depth is adjusted to during the iteration; None keeps the depth
+    trial : TrialContact, the first guess, which becomes the solution
+    target : TargetForce to which the depth is adjusted during the iteration; None: the depth is kept
     """
 
     def __init__(self, grid: GridWorkspace, trial: TrialContact, target: TargetForce | None = None) -> None:
@@ -71,17 +80,17 @@ class PressureIteration:
         self._adjustment = DepthAdjustment(target, trial.pressure.size, grid.loops) if target else None
         self._search: ConjugateGradients | None = None
         self._contact_set = grid.contact_set(trial.inside)
-        self._set_changed = False  # since `_contact_set` was made
+        self._set_changed = False  # True if `trial.inside` has changed since `_contact_set` was made
         self._has_tension = grid.loops.lowest(trial.pressure) < 0
-        self._releases = 0  # release steps so far
-        # Measured at the start of every iteration: the largest |e| allowed, the largest |e| reached, and the largest
-        # |e| that ends the iteration.
+        self._releases = 0  # number of release steps so far
+        # `_measure` sets these numbers at the start of every iteration: the largest allowed |e|, the largest |e| on the
+        # contact set, and the |e| below which the iteration may end.
         self._limit = self._largest = self._close_enough = 0.0
 
     def solve(self) -> ContactSet:
-        """Iterate until the trial contact is solved; return its set.
+        """Iterate until the trial contact is solved; return its contact set.
 
-        Raises ConvergenceError if this takes more than max_iterations.
+        Raises ConvergenceError if the iteration takes more than max_iterations steps.
         """
         for iteration in range(self._grid.options.max_iterations):
             self._measure()
@@ -104,31 +113,34 @@ class PressureIteration:
         raise self._grid.not_converged(self._contact_set, self._largest, self._limit)
 
     def _measure(self) -> None:
-        """Measure the residual on the current set."""
+        """Compute the largest residual |e| on the current contact set, and the limits for it."""
         grid, trial = self._grid, self._trial
         if self._set_changed:
             self._contact_set = grid.contact_set(trial.inside)
         self._limit = self._largest_residual()
         places = self._contact_set.places
         self._largest = grid.loops.largest_gap(trial.change.values, grid.initial_gap, grid.residual, places)
-        # Residual and rounding error together must not exceed the limit. If the rounding error is most of it, the gap
-        # is recomputed as soon as the residual is no larger than the rounding error.
+        # Residual and rounding error together must not exceed the limit. If the rounding error is more than half of the
+        # limit, the gap is recomputed as soon as the residual is no larger than the rounding error.
         self._close_enough = max(self._limit - trial.change.rounding, trial.change.rounding)
 
     def _largest_residual(self) -> float:
-        """Return the largest |e| on the set, and the largest overlap outside it, at the end of the search."""
+        """Return the largest |e| in contact, and the largest overlap elsewhere, that the solution may have."""
         tolerance, share = self._grid.tolerance, min(self._contact_set.places.size / _FEW, 1.0)
         return _SEARCH_SHARE * max(share * tolerance, min(tolerance, _LEAST_RESIDUAL)) * self._trial.depth
 
     def _is_close(self) -> bool:
-        """Return True if the residual, and the force if one is given, are within their limits on the current set."""
+        """Return True if the residual is within its limit, no pressure is negative, and a given force is met."""
         if self._largest > self._close_enough or self._has_tension:
             return False
         trial, places = self._trial, self._contact_set.places
         return not self._adjustment or self._adjustment.is_met(trial.pressure, places, trial.depth, self._limit)
 
     def _try_to_finish(self) -> bool:
-        """Return True if no element joins the set and the gap is accurate; otherwise improve the set or the gap."""
+        """Return True if no element joins the contact set and the gap is accurate; otherwise improve set or gap.
+
+        The set is improved by adding overlapping elements, the gap by recomputing it from the pressure.
+        """
         trial = self._trial
         self._set_changed = False
         self._add_penetrating_elements(self._close_enough)
@@ -138,11 +150,12 @@ class PressureIteration:
             return True
         self._grid.recompute_gap(trial.pressure, trial.depth, trial.change)
         self._grid.add_penetrating_elements(trial.change, trial.inside, self._limit)
-        self._set_changed, self._search = True, None  # the load array now contains another load
+        # The recomputation may have used the load array that held the search direction, so a new search must begin.
+        self._set_changed, self._search = True, None
         return False
 
     def _next_direction(self) -> Direction:
-        """Return the next search direction, after an adjustment of the depth if a force is given."""
+        """Return the next search direction; if a force is given, adjust the depth first."""
         trial = self._trial
         if self._search is None or self._set_changed:
             if self._search is None or not 0 < self._releases < _HALVE_STEP_EVERY:
@@ -158,7 +171,10 @@ class PressureIteration:
         return self._search.next_direction(residual)
 
     def _exclude_unloaded(self, direction: Direction) -> bool:
-        """Exclude unloaded elements that a step would put under tension, if they are many; return True if so."""
+        """Remove elements without pressure that a step would put under tension from the contact set, if they are many.
+
+        Returns True if elements were removed.
+        """
         excluded = direction.unloaded_under_tension(self._trial.pressure)
         if excluded.size <= _EXCLUDED * self._contact_set.places.size:
             return False
@@ -167,20 +183,20 @@ class PressureIteration:
         return True
 
     def _can_recompute(self) -> bool:
-        """Return True if the rounding error is too large, and recomputing the gap reduces it for the rest of the level.
+        """Return True if the rounding error of the gap is too large, and recomputing would reduce it lastingly.
 
-        The error of the next step must not make the recomputed gap too inexact again.
+        The reduction is lasting if the rounding error of a further step is small.
         """
         grid, trial = self._grid, self._trial
         too_large = max(_INEXACT * self._limit, 2 * (grid.exact_rounding + grid.field_rounding) * trial.depth)
         return trial.change.rounding > too_large and grid.step_rounding * self._largest < _INEXACT * self._limit
 
     def _added_rounding(self) -> float:
-        """Return the bound on the rounding error that a step adds to the gap."""
+        """Return a bound on the rounding error that a step adds to the gap."""
         return self._grid.step_rounding * self._largest + self._grid.field_rounding * self._trial.depth
 
     def _take_release_step(self, direction: Direction, length: float, recomputes: bool) -> None:
-        """Take a step of given length, remove the elements under tension, and update or recompute the gap."""
+        """Take a step of given length, remove elements under tension, and update the gap (or recompute the gap)."""
         trial = self._trial
         direction.step_and_release(length, trial.pressure, self._grid.width)
         self._releases += 1
@@ -191,6 +207,6 @@ class PressureIteration:
             direction.update_gap(trial.change.values)
 
     def _add_penetrating_elements(self, limit: float) -> None:
-        """Add elements that overlap the surface by more than the limit to the set."""
+        """Add elements that overlap the surface by more than `limit` to the contact set."""
         if self._grid.add_penetrating_elements(self._trial.change, self._trial.inside, limit):
             self._set_changed = True

@@ -1,10 +1,13 @@
 """Solve a contact on the grid, starting from a contact at a smaller depth.
 
-The pressure starts from the predictor P + Δu q. The contact set starts from the last set and the elements that overlap
-the surface after the prediction, except for elements that would touch late in the step. With the late elements it would
-contain the set of the solution: between the two depths the contact grows, so the surface outside it deflects further
-than predicted. Then pressure_iteration solves for the pressure, and tangent_iteration for the tangent from the start
-that tangent_start gives.
+A solution has three steps:
+
+1. Predict the pressure P + Δu q from the tangent q at the smaller depth. The first contact set consists of the elements
+   in contact at the smaller depth, and of the elements that overlap the surface after the prediction. Elements that
+   would touch late in the step are left out, because the growing contact bends the surface away from them further than
+   predicted. (With the late elements, the first set would contain all elements of the solution, for the same reason.)
+2. Solve for the pressure (module pressure_iteration).
+3. Solve for the tangent (module tangent_iteration), with a first guess from the module tangent_start.
 
 Symbols and reduced units are defined in contact.state.
 """
@@ -34,8 +37,8 @@ from viscorough.contact.state import (
     TargetForce,
 )
 
-# A box with more than this ratio of rows to columns is transposed: the operator works on blocks of columns, which few
-# columns do not fill.
+# A box is transposed if the ratio of its rows to its columns exceeds this number: the operator works on blocks of
+# columns, and the few columns of such a box would not fill a block.
 _TALL = 4
 
 
@@ -43,16 +46,17 @@ class GridSolver:
     """Solver for the contact of elements in a box of the grid, starting from a contact at a smaller depth.
 
     box : (first row, first column, rows, columns)
-    elements : state.Elements, in any order; the rank of an element is its position in their arrays
-    tolerance : largest |e| in contact or overlap outside it, over the depth
+    elements : state.Elements in any order; the rank of an element is its position in the arrays of `elements`
+    tolerance : largest |e| in contact, or overlap elsewhere, relative to the depth
     options : SolverOptions
     threads : number of threads
-    reach : number of elements, by rank, that can touch; all in the box by default
+    reach : the first `reach` elements can touch; by default all elements in the box can
 
-    box : as it was given
-    is_restricted : True if the operator is restricted to tiles with elements, because these are a small part of the box
-    place : index of every element in flat fields, by rank (0: not in the box)
-    initial_gap : flat field
+    box : the argument of the same name
+    is_restricted : True if the operator is restricted to tiles that contain elements, because these tiles are a small
+        part of the box
+    place : index in flat fields of every element, in the order of ranks; 0 for elements outside the box
+    initial_gap : initial gap g, flat field
     """
 
     def __init__(
@@ -75,14 +79,16 @@ class GridSolver:
         self._workspace = GridWorkspace((rows, columns), tolerance, options, aspect=aspect, threads=threads, tiles=used)
         self._loops, self._units = self._workspace.loops, elements.units
         self.initial_gap = self._workspace.initial_gap
-        # Places without elements have no deflection in a restricted operator.
+        # A restricted operator computes deflections only in tiles with elements that can touch, so only these elements
+        # get places.
         self.place_elements(elements, reach if self.is_restricted else None)
 
     def place_elements(self, elements: Elements, reach: int | None = None) -> None:
-        """Place elements up to the rank `reach`, and store their initial gaps.
+        """Assign places in flat fields to the first `reach` elements (default: to all), and store their initial gaps.
 
-        The elements begin with the elements placed before. An element outside the box has the place 0, whose entry is
-        kept.
+        An element outside the box gets the place 0, where the initial gap is not changed.
+
+        elements : Elements; they begin with the elements of the last call
         """
         (top, left, rows, columns), row, column = self._oriented(elements, reach)
         field, width = self.initial_gap, columns + 2 * REACH
@@ -100,12 +106,15 @@ class GridSolver:
         self.place = place
 
     def _oriented(self, elements: Elements, reach: int | None) -> tuple[tuple[int, ...], Integers, Integers]:
-        """Return the box, and rows and columns of the elements up to a rank, exchanged in a transposed grid."""
+        """Return the box, and the rows and columns of the first `reach` elements.
+
+        Rows and columns are exchanged if the grid is transposed.
+        """
         box, row, column = self.box, elements.row[:reach], elements.column[:reach]
         return ((*box[1::-1], *box[:1:-1]), column, row) if self._is_transposed else (box, row, column)
 
     def in_box(self, field: Array) -> Array:
-        """Return a view of a flat field in the rows and columns of the box."""
+        """Return a view of a flat field as an array with the rows and columns of the box."""
         interior = self._workspace.interior(field)
         return interior.T if self._is_transposed else interior
 
@@ -115,7 +124,10 @@ class GridSolver:
         return self._workspace.operator_applications
 
     def transferred(self, contact: ContactState) -> GridContact:
-        """Return a contact from another solver as a contact on this grid; costs two applications of the operator."""
+        """Convert a contact from another solver to a contact on this grid.
+
+        The conversion takes two applications of the half-space operator.
+        """
         grid, loads = self._workspace, contact.member_loads()
         inside, pressure, tangent = grid.zeros(bool), grid.zeros(), grid.zeros()
         place = self.place[loads.members]
@@ -135,7 +147,8 @@ class GridSolver:
         """Solve the contact at a reduced depth.
 
         start : contact on this grid at a smaller depth, or loads as a first guess
-        target : TargetForce, if the depth is only a first guess for it; the contact is then solved at this force
+        depth : reduced depth u
+        target : if given, the contact is solved at this TargetForce, and `depth` is only a first guess
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
@@ -148,7 +161,7 @@ class GridSolver:
         return self._contact(trial.depth, GridFields(*solution, self.initial_gap, self.place), contact_set)
 
     def _predicted(self, contact: GridContact, depth: float) -> TrialContact:
-        """Predict pressure, e − g and contact set at a depth from a contact at a smaller depth."""
+        """Predict the pressure, e − g and the contact set at a depth, from a contact at a smaller depth."""
         before, depth_step = contact.fields, depth - contact.reduced_depth
         inner, precision = self._workspace.inner, self._workspace.precision
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
@@ -161,7 +174,7 @@ class GridSolver:
         return TrialContact(pressure, BoundedField(change, rounding), inside, depth)
 
     def _guessed(self, loads: MemberLoads, depth: float) -> TrialContact:
-        """Build a first guess of the contact at a depth from loads only."""
+        """Build a first guess of the contact at a depth from the pressures of similar loads; no fields are needed."""
         grid = self._workspace
         pressure, inside, place = grid.zeros(), grid.zeros(bool), self.place[loads.members]
         pressure[place] = loads.pressure
@@ -173,8 +186,13 @@ class GridSolver:
     def settled(self, contact: GridContact, depth: float, pressure_sum: float) -> GridContact:
         """Extrapolate the contact along its tangent to a nearby depth, and rescale its pressures to the given sum.
 
-        Changing the pressures by a multiple of q shifts the gap in contact by the same multiple. So the residual grows
-        by at most the q-weighted mean gap left in contact plus the distance of the depths. The gap is recomputed.
+        Adding c q to the pressures adds c to the gap in contact, because K q = 1. So the residual grows by at most the
+        sum of two terms: the mean, with weights q, of the gap that remains in contact, and the difference between the
+        depth of `contact` and the new depth. The gap is recomputed from the new pressures.
+
+        contact : solved contact on this grid
+        depth : new reduced depth
+        pressure_sum : reduced sum ΣP of the new pressures
         """
         fields, grid, precision = contact.fields, self._workspace, self._workspace.precision
         places = np.flatnonzero(fields.inside)
@@ -189,22 +207,23 @@ class GridSolver:
         return replace(settled, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)
 
     def solve_flat_punch(self, inside: Mask, tangent: Array, tangent_gap: Array) -> float:
-        """Solve K q = 1 on a set by iteration from the given q, which must be zero outside the set; changes q in place.
+        """Solve K q = 1 on a contact set by iteration, starting from a given q; return Σq.
 
         inside : True for elements in the set, flat field
-        tangent, tangent_gap : q and e_q = K q − 1, flat fields
+        tangent : q, flat field; zero outside the set, changed in place to the solution
+        tangent_gap : e_q = K q − 1, flat field, changed in place
 
-        Returns Σq; its relative error is the square of the error of q in the energy norm.
+        Returns Σq; the relative error of Σq is the square of the relative error of q in the energy norm.
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
         contact_set = self._workspace.contact_set(inside)
-        # The caller reuses the tangent gap from set to set, so its rounding error has no bound.
+        # The caller passes the same array e_q for one set after another, so no bound on its rounding error is known.
         solve_tangent(self._workspace, contact_set, tangent, BoundedField(tangent_gap, np.inf))
         places = contact_set.places
         return self._loops.total(tangent, places) - self._loops.inner_product(tangent, tangent_gap, places)
 
     def _contact(self, depth: float, fields: GridFields, contact_set: ContactSet) -> GridContact:
-        """Return the contact with these fields at a reduced depth, with its sums and its residual."""
+        """Build a GridContact from solved fields at a reduced depth; compute its sums ΣP and Σq and its residual."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
         inner, residual = self._workspace.inner, self._workspace.residual
         largest = self._loops.largest_gap(change.values, self.initial_gap, residual, places)

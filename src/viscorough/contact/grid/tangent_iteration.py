@@ -10,17 +10,21 @@ from viscorough.contact.state import BoundedField, ContactSet
 
 # Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
 _TANGENT_TOLERANCE = 1e-2
-# Accepted rounding error of e_q = K q − 1, over the tolerance. The stiffness depends on its mean over the set, not on
-# its largest value, and therefore stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
+# Largest accepted rounding error of e_q = K q − 1, relative to the tolerance of the contact. The stiffness depends on
+# the mean of e_q over the contact set, not on the largest e_q, and therefore stays within the tolerance
+# (tests/viscorough/contact/test_loading_path.py).
 _TANGENT_ROUNDING = 5.0
 
 
 def solve_tangent(grid: GridWorkspace, contact_set: ContactSet, tangent: Array, tangent_gap: BoundedField) -> None:
-    """Solve K q = 1 on a set; changes q and e_q, with its rounding bound, in place.
+    """Solve K q = 1 on a contact set, starting from a given q; change q and e_q = K q − 1 in place.
 
     grid : GridWorkspace; no other iteration may use it at the same time
+    contact_set : ContactSet
+    tangent : q, flat field
+    tangent_gap : BoundedField of e_q, whose bound on the rounding error is updated
 
-    Raises ConvergenceError if this takes more than max_iterations.
+    Raises ConvergenceError if the iteration takes more than max_iterations steps.
     """
     tolerance = min(_TANGENT_TOLERANCE, np.sqrt(grid.tolerance))
     accepted = max(_TANGENT_ROUNDING * grid.tolerance, grid.exact_rounding + grid.field_rounding)

@@ -1,7 +1,9 @@
-"""Start the tangent of a new contact from the combination of computed fields that is closest to it in energy.
+"""Compute a first guess of the tangent of a new contact from fields that are already known.
 
-The deflections of both pressures of a step and of the last tangent have been computed, and the new tangent q is almost
-a combination of these three fields.
+A step leads from the last contact to the new contact. The pressure of the last contact, the tangent of the last
+contact, and the pressure of the new contact have been computed with their deflections. The tangent q of the new contact
+is almost a linear combination of these three fields. The first guess is the combination that is closest to q in the
+energy norm.
 """
 
 import numpy as np
@@ -12,20 +14,21 @@ from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.pressure_iteration import TrialContact
 from viscorough.contact.state import BoundedField, ContactSet, GridContact
 
-# Eigenvalues of the energies of the loads, over the largest, that are zero but for rounding.
+# Eigenvalues of the energy matrix of the three fields that are below this share of the largest eigenvalue are rounding
+# errors and count as zero.
 _DEPENDENT = 1e-10
 
 
 def initial_tangent(
     trial: TrialContact, last: GridContact | None, contact_set: ContactSet, inner: slice, loops: GridLoops
 ) -> tuple[Array, BoundedField]:
-    """Return the combination as initial q, and e_q = K q − 1 everywhere as a BoundedField.
+    """Return a first guess of the tangent q of a new contact, and e_q = K q − 1 on the whole grid as a BoundedField.
 
-    trial : the contact after the step, solved
-    last : GridContact before the step; None if the solution started without it
-    contact_set : the ContactSet after the step
-    inner : slice of flat fields without the first and last rows of their border
-    loops : GridLoops
+    trial : the new contact, whose pressure is solved
+    last : GridContact before the step; None if the new contact was solved from loads only
+    contact_set : ContactSet of the new contact
+    inner : slice of flat fields between the first and the last border rows
+    loops : GridLoops that run the loops over the grid
     """
     pressure, change, depth = trial.pressure, trial.change, trial.depth
     last_depth, last_rounding, tangent_rounding = 0.0, 0.0, 0.0
@@ -35,25 +38,26 @@ def initial_tangent(
         last_fields = before.pressure, before.gap_change.values, before.tangent, before.tangent_gap.values
         computed = pressure, change.values, *last_fields
         last_rounding, tangent_rounding = before.gap_change.rounding, before.tangent_gap.rounding
-    # An element that left the contact, within the tolerance, was loaded by fields that cannot be part of q.
+    # Elements can leave the contact within the tolerance. The fields of the last contact then load elements outside the
+    # new contact set, so these fields cannot be part of q.
     only_now = last is None or loops.difference(last.fields.inside, contact_set.inside).size > 0
     combined = slice(1) if only_now else slice(3)
     parts = loops.each(kernels.energies, ((depth, last_depth), *computed), contact_set.places)
     energy, sums = (sum(part) for part in zip(*parts, strict=True))
     energy, sums = energy[combined, combined], sums[combined]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
-    # Least squares, since the loads may be multiples of each other.
+    # Solve in the sense of least squares, since the fields may be multiples of each other.
     eigenvalues, vectors = np.linalg.eigh(scale[:, None] * energy * scale)
     independent = eigenvalues > _DEPENDENT * eigenvalues[-1]
     vectors = vectors[:, independent]
     solution = scale * (vectors @ ((scale * sums) @ vectors / eigenvalues[independent]))
-    # q ≈ a P + b P' + c q', with P' and q' before the step.
+    # q ≈ a P + b P' + c q', with the pressure P' and the tangent q' of the last contact.
     a, b, c = weights = *solution, *[0.0] * (3 - solution.size)
     tangent, tangent_gap = (field_to_fill(pressure.size, pressure.dtype, inner) for _ in range(2))
     fields = (field[inner] for field in (tangent, tangent_gap, *computed))
     loops.each(kernels.combine, (weights, a * depth + b * last_depth + c - 1), *fields)
-    # Bound on the rounding error of the combined e_q. Unless it was recomputed, the gap has the errors of the last gap
-    # and tangent gap, which partly cancel here.
+    # Bound the rounding error of the combined e_q. Unless the new gap was recomputed, its error contains the errors of
+    # the last gap and of the last tangent gap, which partly cancel in the combination.
     depth_step = depth - last_depth
     added = change.rounding - last_rounding - depth_step * tangent_rounding
     if added >= 0:

@@ -4,9 +4,9 @@ Symbols and reduced units are defined in contact.state. Fields are flat arrays w
 preconditioner reaches, so elements at the edge need no special treatment.
 
 The iterations run in single precision by default. Fields are in single precision, too, unless the tolerance is so small
-that the gap is needed in double precision. The iterations compute ever smaller corrections, so the rounding error
-is small, and a bound on it is tracked with every field. When the bound nears the tolerance, the gap is recomputed from
-the pressure, in double precision if the tolerance needs it.
+that the gap is needed in double precision. The corrections that the iterations compute become smaller and smaller, so
+rounding errors remain small. A bound on the rounding error is stored with every field. When the bound nears the
+tolerance, the gap is recomputed from the pressure, in double precision if the tolerance needs it.
 """
 
 from collections.abc import Callable
@@ -28,30 +28,31 @@ from viscorough.contact.options import SolverOptions
 from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
 
-# Initial gap of places without an element, far beyond the largest depth.
+# Initial gap at places without an element: a number far above the largest depth, so that these places never touch.
 _OUTSIDE = 1e30
 
 
 class GridWorkspace:
-    """Half-space operators and preconditioner of a grid, and the fields that all solutions on it share.
+    """Half-space operators and preconditioner of a grid, and the fields that all solutions on the grid share.
 
     shape : rows and columns of the grid
-    tolerance : largest |e| in contact or overlap outside it, over the depth
+    tolerance : largest |e| in contact, or overlap elsewhere, relative to the depth
     options : SolverOptions
     aspect : dy/dx of the elements
     threads : number of threads
-    tiles : halfspace.tiles with elements that can touch; the operator is restricted to them
+    tiles : True for tiles with elements that can touch (see `halfspace.tiles.tiles_with`), to which the operator is
+        restricted; None: the operator is not restricted
 
-    tolerance, options : as they were given
-    loops : GridLoops
+    tolerance, options : the arguments of the same names
+    loops : GridLoops that run the loops over the grid
     width : length of a row of flat fields
-    inner : slice of flat fields without the first and last rows of their border, which for a strip are most of its rows
-    initial_gap : flat field; the grid solver sets it at the elements
-    residual : e or e_q on the set, as the running iteration last computed it, flat field
-    precision : floating-point type of the other fields
-    field_rounding : rounding error of a step in the fields, over the depth
-    step_rounding : rounding error of the operator of the iterations, over the largest deflection
-    exact_rounding : rounding error of the operator that recomputes gaps, over the largest deflection
+    inner : slice of flat fields between the first and the last border rows; for a strip, most rows are border rows
+    initial_gap : initial gap g, flat field; the grid solver sets the values at places with elements
+    residual : e or e_q on the contact set, flat field; the iteration that runs overwrites the values
+    precision : floating-point type of all flat fields except `residual`
+    field_rounding : bound on the rounding error that a step adds to a field, relative to the depth
+    step_rounding : rounding error of the operator of the iterations, relative to the largest deflection
+    exact_rounding : rounding error of the operator that recomputes gaps, relative to the largest deflection
     """
 
     def __init__(
@@ -81,7 +82,7 @@ class GridWorkspace:
         )
         self.precision = self._exact.load.dtype.type
         # A step rounds e − g, which is at most the depth, and the pressure, whose deflection is at most the depth, too.
-        # If rounding is to be ignored, this is ignored, too.
+        # The option operator_rounding = 0 means that all rounding errors are ignored.
         self.field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self.precision).eps
         self.width = columns + 2 * REACH
         self.inner = slice(REACH * self.width, -REACH * self.width)
@@ -96,23 +97,26 @@ class GridWorkspace:
         return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
 
     def contact_set(self, inside: Mask) -> ContactSet:
-        """Return the ContactSet of a flat field of flags."""
+        """Return the ContactSet of the elements for which the flat field `inside` is True."""
         return ContactSet(inside, *self.loops.contact_places(inside, self.width, self._halfspace.load.shape[1]))
 
     def conjugate_gradients(self, contact_set: ContactSet) -> ConjugateGradients:
-        """Begin conjugate gradients on a set; they end when the operator is applied to anything else."""
+        """Begin conjugate gradients on a contact set; they are invalid once the operator is applied to another load."""
         return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self.loops)
 
     def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
-        """Return a flat field of zeros; the loop that fills it allocates its memory on its threads."""
+        """Return a flat field of zeros; the first loop that writes to the field allocates the memory on its threads."""
         return np.zeros(self.initial_gap.size, dtype or self.precision)
 
     def interior(self, field: Array) -> Array:
-        """Return a view of a flat field without its border, in rows and columns."""
+        """Return a view of a flat field without its border, as an array in rows and columns."""
         return field.reshape(-1, self.width)[REACH:-REACH, REACH:-REACH]
 
     def gap_change(self, pressure: Array, depth: float) -> BoundedField:
-        """Return e − g = K P − u of a pressure as a BoundedField; e_q = K q − 1 of a tangent with a depth of 1."""
+        """Return e − g = K P − u for a pressure P and a depth u, as a BoundedField.
+
+        For a tangent q and the depth 1, the result is e_q = K q − 1.
+        """
         change = BoundedField(self.zeros(), self.field_rounding * depth)
         if pressure.any():
             self.recompute_gap(pressure, depth, change)
@@ -121,9 +125,9 @@ class GridWorkspace:
         return change
 
     def recompute_gap(self, pressure: Array, depth: float, change: BoundedField) -> None:
-        """Compute e − g = K P − u from a pressure, in double precision if the tolerance needs it; in place.
+        """Recompute e − g = K P − u from a pressure P and a depth u, in double precision if the tolerance needs it.
 
-        change : BoundedField of e − g, whose border is kept
+        change : BoundedField of e − g; the values are changed in place except in the border, and the bound is renewed
         """
         load = self._exact.load[:, : self.width - 2 * REACH]
         self.loops.shifted(self.interior(pressure), 0, load)
@@ -132,12 +136,16 @@ class GridWorkspace:
         change.rounding = (self.exact_rounding + self.field_rounding) * depth
 
     def add_penetrating_elements(self, change: BoundedField, inside: Mask, limit: float) -> int:
-        """Add the elements that overlap the surface by more than the limit to a set; return their number."""
+        """Add elements that overlap the surface by more than `limit` to a contact set; return the number of additions.
+
+        change : BoundedField of e − g
+        inside : True for elements in the set, flat field, changed in place
+        """
         fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))
         return sum(self.loops.each(kernels.add_penetrating_elements, (limit,), *fields))
 
     def not_converged(self, contact_set: ContactSet, residual: float, limit: float) -> ConvergenceError:
-        """Return the error for an iteration that has not reached its limit."""
+        """Return the error for an iteration whose residual has not fallen below its limit."""
         return ConvergenceError(
             f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
             f"{limit:.1e} in {self.options.max_iterations} steps; choose a larger {argument('tolerance')}"

@@ -1,1 +1,1 @@
-"""The elastic half-space under uniform pressure on rectangular elements: influence coefficients, their operator."""
+"""Compute deflections of an elastic half-space by uniform pressures on the rectangular elements of a grid."""

@@ -1,10 +1,10 @@
 """Convolve the columns of a grid with an even kernel, by Fourier transforms of many columns side by side.
 
 The transforms are implemented here because a convolution needs less than a library's transforms provide: rows without
-data are neither stored nor copied, and frequencies keep the order that the transform produces.
+data are neither stored nor copied, and frequencies need not be sorted.
 
-Columns are processed in blocks. Within a row of a block the real parts are contiguous and the imaginary parts follow,
-so that every operation below acts on as many columns at once as a register of the processor holds.
+Columns are processed in blocks. A row of a block contains first the real parts of all its columns, and then the
+imaginary parts. So every operation acts on as many columns at once as a register of the processor holds.
 """
 
 import ducc0
@@ -15,29 +15,30 @@ from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array, Complex
 from viscorough.contact.parallel import BLOCK, Buffer, aligned_zeros, run_blocks
 
-# Columns of a block, which is small enough for the cache.
+# Number of columns in a block, which must fit into the cache of the processor.
 _BLOCK = 64
-# Largest number of further columns in the last block.
+# The last block may have up to this number of additional columns, so that no very small block is left.
 _REST = 8
-# The next two distances are no powers of two, whose multiples compete for the same cache lines. They are constants
-# so that the compiler can see which numbers do not overlap.
-# Distance in memory from real to imaginary parts.
+# The distances _PARTS and _ROW must not be powers of two: numbers whose distance in memory is a multiple of a large
+# power of two compete for the same cache lines. The distances are constants so that the compiler can see which numbers
+# do not overlap in memory.
+# Distance in memory from the real part to the imaginary part of a number.
 _PARTS = _BLOCK + _REST
-# Distance in memory from row to row.
+# Distance in memory from a row of a block to the next row.
 _ROW = 2 * _PARTS + 8
-# Largest factor of a length that one stage transforms.
+# Largest radix of a stage; the length of a transform is the product of the radices (3, 4 or 8) of its stages.
 _LARGEST_RADIX = 8
 
 
 def good_length(least: int) -> int:
-    """Return the smallest length 2^a 3^b ≥ least with a ≥ 2: the transforms need such lengths."""
+    """Return the smallest length of a transform that is at least `least`; lengths are 2^a 3^b with a ≥ 2."""
     most = int(np.ceil(np.log2(max(least, 4))))
     lengths = [2**a * 3**b for a in range(2, most + 1) for b in range(most)]
     return min(length for length in lengths if length >= least)
 
 
 def _radices(length: int) -> list[int]:
-    """Return factors 3, 4 and 8 of a length, small factors first: the last stage has the factor 4 or 8."""
+    """Return radices 3, 4 and 8 whose product is the length, in increasing order, so that the last one is 4 or 8."""
     twos = (length & -length).bit_length() - 1
     threes = round(np.log(length >> twos) / np.log(3))
     fours = -twos % 3
@@ -46,20 +47,24 @@ def _radices(length: int) -> list[int]:
 
 @njit(inner=True)
 def _at(x, row, j):
-    """Return the complex number in column j of a row."""
+    """Return the complex number in column j of a row of the block x."""
     return complex(x[row, j], x[row, _PARTS + j])
 
 
 @njit(inner=True)
 def _put(y, group, j, value):
-    """Store a complex number in a group of rows: at j in its first row, at _ROW + j in the next one, and so on."""
+    """Store a complex number in a group of adjacent rows of y.
+
+    group : index of the group
+    j : column, if the number belongs in the first row of the group; _ROW + column for the second row, and so on
+    """
     y[group, j] = value.real
     y[group, _PARTS + j] = value.imag
 
 
 @njit(inner=True)
 def _put_exchanged(y, group, j, value, factor):
-    """Store a complex number times a real factor, with real and imaginary parts exchanged."""
+    """Store a complex number times a real factor, with real and imaginary parts exchanged; see `_put`."""
     y[group, j] = value.imag * factor
     y[group, _PARTS + j] = value.real * factor
 
@@ -72,14 +77,17 @@ def _times_minus_i(z):
 
 @njit(inner=True)
 def _transform_of_four(a, b, c, d):
-    """Return the transform of four numbers."""
+    """Return the discrete Fourier transform of four complex numbers."""
     even, odd, even_rotated, odd_rotated = a + c, b + d, a - c, _times_minus_i(b - d)
     return even + odd, even_rotated + odd_rotated, even - odd, even_rotated - odd_rotated
 
 
 @njit(inner=True, fastmath=True)
 def _transform_of_eight(z0, z1, z2, z3, z4, z5, z6, z7, root):
-    """Return the transform of eight numbers; root = √½."""
+    """Return the discrete Fourier transform of eight complex numbers.
+
+    root : √½ in the precision of the numbers
+    """
     a, b, c, d = _transform_of_four(z0, z2, z4, z6)
     e, f, g, h = _transform_of_four(z1, z3, z5, z7)
     f, g, h = (f + _times_minus_i(f)) * root, _times_minus_i(g), (_times_minus_i(h) - h) * root
@@ -149,7 +157,12 @@ def _stage_of_eight(x, source, y, before, factors, width):
 
 @njit(inner=True, fastmath=True)
 def _last_stage_of_four(x, source, y, spectrum, frequency, width):
-    """Run the last stage on four rows, without twiddle factors, and multiply by the spectrum at these frequencies."""
+    """Run the last stage of a transform if its radix is four, and multiply the result by the spectrum.
+
+    The last stage needs no twiddle factors. It also exchanges real and imaginary parts.
+
+    frequency : frequency of every row of the result
+    """
     quarter = source.size // 4
     out = y.reshape(quarter, 4 * _ROW)
     for p in range(quarter):
@@ -166,7 +179,7 @@ def _last_stage_of_four(x, source, y, spectrum, frequency, width):
 
 @njit(inner=True, fastmath=True)
 def _last_stage_of_eight(x, source, y, spectrum, frequency, width):
-    """Run the last stage on eight rows; see `_last_stage_of_four`."""
+    """Run the last stage of a transform if its radix is eight; see `_last_stage_of_four`."""
     eighth = source.size // 8
     out = y.reshape(eighth, 8 * _ROW)
     root = x.dtype.type(np.sqrt(0.5))
@@ -192,7 +205,7 @@ def _last_stage_of_eight(x, source, y, spectrum, frequency, width):
 
 @njit(inner=True)
 def _load(data, first, x, width):
-    """Copy columns from the first one on into the block x, and set the row after the last one to zero."""
+    """Copy `width` columns of the data, from column `first` on, to the block x; set the row after the data to zero."""
     for i in range(data.shape[0]):
         row = data[i][first:]
         for j in range(width):
@@ -203,7 +216,10 @@ def _load(data, first, x, width):
 
 @njit(inner=True)
 def _store(x, place, data, first, width):
-    """Copy the block x, with real and imaginary parts exchanged back, to the columns from the first one on."""
+    """Copy the block x to `width` columns of the data, from column `first` on, and exchange real and imaginary parts.
+
+    place : row of the block for every row of the data
+    """
     for i in range(data.shape[0]):
         row, at = data[i][first:], place[i]
         for j in range(width):
@@ -214,19 +230,26 @@ def _store(x, place, data, first, width):
 def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, padded, place, same, x, y):
     """Convolve blocks of columns in place.
 
-    Two transforms follow each other. The last stage of the first one multiplies with the spectrum and exchanges real
-    and imaginary parts, so that the second transform is an inverse one. Every stage reads rows n/r apart and writes r
-    rows side by side: the first holds frequencies that are 0 modulo r, the next frequencies that are 1, and so on
-    (decimation in frequency with constant geometry; Pease 1968).
+    A block is transformed twice. The last stage of the first transform multiplies the block by the spectrum and
+    exchanges real and imaginary parts, so that the second transform is an inverse transform.
 
-    start, stop : first block, and the one after the last
-    edges : first column of every block, and the number of columns
-    spectra, frequency : factors by block and frequency; frequency in every row after the last stage
-    stages : r of every stage, the product of all r before it, and the first of its rows in `factors`
-    factors : twiddle factors by group of rows; the number of groups is n over the product of all r up to the stage
-    padded, place, same : rows that the first stage reads, that the first stage of the inverse transform reads, and
-        0, 1, 2, …, the rows that the others read
-    x, y : two blocks, which the stages read and write in turn
+    A transform of length n has a stage for each of its radices r. The stage reads rows that are n/r apart, and writes r
+    adjacent rows. The first row holds the frequencies that are 0 modulo r, the second row the frequencies that are 1
+    modulo r, and so on (decimation in frequency with constant geometry; Pease 1968).
+
+    start, stop : index of the first block, and index after the last block
+    data : complex numbers, shape (rows, columns)
+    edges : first column of every block, followed by the total number of columns
+    spectra : spectrum by block, frequency and column
+    frequency : frequency of every row after the last stage
+    stages : for every stage its radix, the product of the radices of all earlier stages, and the index in `factors` of
+        the first row for the stage
+    factors : twiddle factors, with a row for every group of rows. The number of groups in a stage is n divided by the
+        product of the radices up to and including the stage
+    padded : rows that the first stage of the first transform reads; behind the data this is the same row of zeros
+    place : row of every frequency after the last stage, which the first stage of the second transform reads
+    same : 0, 1, 2, …, the rows that all other stages read
+    x, y : two blocks; a stage reads from one block and writes to the other
     """
     last = stages.shape[0] - 1
     for block in range(start, stop):
@@ -252,11 +275,11 @@ def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, pad
 
 
 class ColumnConvolution:
-    """Convolution of every column of a grid with an even kernel for this column.
+    """Convolution of every column of a grid with an even kernel, which may differ from column to column.
 
     rows : number of rows with data
-    spectrum : real transforms of the kernels along the columns, divided by the length of the transform: the frequencies
-        up to half of it, shape (length/2 + 1, columns), where length is a good_length above `rows`
+    spectrum : real Fourier transform of the kernel of each column, divided by the length of the transform. The length
+        is a `good_length` larger than `rows`; the frequencies are 0 to length/2, shape (length/2 + 1, columns)
     precision : floating-point type of the computation
     threads : number of threads, each of which convolves blocks of columns
     """
@@ -268,7 +291,7 @@ class ColumnConvolution:
         for radix in _radices(length):
             groups = rest // radix
             stages.append((radix, before, first))
-            # The stages share one array, whose rows are as long as the largest radix needs.
+            # The factors of all stages are stored in one array, whose rows are long enough for the largest radix.
             factors.append(np.exp(-2j * np.pi / rest * np.outer(np.arange(groups), np.arange(_LARGEST_RADIX))))
             frequency = np.add.outer(frequency, length // rest * np.arange(radix)).ravel()
             before, first, rest = before * radix, first + groups, groups
@@ -296,9 +319,9 @@ class ColumnConvolution:
 
 
 class LibraryConvolution:
-    """The convolution of ColumnConvolution by the transforms of ducc0, which need no compilation.
+    """Convolution like ColumnConvolution, with the Fourier transforms of ducc0, which need no compilation.
 
-    With it, the half-space operator takes 1.3 to 2.3 times as long (`columns` in `make bench`).
+    The half-space operator takes 1.3 to 2.3 times as long with this class (`columns` in `make bench`).
     """
 
     def __init__(self, rows: int, spectrum: Array, precision: DTypeLike, threads: int = 1) -> None:
@@ -313,7 +336,7 @@ class LibraryConvolution:
             block[: self._rows] = data[:, start:stop]
             ducc0.fft.c2c(block, axes=[0], out=block)
             block[:half] *= spectrum
-            block[half:] *= spectrum[-2:0:-1]  # the same at negative frequencies
+            block[half:] *= spectrum[-2:0:-1]  # the spectrum is even: negative frequencies have the same values
             ducc0.fft.c2c(block, axes=[0], forward=False, out=block)
             data[:, start:stop] = block[: self._rows]
 

@@ -1,8 +1,9 @@
 """Update the Cholesky factor L of the influence matrix of a contact set that grows element by element.
 
-It serves the two methods that follow contact events: the dense elastic path and the direct integration of the viscous
-problem. The second method checks the first; they share only the influence coefficients and this linear algebra, which
-is tested against a full factorisation. Compiled functions take plain arrays, hence their many arguments.
+Two methods that follow contact events use this module: the dense elastic path (contact.dense), and the direct
+integration of the viscous problem (viscous.integration.events). The integration serves as a check of the elastic path.
+The two methods share only the influence coefficients and this linear algebra, which is tested against a full
+factorisation. The functions have many arguments because compiled code takes plain arrays only.
 """
 
 import numpy as np
@@ -12,13 +13,15 @@ from viscorough.basics.compilation import njit
 
 @njit(inner=True, fastmath=True)
 def append_element(factor, influence, row, column, members, count, element, forward):
-    """Add an element to the set of `count` members: a row of L and an entry of L⁻¹·1, in place.
+    """Add an element to a contact set of `count` members: append a row to L and an entry to L⁻¹·1, in place.
 
+    factor : Cholesky factor L of the influence matrix of the members, shape (most, most), with `most` the largest
+        number of members
     influence : influence coefficients K by distance in rows and columns
     row, column : positions of all elements on the grid
-    factor : L, shape (most, most), most being the largest number of members
-    members : the elements of the set, shape (most,)
-    forward : L⁻¹·1, shape (most,)
+    members : indices of the members, shape (most,); the new element is appended
+    element : index of the new element
+    forward : L⁻¹·1, the product of L⁻¹ with a vector of ones, shape (most,)
     """
     new = factor[count]
     for t in range(count):
@@ -40,8 +43,12 @@ def append_element(factor, influence, row, column, members, count, element, forw
 
 @njit(inner=True, fastmath=True)
 def solve_flat_punch(factor, count, forward, tangent):
-    """Store the tangent q = L⁻ᵀ (L⁻¹·1) of the `count` members, the solution of K q = 1, in `tangent`; returns Σq."""
-    for i in range(count):  # a copy of slices would take a second to compile, for the message that their sizes differ
+    """Solve K q = 1 for the `count` members of a contact set: store q in `tangent` and return Σq.
+
+    The solution is q = L⁻ᵀ (L⁻¹·1), with the Cholesky factor L in `factor` and L⁻¹·1 in `forward`.
+    """
+    # A copy of slices takes a second longer to compile, because of its error message for slices of different sizes.
+    for i in range(count):
         tangent[i] = forward[i]
     total = 0.0
     for i in range(count - 1, -1, -1):
@@ -56,7 +63,11 @@ def solve_flat_punch(factor, count, forward, tangent):
 
 @njit(fastmath=True)
 def solve_factored(factor, right):
-    """Replace each row b of `right`, shape (sides, count), by the x with L Lᵀ x = b, L of shape (count, ≥ count)."""
+    """Solve L Lᵀ x = b for every row b of `right`, and replace b by x.
+
+    factor : Cholesky factor L, shape (count, count) or wider
+    right : right-hand sides b, shape (number of right-hand sides, count)
+    """
     for side in right:
         for i in range(side.size):
             row, value = factor[i], side[i]

@@ -5,21 +5,26 @@ import numpy as np
 from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array, Integers
 
-# Beyond this distance (in sides of an element or of its parts) the series below is more accurate than the difference
-# of logarithms.
+# Beyond this distance the series (`_mean_inverse_distance`) is more accurate than the difference of logarithms
+# (`_closed_form`). The unit is the longer side of an element, or of the parts into which a long element is divided.
 _FAR = 30
 
 
 def influence_coefficient(row: Array | Integers, column: Array | Integers, aspect: float = 1.0) -> Array:
-    """Return K: the displacement at a distance from a rectangular element under uniform pressure.
+    """Return the influence coefficient K, the dimensionless deflection at a distance from an element under pressure.
 
-    Love's solution, w = p d/(πE*) K = p d/(4πG) K, for an element with sides dx along the rows and dy along the columns
-    and d = √(dx dy) (Love 1929). Near the element K is the closed form, the sum over the four corners of
-    ±(a ln(b + ρ) + b ln(a + ρ)); far from it, where that loses digits to cancellation, the moment expansion of ∫∫ dA/r
-    to fourth order. Accurate to 1e-11 relative. K(0, 0) = 4 (a asinh(b/a) + b asinh(a/b)) with the half sides a and b
-    in units of d, 4 ln(1 + √2) = 3.5254943481 for squares.
+    An element has sides dx along the rows and dy along the columns, and d = √(dx dy). A uniform pressure p on the
+    element deflects the surface by w = p d/(πE*) K = p d/(4πG) K (Love 1929).
 
-    row, column : distances in rows and columns, broadcast
+    Near the element K is computed in closed form, as the sum of ±(a ln(b + ρ) + b ln(a + ρ)) over the four corners of
+    the element. Here a and b are the signed distances to a corner along the two sides, and ρ = √(a² + b²). Far from the
+    element the closed form loses digits to cancellation, and K is computed from the moment expansion of ∫∫ dA/r to
+    fourth order. The relative error is at most 1e-11.
+
+    At the centre of the element, K(0, 0) = 4 (a asinh(b/a) + b asinh(a/b)) with the half sides a and b in units of d.
+    For squares this is 4 ln(1 + √2) = 3.5254943481.
+
+    row, column : distances from the centre of the element, in rows and in columns; their shapes are broadcast
     aspect : dy/dx
 
     Returns K [1] of the broadcast shape, taken from a table of all different distances.
@@ -30,27 +35,28 @@ def influence_coefficient(row: Array | Integers, column: Array | Integers, aspec
 
 
 def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
-    """Return K of `influence_coefficient` at all pairs of distances in rows and columns.
+    """Return the influence coefficients K at all pairs of a distance in rows and a distance in columns.
 
-    row, column : distances, arrays of shapes (m,) and (n,)
+    row, column : distances from the centre of an element, arrays of shapes (m,) and (n,)
     aspect : dy/dx
 
-    Returns K [1] of shape (m, n).
+    Returns K [1] of shape (m, n), see `influence_coefficient`.
     """
     height, width = np.sqrt(aspect), np.sqrt(1 / aspect)
-    # From far, a long rectangle is the sum of parts that are at most twice as long as wide.
+    # For large distances, a long rectangle is divided into parts that are at most twice as long as wide.
     parts = np.ceil(max(aspect / 2, 1.0)), np.ceil(max(1 / aspect / 2, 1.0))
     return _fill_table(abs(row) * height, abs(column) * width, height / parts[0], width / parts[1], *parts)
 
 
 @njit
 def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
-    """Return ∫∫ dA/r at all pairs of x ≥ 0 and y ≥ 0 from the centre of a rectangle of area 1.
+    """Return ∫∫ dA/r over a rectangle of area 1, for all pairs of distances x ≥ 0 and y ≥ 0 from its centre.
 
-    The series is used everywhere, then the closed form where it is needed: without a branch, the loop over the series
+    Here r is the distance between a point of the rectangle and the point (x, y). First the series is computed for all
+    pairs, then values near the rectangle are replaced by the closed form. The loop of the series has no branch, so it
     acts on as many numbers at once as a register of the processor holds.
 
-    part_length, part_width : sides along x and y of the equal parts into which it is divided from far
+    part_length, part_width : sides along x and y of the equal parts into which the rectangle is divided for the series
     parts_x, parts_y : number of parts along x and y
     """
     table = np.zeros((x.size, y.size))
@@ -71,13 +77,18 @@ def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
 
 @njit(inner=True)
 def _closed_form(x, y, length, width):
-    """Return ∫∫ dA/r at (x, y) from the centre of a rectangle, by differences of logarithms."""
+    """Return ∫∫ dA/r over a rectangle by differences of logarithms.
+
+    Here r is the distance between a point of the rectangle and the point (x, y), relative to the centre of the
+    rectangle.
+    """
     total = 0.0
     for sign_x in (-1, 1):
         for sign_y in (-1, 1):
             a, b = x + 0.5 * sign_x * length, y + 0.5 * sign_y * width
             rho = np.sqrt(a * a + b * b)
-            # ln(b + ρ) = ln(a²/(ρ - b)) keeps its digits where b < 0; the constant parts cancel in the sum.
+            # For b < 0, b + ρ loses digits, so ln(b + ρ) is computed as ln(a²/(ρ − b)). The terms with ln(a²) cancel in
+            # the sum if b < 0 at both corners with the same a.
             log_b = np.log(b + rho) if b > 0 else 2 * np.log(abs(a)) - np.log(rho - b)
             log_a = np.log(a + rho) if a > 0 else 2 * np.log(abs(b)) - np.log(rho - a)
             total += sign_x * sign_y * (a * log_b + b * log_a)
@@ -86,13 +97,19 @@ def _closed_form(x, y, length, width):
 
 @njit(inner=True)
 def _mean_inverse_distance(x, y, length, width):
-    """Return the mean of 1/r over a distant rectangle by its moment expansion to fourth order; nan at its centre."""
+    """Return the mean of 1/r over a distant rectangle, by a moment expansion to fourth order.
+
+    Here r is the distance between a point of the rectangle and the point (x, y), relative to the centre of the
+    rectangle. The result is nan at the centre.
+    """
     x2, y2 = x * x, y * y
-    inverse2 = 1 / (x2 + y2)  # 1/r²; the only division, since divisions take most of the time
+    # 1/r² for the centre is the only division, since divisions would take most of the time.
+    inverse2 = 1 / (x2 + y2)
     inverse = np.sqrt(inverse2)
     inverse5 = inverse2 * inverse2 * inverse
     length2, width2 = length * length, width * width
-    # Mean and half the difference of the second and fourth powers of the sides: 1 and 0 for a square of side 1.
+    # Mean, and half the difference, of the squares of the sides, and of their fourth powers. For a square of side 1 the
+    # means are 1 and the differences 0.
     second, second_difference = 0.5 * (length2 + width2), 0.5 * (length2 - width2)
     fourth, fourth_difference = 0.5 * (length2**2 + width2**2), 0.5 * (length2**2 - width2**2)
     second_term = (second / 24) * inverse2 * inverse + second_difference * (x2 - y2) * (inverse5 / 8)

@@ -12,29 +12,32 @@ from viscorough.contact.halfspace.column_fft import ColumnConvolution, LibraryCo
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, Buffer, run_blocks
 
-# Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
-# that.
+# Number of unused entries at the end of every row. Without them, rows whose distance in memory is a power of two would
+# compete for the same cache lines.
 _ROW_PADDING = 16
-# Keep the spectrum of a grid of up to this number of elements for other grids with transforms of the same lengths: the
-# boxes of an ensemble of indenters need few different lengths.
+# The spectrum of a grid is kept in memory if the grid has at most this number of elements. It then serves other grids
+# with transforms of the same lengths: the boxes of an ensemble of indenters need few different lengths.
 _KEPT = 1 << 20
-# The number of rows in a block is a multiple of this: the library transforms so many at once.
+# The number of rows in a block is a multiple of this number, because ducc0 transforms this number of rows at once.
 _ROWS_AT_ONCE = 16
-# Elements of a grid below which columns are convolved by the library. Our transforms would save a millisecond for a
-# curve, 2 % of its time, but take seconds to compile.
+# The columns of grids with fewer elements are convolved by LibraryConvolution. There ColumnConvolution would save a
+# millisecond per loading curve, 2 % of the time of the curve, but take seconds to compile.
 _COMPILED_FROM = 5000
 
 
 def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
     """Return the lengths of the periodic convolution along the columns and along the rows of a grid.
 
-    A single row has no distances along the columns: its length there is 1.
+    For a grid of a single row, the length along the columns is 1.
     """
     return good_length(2 * (rows - 1)) if rows > 1 else 1, 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
 
 
 def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: bool = True, threads: int = 1) -> Array:
-    """Return the spectrum of the influence coefficients of a grid, in double precision; arguments of Halfspace."""
+    """Return the spectrum of the influence coefficients of a grid, in double precision.
+
+    The arguments are explained at `Halfspace`.
+    """
     lengths, period = convolution_lengths(rows, columns), None if padding else (rows, columns)
     if rows * columns <= _KEPT:
         return _kept_spectrum(lengths, period, aspect, 1)
@@ -42,10 +45,11 @@ def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: b
 
 
 def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float, threads: int) -> Array:
-    """Return the real spectrum of K on a periodic grid of these lengths, divided by their product.
+    """Return the real spectrum of the influence coefficients K on a periodic grid, divided by the product of `lengths`.
 
-    period : period in rows and columns of a grid without padding, whose distances are counted to the nearest image;
-        None with padding
+    lengths : rows and columns of the periodic grid
+    period : None with padding. Without padding, the rows and columns after which loads repeat; distances are then
+        measured to the nearest repetition
     """
 
     def kernel(row: Array, column: Array) -> Array:
@@ -60,10 +64,12 @@ _kept_spectrum = lru_cache(maxsize=6)(_spectrum)  # cached by lengths, period an
 
 
 def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array], Array], threads: int = 1) -> Array:
-    """Return the real spectrum of an even kernel on a periodic grid of these even lengths, divided by their product.
+    """Return the real spectrum of an even kernel on a periodic grid, divided by the product of `lengths`.
 
-    The spectrum is even, too, so a cosine transform over distances up to half the lengths gives all frequencies.
+    The spectrum of an even kernel is even. So a cosine transform of the kernel at distances from 0 to half the lengths
+    gives all frequencies.
 
+    lengths : rows and columns of the periodic grid, even numbers; 1 for a single row
     kernel : function that returns the kernel at all pairs of distances in rows and columns
     """
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
@@ -89,24 +95,25 @@ def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array]
 class Convolution:
     """Convolution w_i = Σ_j K(i − j) P_j on a grid, with an even kernel K given by its spectrum.
 
-    K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
-    nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
-    along the rows are skipped (a quarter of the work of the padded transform), and they are stored only while the
+    The grid is padded to 2(n − 1) points along an axis of n elements, and the convolution is periodic. Because K is
+    even, the padded grid holds every distance up to n − 1 once, no load acts across the period, and the spectrum of K
+    is real. The rows that the padding adds have no loads, and their deflections are not needed. So their transforms
+    along the rows are skipped (a quarter of the work of the padded transform), and these rows are stored only while the
     columns are convolved.
 
     shape : rows and columns of the grid
-    spectrum : spectrum of K from `spectrum_of_grid` or `spectrum_of_kernel`, for `convolution_lengths`
+    spectrum : spectrum of K from `spectrum_of_grid` or `spectrum_of_kernel`, for the lengths of `convolution_lengths`
     precision : floating-point type of the computation
     threads : number of threads
-    once : True if it is applied once, so that it takes less time without compiled convolutions of the columns
+    once : True if the convolution is applied only once; it then takes less time without compiled code
 
     load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero on elements without pressure
         and in the columns beyond the grid
     count : number of applications so far
-    accuracy : bound on the error in addition to rounding, over the largest deflection
+    accuracy : bound on the error that is not due to rounding, relative to the largest deflection
 
-    `apply()` returns w in an array of the layout of `load`, overwritten by the next call; its columns beyond the grid
-    are undefined.
+    `apply()` returns w in an array with the layout of `load`, which the next call overwrites. Columns of this array
+    beyond the grid are undefined.
     """
 
     accuracy = 0.0
@@ -123,10 +130,10 @@ class Convolution:
         rows, columns = self.shape = shape
         self._threads = threads
         self._length = length = convolution_lengths(rows, columns)[1]
-        # Rows that are many are transformed block by block, and padded only there.
+        # The rows of a large grid are transformed block by block, and only the rows of the current block are padded.
         self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
         self._is_one = self._block >= rows
-        # Two blocks of rows: with their padding, and as they result from inverse transforms.
+        # Two blocks of rows: one for padded rows before the transform, and one for rows after the inverse transform.
         self._buffer = Buffer((2, 0 if self._is_one else self._block, length + _ROW_PADDING), precision)
         convolution = LibraryConvolution if once or rows * columns < _COMPILED_FROM else ColumnConvolution
         self._convolution = convolution(rows, spectrum, precision, threads) if rows > 1 else None
@@ -137,7 +144,10 @@ class Convolution:
         self.count = 0
 
     def apply(self) -> Array:
-        """Compute the deflection w = K P of the pressure in `load`, in the same layout; valid until the next call."""
+        """Return the deflection w = K P by the pressure P in `load`, in the layout of `load`.
+
+        The next call overwrites the returned array.
+        """
         blocks = len(self.load), self._threads, self._block, _ROWS_AT_ONCE
         run_blocks(self._transform, *blocks)
         if self._convolution:
@@ -149,7 +159,7 @@ class Convolution:
         return self._deflection
 
     def _transform(self, start: int, stop: int) -> None:
-        """Transform some rows of `load`, padded with zeros."""
+        """Compute the Fourier transforms of the rows of `load` from `start` to `stop`, padded with zeros."""
         rows, columns = self.load[start:stop], self.shape[1]
         if not self._is_one:
             padded = self._buffer.array[0, : stop - start]
@@ -158,7 +168,10 @@ class Convolution:
         ducc0.fft.r2c(rows[:, : self._length], axes=[1], out=self._transformed[start:stop])
 
     def _transform_back(self, start: int, stop: int) -> None:
-        """Transform some rows back to the deflection, without a factor; overwrites the transforms."""
+        """Compute the deflection in the rows from `start` to `stop` by inverse Fourier transforms.
+
+        The transforms need no factor, because the spectrum contains it. Their input is overwritten.
+        """
         rows, columns = self._deflection[start:stop], self.shape[1]
         out = rows if self._is_one else self._buffer.array[1, : stop - start]
         data = self._transformed[start:stop]
@@ -170,7 +183,8 @@ class Convolution:
 class Halfspace(Convolution):
     """Half-space operator w = K P on a grid of rows × columns elements.
 
-    With P = p d/(4πG) and d = √(dx dy) the result w is the deflection of the surface.
+    K are the influence coefficients. With P = p d/(4πG), for a pressure p on elements with sides dx and dy, a shear
+    modulus G and d = √(dx dy), the result w is the deflection of the surface.
 
     rows, columns : size of the grid
     precision : floating-point type of the computation

@@ -1,9 +1,11 @@
-"""Apply the half-space operator in some square tiles of a large grid, with no loads and deflections elsewhere.
+"""Apply the half-space operator in selected square tiles of a large grid, and skip all other tiles.
 
-The kernel is split as in Ewald's sum for point charges: K = (K − S) + S with S(r) ≈ erf(r/σ)/r, the smooth deflection
-by a load that is spread over a Gaussian. K − S has a short range: its convolution takes one small Fourier transform for
-every tile, which stays in the cache. S is so smooth that its convolution is done on a coarse grid: loads are
-distributed to its points, and deflections are interpolated between them, with the same windowed sinc functions.
+The influence coefficients K are split like the potential in Ewald's sum for point charges: K = (K − S) + S. Here
+S(r) ≈ erf(r/σ)/r is the smooth deflection at a distance r from a load that is spread over a Gaussian of width σ.
+
+K − S has a short range. For every tile, the convolution with K − S takes one small Fourier transform, which stays in
+the cache of the processor. S is so smooth that a coarse grid suffices for the convolution with S: windowed sinc
+functions distribute the loads to the points of the coarse grid, and interpolate the deflections between the points.
 """
 
 from math import erf
@@ -20,51 +22,70 @@ from viscorough.contact.halfspace.operator import Convolution, convolution_lengt
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import Buffer, run_blocks
 
-# Elements along the side of a tile, a multiple of _STRIDE.
+# Number of elements along the side of a tile; a multiple of _STRIDE.
 SIDE = 120
-# Elements per point of the coarse grid, along rows and columns.
+# Distance between two points of the coarse grid, in elements, along rows and along columns.
 _STRIDE = 4
-# Points along rows and columns that the load of an element is distributed to.
+# The load of an element is distributed to this number of coarse points along rows, and as many along columns.
 _POINTS = 14
-# Parameter of the Kaiser window of the sinc functions.
+# Shape parameter β of the Kaiser window, by which the sinc functions are multiplied.
 _WINDOW = 16.5
-# σ over the distance of the coarse points.
+# Ratio of σ to the distance between two points of the coarse grid.
 _SMOOTHING = 4.5
-# Range of K − S over σ.
+# Ratio of the range of K − S to σ; at larger distances K − S is taken as zero.
 _RANGE = 3.8
-# Distance over σ beyond which erf is 1 to rounding.
+# Ratio of a distance r to σ above which erf(r/σ) equals 1 within rounding.
 _FLAT = 7.0
-# Bound on the error, over the largest deflection (tests/viscorough/contact/halfspace/test_tiles.py).
+# Bound on the error of a deflection, relative to the largest deflection
+# (tests/viscorough/contact/halfspace/test_tiles.py).
 ACCURACY = 1e-7
-# Least ratio of a tolerance to this error: the rest is for the iterations.
+# Tiles are used only if the tolerance of the contact is at least this multiple of ACCURACY, so that most of the
+# tolerance is left for the errors of the iterations.
 _MARGIN = 4
-# Largest ratio of the sides of elements; beyond it the error of the coarse grid exceeds ACCURACY.
+# Largest ratio of the two sides of an element. For larger ratios the error of the coarse grid exceeds ACCURACY.
 _LARGEST_ASPECT = 2.0
 
 
 def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float, options: SolverOptions = DEFAULT) -> bool:
-    """Return True if a grid is so large that tiles save time, and the deflections in them are exact enough.
+    """Return True if a grid is so large that tiles save time, and if deflections by tiles are accurate enough.
 
-    tolerance : error of deflections that is allowed, over the largest deflection
+    shape : rows and columns of the grid
+    aspect : dy/dx of the elements
+    tolerance : allowed error of deflections, relative to the largest deflection
     """
     is_large = shape[0] * shape[1] > options.tiles_from
     return is_large and max(aspect, 1 / aspect) <= _LARGEST_ASPECT and tolerance >= _MARGIN * ACCURACY
 
 
 def tiles_with(row: Integers, column: Integers, shape: tuple[int, int]) -> Mask:
-    """Return True for the tiles of a grid that contain elements, shape (rows of tiles, columns of tiles)."""
+    """Return an array that is True for the tiles of a grid that contain any of the given elements.
+
+    row, column : positions of the elements on the grid
+    shape : rows and columns of the grid
+
+    Returns an array of shape (rows of tiles, columns of tiles).
+    """
     tiles: Mask = np.zeros([-(-n // SIDE) for n in shape], bool)
     tiles[row // SIDE, column // SIDE] = True
     return tiles
 
 
 def are_few(tiles: Mask, options: SolverOptions = DEFAULT) -> bool:
-    """Return True if the tiles with elements are so few that their transforms take less time than the whole grid."""
+    """Return True if so few tiles contain elements that transforms of tiles take less time than of the whole grid.
+
+    tiles : True for tiles that contain elements
+    """
     return bool(np.count_nonzero(tiles) <= options.tiles_share * tiles.size)
 
 
 def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:
-    """Return True for the tiles of a grid that do not lie wholly in a box (first row, first column, rows, columns)."""
+    """Return an array that is True for all tiles of a grid, except for tiles that lie wholly inside a box.
+
+    box : (first row, first column, rows, columns)
+    shape : rows and columns of the grid
+
+    Returns an array of shape (rows of tiles, columns of tiles).
+    """
     tiles: Mask = np.ones([-(-n // SIDE) for n in shape], bool)
     inner = []
     for first, size, n in zip(box, box[2:], shape, strict=False):
@@ -75,14 +96,14 @@ def tiles_beyond(box: tuple[int, ...], shape: tuple[int, int]) -> Mask:
 
 
 class TiledHalfspace:
-    """Half-space operator w = K P on tiles of a grid of rows × columns elements; see operator.Halfspace.
+    """Half-space operator w = K P in selected tiles of a grid of rows × columns elements; see operator.Halfspace.
 
     rows, columns, precision, aspect, threads : see operator.Halfspace
     tiles : True for tiles that may have loads; see `tiles_with`
 
-    load : the array to write P into, of shape (rows, columns); it must be zero where there is no pressure
+    load : the array to write P into, of shape (rows, columns); it must be zero on elements without pressure
     count : number of applications so far
-    accuracy : bound on the error in addition to rounding, over the largest deflection
+    accuracy : bound on the error that is not due to rounding, relative to the largest deflection
     """
 
     accuracy = ACCURACY
@@ -114,14 +135,21 @@ class TiledHalfspace:
         self._transform = Buffer(self._spectrum.shape, np.result_type(precision, np.complex64))
 
     def apply(self) -> Array:
-        """Compute w = K P in the tiles from the pressure in `load`, zero in other tiles; valid until the next call."""
+        """Return the deflection w = K P by the pressure in `load`, in the tiles that may have loads.
+
+        The array has shape (rows, columns) and is zero in all other tiles. The next call overwrites the array.
+        """
         for part in map(_part, np.argwhere(self._tiles)):
             self._deflection[part] = 0
         self.add_to(self._deflection, self._tiles)
         return self._deflection
 
     def add_to(self, field: Array, targets: Mask) -> None:
-        """Add the deflection to a field of shape (rows, columns), in place, in the target tiles."""
+        """Add the deflection by the pressure in `load` to a field, in place, in the target tiles only.
+
+        field : array of shape (rows, columns)
+        targets : True for target tiles, shape (rows of tiles, columns of tiles)
+        """
         self._coarse.load[:] = 0
         loaded: Mask = np.zeros(self._tiles.shape, bool)
         tiles = np.argwhere(targets)
@@ -148,9 +176,10 @@ class TiledHalfspace:
         self.count += 1
 
     def _add_near_field(self, tile: Integers, field: Array) -> None:
-        """Add the convolution with K − S to a field in a tile."""
+        """Add the near field, which is the convolution of the load with K − S, to a field in one tile."""
         target = field[_part(tile)]
-        # The patch holds the loads within the range; those beyond its edges, where it repeats, do not reach the tile.
+        # The patch holds the tile and all loads within the range of K − S. The Fourier transform repeats the patch
+        # periodically, but the repeated loads are too far from the tile to act on it.
         first = SIDE * tile - self._reach
         taken = [slice(max(i, 0), i + SIDE + 2 * n) for i, n in zip(first, self._reach, strict=True)]
         load = self.load[*taken]
@@ -166,8 +195,11 @@ class TiledHalfspace:
 
 
 def _interpolation_weights() -> Array:
-    """Return the weights of the coarse points around an element, by its place between them: (_STRIDE, _POINTS)."""
-    from scipy.special import i0  # takes long to import
+    """Return the weights of the coarse points around an element, for each of its positions between two points.
+
+    Returns an array of shape (_STRIDE, _POINTS).
+    """
+    from scipy.special import i0  # this import takes long
 
     place = np.arange(_STRIDE)[:, None] / _STRIDE - np.arange(1 - _POINTS // 2, _POINTS // 2 + 1)
     window = i0(_WINDOW * np.sqrt(np.maximum(1 - (2 * place / _POINTS) ** 2, 0.0))) / i0(_WINDOW)
@@ -177,7 +209,14 @@ def _interpolation_weights() -> Array:
 def _short_range(
     sides: tuple[float, float], sigma: float, precision: DTypeLike
 ) -> tuple[tuple[int, ...], tuple[int, ...], Array]:
-    """Return the range of K − S in rows and columns, the lengths of the transforms for a tile, and its spectrum."""
+    """Return the data for the convolution with K − S in a tile.
+
+    Returns the range of K − S in rows and columns, the lengths of the Fourier transform for a tile in rows and columns,
+    and the transform of K − S.
+
+    sides : dy/d and dx/d of the elements, with d = √(dx dy)
+    sigma : σ/d
+    """
     reach = tuple(int(np.ceil(_RANGE * sigma / side)) for side in sides)
     lengths = tuple(2 * ducc0.fft.good_size(-(-(SIDE + 2 * n) // 2), True) for n in reach)
 
@@ -190,18 +229,24 @@ def _short_range(
 
 
 def _part(tile: Integers) -> tuple[slice, ...]:
-    """Return the rows and columns of a tile."""
+    """Return slices of the rows and columns of a tile."""
     return tuple(slice(first, first + SIDE) for first in (SIDE * tile).tolist())
 
 
 def _coarse_part(tile: Integers) -> tuple[slice, ...]:
-    """Return rows and columns of the points of the coarse grid to which a tile distributes its loads."""
+    """Return slices of the rows and columns of the coarse points to which the loads of a tile are distributed."""
     return tuple(slice(part.start // _STRIDE, part.stop // _STRIDE + _POINTS - 1) for part in _part(tile))
 
 
 @njit(fastmath=True)
 def _smooth_kernel(row, column, side_y, side_x, sigma):
-    """Return S at all pairs of distances: the mean of erf(r/σ)/r over an element, by two Gauss points per side."""
+    """Return S at all pairs of distances in rows and columns.
+
+    S is the mean of erf(r/σ)/r over an element, computed with two Gauss points along each side.
+
+    side_y, side_x : dy/d and dx/d of the elements, with d = √(dx dy)
+    sigma : σ/d
+    """
     table, shift = np.zeros((row.size, column.size)), 1 / np.sqrt(12.0)
     for i in range(row.size):
         target = table[i]
@@ -221,7 +266,13 @@ def _smooth_kernel(row, column, side_y, side_x, sigma):
 
 @njit(fastmath=True)
 def _distribute(load, weights):
-    """Distribute the loads of a tile to the points of the coarse grid, first along the rows."""
+    """Distribute the loads of a tile to the points of the coarse grid, first along rows, then along columns.
+
+    load : loads of the elements of the tile
+    weights : array from `_interpolation_weights`
+
+    Returns the loads of the coarse points.
+    """
     rows, columns = load.shape
     coarse = np.zeros(((rows - 1) // _STRIDE + _POINTS, (columns - 1) // _STRIDE + _POINTS), load.dtype)
     row_sums = np.empty(coarse.shape[1], load.dtype)
@@ -243,7 +294,13 @@ def _distribute(load, weights):
 
 @njit(fastmath=True)
 def _interpolate(coarse, weights):
-    """Interpolate the field of a tile between the points of the coarse grid."""
+    """Interpolate from the points of the coarse grid to the elements of a tile.
+
+    coarse : values at the coarse points
+    weights : array from `_interpolation_weights`
+
+    Returns the values at the elements.
+    """
     side = (coarse.shape[0] - _POINTS + 1) * _STRIDE
     across, field = np.empty((coarse.shape[0], side), coarse.dtype), np.empty((side, side), coarse.dtype)
     for k in range(coarse.shape[0]):

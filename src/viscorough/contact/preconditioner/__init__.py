@@ -1,1 +1,1 @@
-"""Preconditioner of the iterations on a grid: a sparse approximate inverse with a multilevel coarse correction."""
+"""Precondition the iterations on a grid by a sparse approximate inverse with a multilevel coarse correction."""

@@ -1,7 +1,8 @@
-"""Tabulate the possible rows of the sparse factor G of the preconditioner.
+"""Tabulate all possible rows of the sparse factor G of the preconditioner.
 
-In this package G is the sparse factor, not the shear modulus. Row i of G depends only on the contact of the twelve
-elements that precede element i and are nearest to it: each may be in contact or not, so there are 4096 rows.
+In this package G is the sparse factor, not the shear modulus. The neighbours of element i are the twelve nearest
+elements before element i, in the order of rows and columns. Row i of G depends only on which neighbours are in contact.
+Each neighbour is in contact or not, so there are 2¹² = 4096 possible rows.
 """
 
 from functools import lru_cache
@@ -12,28 +13,35 @@ from numpy.typing import NDArray
 
 from viscorough.contact.halfspace.influence import influence_coefficient
 
-# Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
+# Largest distance from an element to a neighbour, in rows or columns. Flat fields have a border of this width.
 REACH = 2
-# Relative positions (row, column) of the neighbours.
+# Positions (row, column) of the neighbours relative to the element.
 BEFORE = [(r, c) for r in range(-REACH, 1) for c in range(-REACH, REACH + 1) if (r, c) < (0, 0)]
 NEIGHBOURS = len(BEFORE)
-# Largest entry as a whole number; the sum of a row, which is rounded up at most thirteen times, fits into a byte, too.
+# In single precision the entries of G are stored as whole numbers up to this number. The sum of the thirteen entries of
+# a row must fit into a byte, too, although rounding can increase the sum by half a unit per entry.
 _LARGEST_ENTRY = 120
 
 
 @lru_cache(maxsize=4)
 def factor_entries(aspect: float, precision: type[Any]) -> tuple[NDArray[Any], Any]:
-    """Return entries of G by neighbour and pattern, and their unit of storage, for elements of an aspect dy/dx.
+    """Return the entries of all possible rows of G, by neighbour and pattern, and the unit of the stored numbers.
 
-    Bit s of a pattern is set if neighbour s is in contact. With A the influence matrix of the neighbours in contact and
-    the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the unit vector of the element. Entries are zero for neighbours
-    without contact. The last row but one has the entries of the element, the last row the sums; shape (14, 4096).
+    A pattern is a whole number whose bit s is set if neighbour s is in contact. Let A be the influence matrix of the
+    element and of its neighbours in contact, and b the unit vector of the element. Then the row of G is
+    A⁻¹ b / (bᵀ A⁻¹ b)^½. Entries of neighbours without contact are zero.
+
+    aspect : dy/dx of the elements
+    precision : floating-point type of the preconditioner; in single precision, entries are rounded to one byte
+
+    Returns an array of shape (14, 4096), with a column for every pattern: the entries of the twelve neighbours, the
+    entry of the element itself, and the sum of these thirteen entries. The array times the returned unit gives G.
     """
     places = np.array([*BEFORE, (0, 0)], dtype=float)
     patterns, (row, column) = np.arange(1 << NEIGHBOURS), np.moveaxis(places[:, None] - places, -1, 0)
     present = np.ones((patterns.size, NEIGHBOURS + 1), dtype=bool)
     present[:, :-1] = patterns[:, None] >> np.arange(NEIGHBOURS) & 1
-    # Absent neighbours are replaced by identity rows.
+    # Neighbours without contact get rows of the identity matrix.
     both = present[:, :, None] & present[:, None, :]
     matrices = np.where(both, influence_coefficient(row, column, aspect), np.eye(NEIGHBOURS + 1))
     own = np.zeros((patterns.size, NEIGHBOURS + 1, 1))

@@ -1,24 +1,27 @@
-"""Preconditioner of conjugate gradients: an approximate inverse of the influence matrix of a contact set.
+"""Approximate the inverse of the influence matrix K of a contact set, as the preconditioner of conjugate gradients.
 
-It is a factorized sparse approximate inverse (FSAI) with a multilevel coarse correction.
+The preconditioner M is a factorized sparse approximate inverse (FSAI) with a multilevel coarse correction.
 
-The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. Row i of G has entries
-for element i, and for each of the twelve nearest elements before it (in rows and columns) that is in contact. It is
-exact if no other elements are in contact (Kolotilina and Yeremin 1993). Its storage is described in sparse_factor.
+The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. The neighbours of an
+element are the twelve nearest elements before the element, in the order of rows and columns. Row i of G has an entry
+for element i, and an entry for each neighbour that is in contact. The row is exact if no other earlier elements are in
+contact (Kolotilina and Yeremin 1993). The module sparse_factor describes how G is stored.
 
-The remainder G K Gᵀ − 1 is smooth: it is the deflection by distant loads. The coarse correction represents it on blocks
-of elements, the next grid level. In a block the smooth part acts along one vector, the row sums of G. With W the matrix
-of these vectors, normalised to unit length,
+The remainder G K Gᵀ − 1 is smooth, since it is the deflection by distant loads. The coarse correction represents the
+remainder on the next grid level, whose elements are blocks of elements. Within a block the remainder acts along a
+single vector: the row sums of G. Let W be the matrix whose columns are these vectors, one for each block, normalised to
+unit length, and let a be the diagonal matrix of their lengths before. Then
 
     G K Gᵀ ≈ 1 + W (a K a) Wᵀ,     M = Gᵀ (1 − W (1 − (1 + a K a)⁻¹) Wᵀ) G ≈ K⁻¹
 
-with a the length of the vector of row sums in a block. K couples blocks as it couples elements. The inverse on
-the blocks is approximated in the same way with blocks of blocks, until there are few enough for a dense inverse. The
-eigenvalues of M K lie between 0.35 and 1.4 for contact sets of any shape, with elements five times as long as wide
-between 0.35 and 1.6 (tests/viscorough/contact/preconditioner/test_multilevel.py); without the coarse correction the
-largest grows with the size of the contact.
+where K in the product a K a contains the influence coefficients between blocks. The inverse of 1 + a K a is
+approximated in the same way with blocks of blocks, and so on, until the blocks are few enough for a dense inverse.
 
-Compiled functions take plain arrays, hence their many arguments.
+The eigenvalues of M K lie between 0.35 and 1.4 for contact sets of any shape, and between 0.35 and 1.6 if elements are
+five times as long as wide (tests/viscorough/contact/preconditioner/test_multilevel.py). Without the coarse correction
+the largest eigenvalue grows with the size of the contact.
+
+The compiled functions have many arguments because they take plain arrays only.
 """
 
 from functools import lru_cache
@@ -36,34 +39,36 @@ from viscorough.contact.preconditioner.sparse_factor import SparseFactor
 
 # Lower bound of the eigenvalues of M K (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35
-# Elements across the neighbourhood of an element.
+# Number of elements along each side of the square that contains the neighbours of an element.
 _ACROSS = 2 * REACH + 1
-# The neighbours of a block of elements: the nearest ones only.
+# Relative positions (row, column) of the neighbours of a block, which are the four nearest blocks before the block.
 _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
-# The number of iterations depends weakly on the next three numbers.
-# Elements across a block of square elements.
+# The number of iterations depends only weakly on _SIDE, _RATIO and _DENSE.
+# Number of elements along each side of a block, if the elements are square.
 _SIDE = 8
-# Blocks across a block of the next grid level.
+# Number of blocks along each side of a block of the next grid level.
 _RATIO = 4
-# Largest number of blocks across a grid level that is inverted densely.
+# A grid level with at most this number of blocks along each side is inverted as a dense matrix.
 _DENSE = 9
-# Share of the elements that may join or leave the set before the coarse levels are prepared again.
+# The coarse levels are prepared again when the elements that have joined or left exceed this share of the contact set.
 _OUTDATED = 0.02
-# Blocks that are factorised at a time by one thread.
+# Number of blocks for which a thread computes rows of G at a time.
 _FACTORISED_AT_ONCE = 1 << 13
-# Avoids a division by zero for blocks without contact.
+# Smallest divisor, to avoid a division by zero for blocks without contact.
 _TINY = np.finfo(float).tiny
-# Self-influence of a block, times its side: less than 2.97, the mean over a uniformly loaded square, because G already
-# accounts for near neighbours.
+# Influence coefficient of a block on itself, times the side of the block. The mean deflection of a uniformly loaded
+# square would give 2.97, but G already accounts for near neighbours.
 _OWN = 1.0
 
 
 @lru_cache(maxsize=4)
 def load_redistribution_stencil(aspect: float) -> Array:
-    """Return the share of an element's load that each of its eight neighbours takes over when it leaves the contact.
+    """Return the shares of its load that an element passes to its eight neighbours when it leaves the contact.
 
-    It is obtained by eliminating the element from the influence matrix of the 5 × 5 elements around it; the centre is
-    −1. Shape (3, 3).
+    The shares follow from eliminating the element from the influence matrix of the 5 × 5 elements around it. The
+    element itself, at the centre of the stencil, has the share −1. Shape (3, 3).
+
+    aspect : dy/dx of the elements
     """
     row, column = np.divmod(np.arange(25.0), 5)
     inverse = np.linalg.inv(influence_coefficient(row[:, None] - row, column[:, None] - column, aspect))
@@ -72,35 +77,43 @@ def load_redistribution_stencil(aspect: float) -> Array:
 
 @njit(inner=True)
 def _rows(field, place, width):
-    """Return views of a flat field from the first neighbour on, in three rows: two before, one before, its own."""
+    """Return three views of a flat field, which begin at the leftmost neighbours of a place.
+
+    The neighbours are two rows before the place, one row before the place, and in the row of the place.
+    """
     return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
 
 
 @njit
 def _factorise(amplitude, places, before, slots, kernel, rows, weights):
-    """Store the rows of G for the matrix 1 + a K a between blocks in `rows`, zero on entry, and G a in `weights`.
+    """Compute the sparse factor G of the matrix 1 + a K a of some blocks; store the rows of G, and the product G a.
 
-    amplitude : a, flat field; places : places of the blocks in it
-    before, slots : places of the neighbours relative to the block, and their indices in a row of G
+    amplitude : a, flat field of blocks
+    places : indices of the blocks in flat fields
+    before : indices of the neighbours in flat fields, relative to the index of the block
+    slots : indices of the neighbours, and last of the block itself, in a row of G
     kernel : K between the neighbours and the block, which comes last
+    rows : the rows of G are stored here; zero on entry
+    weights : G a is stored here
     """
     own = before.size
     matrix, present, near = np.empty((own + 1, own + 1)), np.empty(own + 1, np.int64), np.empty(own + 1)
     for t in range(places.size):
-        count = 0  # number of neighbours with elements in contact, and the block itself
+        count = 0  # number of neighbours with elements in contact, plus one for the block itself
         for s in range(own + 1):
             value = amplitude[places[t] + before[s]] if s < own else amplitude[places[t]]
             if value > 0:
                 present[count], near[count] = s, value
                 count += 1
-        for i in range(count):  # Cholesky factor L of the matrix of block and neighbours
+        for i in range(count):  # compute the Cholesky factor L of the matrix A of the block and its neighbours
             for j in range(i + 1):
                 value = kernel[present[i], present[j]] * near[i] * near[j] + (i == j)
                 for k in range(j):
                     value -= matrix[i, k] * matrix[j, k]
                 matrix[i, j] = np.sqrt(value) if i == j else value / matrix[j, j]
         row, weights[t] = rows[t], 0.0
-        for i in range(count - 1, -1, -1):  # the last row of L⁻¹ is A⁻¹ b / (bᵀ A⁻¹ b)^½
+        # With the unit vector b of the block, the row of G is A⁻¹ b / (bᵀ A⁻¹ b)^½, which is the last row of L⁻¹.
+        for i in range(count - 1, -1, -1):
             value = 1.0 * (i == count - 1)
             for k in range(i + 1, count):
                 value -= matrix[k, i] * row[slots[present[k]]]
@@ -110,7 +123,11 @@ def _factorise(amplitude, places, before, slots, kernel, rows, weights):
 
 @njit
 def _normalise(weights, blocks, squares):
-    """Scale the weights to unit length in every block, in place, and store the squares of their former lengths."""
+    """Scale the vector of weights in every block to unit length, in place; store the squares of the former lengths.
+
+    blocks : block of the next grid level that each weight belongs to
+    squares : squares of the former lengths, by block
+    """
     squares[:] = 0
     for t in range(weights.size):
         squares[blocks[t]] += weights[t] * weights[t]
@@ -120,7 +137,14 @@ def _normalise(weights, blocks, squares):
 
 @njit(fastmath=True)
 def _restrict(residual, places, rows, width, weights, blocks, values, loads):
-    """Compute values = G r on the set, and loads = Wᵀ G r of the blocks."""
+    """Store G r in `values`, and Wᵀ G r in `loads`, for a residual r.
+
+    residual : r, flat field
+    places : indices in flat fields of the blocks that the rows of G belong to
+    rows : rows of G
+    width : length of a row of flat fields
+    weights, blocks : entries of W, and for each entry its column, which is a block of the next grid level
+    """
     loads[:] = 0
     for t in range(places.size):
         row = rows[t]
@@ -134,7 +158,10 @@ def _restrict(residual, places, rows, width, weights, blocks, values, loads):
 
 @njit(fastmath=True)
 def _prolong(places, rows, width, weights, blocks, values, loads, work):
-    """Compute values = Gᵀ (values − W loads); `work` is a flat field of zeros on entry and on return."""
+    """Replace `values` by Gᵀ (values − W loads); see `_restrict` for the arguments.
+
+    work : flat field, zero on entry and on return
+    """
     for t in range(places.size):
         row = rows[t]
         value = values[t] - weights[t] * loads[blocks[t]]
@@ -151,12 +178,14 @@ def _prolong(places, rows, width, weights, blocks, values, loads, work):
 
 
 class Preconditioner:
-    """M ≈ K⁻¹ for successive contact sets on a flat grid of the given height and width, border included.
+    """The preconditioner M ≈ K⁻¹, which is prepared for one contact set after another on the same grid.
 
+    height, width : rows and columns of flat fields, border included
     aspect : dy/dx of the elements
     precision : floating-point type of M; see SparseFactor
     threads : number of threads
-    stencil : load_redistribution_stencil of the elements
+
+    stencil : array of shares from `load_redistribution_stencil`
     """
 
     def __init__(
@@ -169,7 +198,7 @@ class Preconditioner:
         threads: int = 1,
     ) -> None:
         self.stencil = load_redistribution_stencil(aspect)
-        sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
+        sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks are about as long as wide
         self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
         blocks = [n + 2 * REACH for n in self._factor.squares.shape]
         self._coarser = _coarse_level(sides, aspect, blocks[0], blocks[1], threads)
@@ -177,9 +206,10 @@ class Preconditioner:
         self._squares, self._loads = np.zeros((2, *blocks))
 
     def apply(self, residual: Array) -> Array:
-        """Return M r of a residual r, both flat fields in the precision that are defined on the set only.
+        """Return M r for a residual r.
 
-        Valid until the next call.
+        r and M r are flat fields in the precision of the preconditioner. Their values outside the contact set have no
+        meaning. The next call overwrites the returned array.
         """
         loads, interior = self._loads, self._loads[REACH:-REACH, REACH:-REACH]
         interior[:] = self._factor.restrict(residual)
@@ -190,9 +220,10 @@ class Preconditioner:
         return self._factor.prolong(corrected[REACH:-REACH, REACH:-REACH])
 
     def prepare(self, inside: Mask, count: int) -> None:
-        """Prepare for a contact set.
+        """Prepare the preconditioner for a contact set.
 
-        inside : True for elements in the set, flat field; count : number of elements in it
+        inside : True for elements in the contact set, flat field
+        count : number of elements in the contact set
         """
         changed = self._factor.update(inside)
         if not changed:
@@ -208,7 +239,17 @@ class Preconditioner:
 
 
 class _ManyBlocks:
-    """The approximate inverse of 1 + a K a on blocks; set `squares`, the squares of a, before `prepare`."""
+    """Approximate inverse of 1 + a K a (see the module's docstring) on a grid level with many blocks.
+
+    Before a call of `prepare`, store the squares of a in the flat field `squares`.
+
+    sides : rows and columns of elements in a block
+    aspect : dy/dx of the elements
+    height, width : rows and columns of blocks, border included
+    threads : number of threads
+
+    places : indices in flat fields of the blocks with elements in contact
+    """
 
     def __init__(self, sides: tuple[int, int], aspect: float, height: int, width: int, threads: int) -> None:
         self._width, self._threads = width, threads
@@ -216,7 +257,7 @@ class _ManyBlocks:
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        # The place of the block of the next level for every place, on flat grids with borders.
+        # For every block, the index of the block of the next grid level that contains it, in flat fields with borders.
         blocks = [-(-(n - 2 * REACH) // _RATIO) + 2 * REACH for n in (height, width)]
         row, column = ((np.arange(n) - REACH) // _RATIO + REACH for n in (height, width))
         self._blocks = (row[:, None] * blocks[1] + column).ravel().astype(np.int32)
@@ -237,7 +278,12 @@ class _ManyBlocks:
         self._values, self._loads = np.empty(places.size), np.empty_like(self._coarser.squares)
 
     def apply(self, residual: Array) -> Array:
-        """Return M r at the places, valid until the next call, for a residual r on the flat grid of blocks."""
+        """Return the product of the approximate inverse and a residual, at the blocks `places`.
+
+        The next call overwrites the returned array.
+
+        residual : flat field of blocks
+        """
         _restrict(residual, *self._factor, self._values, self._loads)
         self._loads[self._coarser.places] -= self._coarser.apply(self._loads)
         _prolong(*self._factor, self._values, self._loads, self._work)
@@ -245,16 +291,16 @@ class _ManyBlocks:
 
 
 class _FewBlocks:
-    """The inverse of 1 + a K a on blocks, dense; set `squares`, the squares of a, before `prepare`."""
+    """Inverse of 1 + a K a on a grid level with few blocks, by a dense Cholesky factor; used like _ManyBlocks."""
 
     def __init__(self, sides: tuple[int, int], aspect: float, height: int, width: int) -> None:
         self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
         self._kernel = _dense_coupling(sides, aspect, height, width)
-        self._coupling: Array = np.empty((0, 0))  # between the places
+        self._coupling: Array = np.empty((0, 0))  # K between the blocks `places`
 
     def prepare(self) -> None:
         places = np.flatnonzero(self.squares)
-        if not np.array_equal(places, self.places):  # mostly all blocks have contact already
+        if not np.array_equal(places, self.places):  # this is rare, since usually all blocks have contact already
             self.places, self._coupling = places, self._kernel[np.ix_(places, places)]
         amplitude = np.sqrt(self.squares[places])
         matrix = self._coupling * amplitude * amplitude[:, None]
@@ -270,7 +316,13 @@ class _FewBlocks:
 def _coarse_level(
     sides: tuple[int, int], aspect: float, height: int, width: int, threads: int
 ) -> _ManyBlocks | _FewBlocks:
-    """Return the grid level of blocks of sides[0] rows and sides[1] columns, on a grid of given height and width."""
+    """Return a _FewBlocks or a _ManyBlocks, depending on the number of blocks.
+
+    sides : rows and columns of elements in a block
+    aspect : dy/dx of the elements
+    height, width : rows and columns of blocks, border included
+    threads : number of threads
+    """
     few = max(height, width) - 2 * REACH <= _DENSE
     grid = sides, aspect, height, width
     return _FewBlocks(*grid) if few else _ManyBlocks(*grid, threads)
@@ -278,12 +330,23 @@ def _coarse_level(
 
 @lru_cache(maxsize=2)
 def _dense_coupling(sides: tuple[int, int], aspect: float, height: int, width: int) -> Array:
-    """Return K between all blocks of a grid with its border."""
+    """Return the influence coefficients K between all blocks of a grid level; see `_coupling`.
+
+    height, width : rows and columns of blocks, border included
+    """
     return _coupling(sides, aspect, *np.divmod(np.arange(height * width), width))
 
 
 def _coupling(sides: tuple[int, int], aspect: float, row: Integers, column: Integers) -> Array:
-    """Return K between blocks at (row, column): the mean deflection of one by a unit load spread over the other."""
+    """Return the influence coefficients K between all pairs of blocks.
+
+    K approximates the mean deflection of a block by a unit load that is spread over another block. For a block and
+    itself, K is set by _OWN.
+
+    sides : rows and columns of elements in a block
+    aspect : dy/dx of the elements
+    row, column : positions of the blocks
+    """
     row, column = (abs(position[:, None] - position).astype(float) for position in (row, column))
     distant = influence_coefficient(row, column, aspect * sides[0] / sides[1])
     return np.where((row == 0) & (column == 0), _OWN, distant) / np.sqrt(sides[0] * sides[1])

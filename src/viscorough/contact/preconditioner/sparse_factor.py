@@ -1,13 +1,19 @@
-"""The sparse factor G of the preconditioner, and its products, on the grid of the elements.
+"""Store the sparse factor G of the preconditioner on the grid of the elements, and compute products with G.
 
-Row i of G (in this module not the shear modulus) has entries for element i, and for each of the twelve nearest elements
-before it that is in contact, from a table of all possible rows (factor_entries).
+The neighbours of an element are the twelve nearest elements before the element, in the order of rows and columns. Row i
+of G (in this module not the shear modulus) has an entry for element i, and an entry for each neighbour that is in
+contact. The entries are taken from a table of all possible rows of G (module factor_entries).
 
-Entries are stored for the whole grid, one neighbour after the other for every row of it, and are zero without contact:
-loops over a row of the grid then read consecutive numbers and process as many elements at once as a register of the
-processor holds. In single precision an entry is rounded to a whole number of one byte, so entries fit into the cache.
-Rounding changes G, and with it the preconditioner, by a few percent, but not the symmetry of Gᵀ … G. Blocks without
-contact are skipped. Compiled functions take plain arrays, hence many arguments.
+Entries are stored for the whole grid, and are zero for elements without contact. For each row of the grid, the entries
+of all elements for their first neighbour come first, then the entries for the second neighbour, and so on. Loops over a
+row of the grid then read consecutive numbers, and process as many elements at once as a register of the processor
+holds.
+
+In single precision an entry is rounded to a whole number of one byte, so that the entries fit into the cache. Rounding
+changes G and the preconditioner by a few percent, but the preconditioner Gᵀ … G remains symmetric.
+
+The grid is divided into blocks of elements, and loops skip blocks without contact. The compiled functions have many
+arguments because they take plain arrays only.
 """
 
 from collections.abc import Callable
@@ -20,21 +26,26 @@ from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH, factor_entries
 
-# Blocks side by side that are processed together if any of them has elements in contact: wide enough for registers.
+# This number of blocks side by side is processed together if any of the blocks has elements in contact. Together the
+# blocks are wide enough for the registers of the processor.
 _TOGETHER = 4
-# An element that joins or leaves the set costs as much time as this number of elements in a renewal of all rows of G.
+# Renewing the rows of G around an element that joins or leaves the contact set takes as much time as renewing the rows
+# of this number of elements when all rows of G are renewed.
 _COST_OF_CHANGE = 20
-# Bit of a pattern that marks rows of G to be renewed.
+# Bit of a pattern that marks a row of G that must be renewed.
 _RENEWED = 1 << NEIGHBOURS
 
 
 @njit
 def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, factor):
-    """Renew patterns and rows of G from place `start` to `stop` that elements joining or leaving the set affect.
+    """Renew the rows of G that depend on elements that joined or left the contact set, from place `start` to `stop`.
 
-    inside : the new contact set, flat field; changed : places of elements that joined or left
-    offsets : offsets from a place to its neighbours, and to itself
+    inside : True for elements in the new contact set, flat field
+    changed : places of the elements that joined or left
+    offsets : offsets in flat fields from an element to its neighbours, and last to the element itself
+    patterns : patterns of contact of the neighbours (see `factor_entries`), flat field, renewed in place
     rows_of_pattern : rows of G by pattern and neighbour
+    factor : entries of G (see the module's docstring), renewed in place
     """
     rows, count = np.empty(changed.size * offsets.size, changed.dtype), 0
     for t in range(changed.size):
@@ -63,9 +74,11 @@ def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, fac
 
 @njit
 def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
-    """Renew all patterns and rows of G in some rows of blocks, which have so many rows of the grid.
+    """Renew all patterns and rows of G in the rows of blocks from `first_row` to `last_row`.
 
-    entries : by neighbour and pattern
+    side : number of rows of the grid in a row of blocks
+    inside, patterns, factor : see `_renew`
+    entries : entries of G by neighbour and pattern
     """
     width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     for row in range(first_row * side + REACH, min(last_row * side, factor.shape[0] - 2 * REACH) + REACH):
@@ -84,7 +97,10 @@ def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
 
 @njit(inner=True)
 def _any_active(active, first):
-    """Return True if any of the blocks processed together, from the first one on, has elements in contact."""
+    """Return True if any of the next _TOGETHER blocks, from block `first` on, has elements in contact.
+
+    active : positive for blocks in a row that have elements in contact
+    """
     total = 0.0
     for block in range(first, min(first + _TOGETHER, active.size)):
         total += active[block]
@@ -93,7 +109,12 @@ def _any_active(active, first):
 
 @njit(inner=True)
 def _next_run(active, first):
-    """Return first and last of the next adjacent blocks to process, from `first` on; both at the end if none."""
+    """Return start and stop of the next adjacent blocks to process, from block `first` on.
+
+    Both are the number of blocks if there is nothing left to process.
+
+    active : positive for blocks in a row that have elements in contact
+    """
     while first < active.size and not _any_active(active, first):
         first += _TOGETHER
     last = first
@@ -104,7 +125,14 @@ def _next_run(active, first):
 
 @njit(fastmath=True)
 def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
-    """Store Σ of the squares of the row sums of G in every block, for some rows of blocks."""
+    """Store the sum of the squares of the row sums of G in every block, for some rows of blocks.
+
+    first_row, last_row : first row of blocks, and the row of blocks after the last
+    factor, unit : entries of G, and the unit of the stored numbers
+    height : rows of the grid without border
+    sides : rows and columns of elements in a block
+    squares : sums of squares by rows and columns of blocks
+    """
     for block_row in range(first_row, last_row):
         total = np.full(factor.shape[2], unit - unit)  # zeros in the precision of the unit
         for row in range(block_row * sides[0], min((block_row + 1) * sides[0], height)):
@@ -117,7 +145,12 @@ def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
 
 @njit(inner=True, fastmath=True)
 def _add_up(values, side, sums, first, last):
-    """Store the sums of the values of every block from the first to the last one."""
+    """Store the sum of the values in every block, for the blocks from `first` to before `last`.
+
+    values : values of all elements in a row of the grid
+    side : number of values in a block
+    sums : sums of all blocks in a row of blocks
+    """
     for block in range(first, last):
         total = 0.0
         for j in range(block * side, min((block + 1) * side, values.size)):
@@ -127,7 +160,12 @@ def _add_up(values, side, sums, first, last):
 
 @njit(inner=True, fastmath=True)
 def _multiply_row(factor, unit, residual, row, first, values):
-    """Compute values = G r for consecutive elements of a row of the grid, from a column on, both with the border."""
+    """Compute values = G r for consecutive elements in a row of the grid.
+
+    factor, unit : entries of G, and the unit of the stored numbers
+    residual : r, flat field
+    row, first : row of the grid, and column of the first element, counted with the border
+    """
     width = factor.shape[2]
     at, rows = row * width + first, factor[row]
     a, b, c, d, e = rows[0][first:], rows[1][first:], rows[2][first:], rows[3][first:], rows[4][first:]
@@ -143,7 +181,7 @@ def _multiply_row(factor, unit, residual, row, first, values):
 
 @njit(inner=True, fastmath=True)
 def _multiply_row_transposed(factor, unit, residual, row, first, values):
-    """Compute values = Gᵀ r for consecutive elements of a row of the grid, from a column on, both with the border."""
+    """Compute values = Gᵀ r for consecutive elements in a row of the grid; see `_multiply_row` for the arguments."""
     width, left = factor.shape[2], first - REACH
     at, two, one, rows = row * width + first, factor[row + 2], factor[row + 1], factor[row]
     a, b, c, d, e = two[4][left:], two[3][left:], two[2][left:], two[1][left:], two[0][left:]
@@ -159,7 +197,15 @@ def _multiply_row_transposed(factor, unit, residual, row, first, values):
 
 @njit(fastmath=True)
 def _restrict(first_row, last_row, factor, unit, residual, height, sides, active, values, loads):
-    """Compute values = G r, and loads = Wᵀ G r of the blocks before W is normalised, for some rows of blocks."""
+    """Compute values = G r and loads = Wᵀ G r for some rows of blocks, with W not normalised.
+
+    W is explained at `SparseFactor.restrict`, most arguments at `_sum_squares`.
+
+    residual : r, flat field
+    active : positive for blocks with elements in contact, by rows and columns of blocks
+    values : flat field
+    loads : by rows and columns of blocks
+    """
     width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     for block_row in range(first_row, last_row):
         total = np.zeros(columns, values.dtype)
@@ -178,7 +224,7 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
 
 @njit(fastmath=True)
 def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values):
-    """Compute values −= W loads for some rows of blocks, with W not normalised."""
+    """Subtract W loads from `values` for some rows of blocks, with W not normalised; see `_restrict`."""
     width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     spread = np.empty(columns, values.dtype)
     for block_row in range(first_row, last_row):
@@ -197,7 +243,7 @@ def _correct(first_row, last_row, factor, unit, loads, height, sides, active, va
 
 @njit(fastmath=True)
 def _prolong(first_row, last_row, factor, unit, values, height, sides, active, result):
-    """Compute result = Gᵀ values for some rows of blocks."""
+    """Compute result = Gᵀ values for some rows of blocks; see `_restrict` for the arguments."""
     width = factor.shape[2]
     for block_row in range(first_row, last_row):
         first, last = _next_run(active[block_row], 0)
@@ -210,14 +256,15 @@ def _prolong(first_row, last_row, factor, unit, values, height, sides, active, r
 
 
 class SparseFactor:
-    """G for successive contact sets on a flat grid of the given height and width, border included.
+    """The sparse factor G, which is updated for one contact set after another on the same grid.
 
-    sides : rows and columns of a block
+    height, width : rows and columns of flat fields, border included
+    sides : rows and columns of elements in a block
     aspect : dy/dx of the elements
-    precision : floating-point type of the products; in single precision entries are rounded to one byte
+    precision : floating-point type of the products; in single precision, entries of G are rounded to one byte
     threads : number of threads
 
-    squares : squared lengths of the vectors of row sums of G, by rows and columns of blocks
+    squares : for every block, the squared length of the vector of row sums of G; shape (rows, columns) of blocks
     """
 
     def __init__(
@@ -242,7 +289,10 @@ class SparseFactor:
         self.squares, self._loads = np.zeros((2, *blocks))
 
     def update(self, inside: Mask) -> int:
-        """Change to another contact set, a flat field of flags; return the number of elements that joined or left."""
+        """Update G for another contact set; return the number of elements that joined or left the set.
+
+        inside : True for elements in the contact set, flat field
+        """
 
         def changes(i: int, j: int) -> Integers:
             changed = i + np.flatnonzero(inside[i:j] != self._inside[i:j])
@@ -255,15 +305,19 @@ class SparseFactor:
         return changed.size
 
     def _renew_rows(self, first_row: int, last_row: int, changed: Integers) -> None:
-        """Renew the data that depend on elements that joined or left the set, for some rows of blocks."""
+        """Renew the data that depend on elements that joined or left the set, for some rows of blocks.
+
+        first_row, last_row : first row of blocks, and the row of blocks after the last
+        changed : places of the elements that joined or left
+        """
         width, side = self._factor.shape[2], self._sides[0]
         start, stop = ((row * side + REACH) * width for row in (first_row, last_row))
-        # Rows of G depend on elements up to two rows of the grid before.
+        # A row of G depends on elements up to two rows of the grid before its own element.
         first, last = np.searchsorted(changed, (start - REACH * (width + 1), stop))
         if first == last:
             return
         if (last - first) * _COST_OF_CHANGE > stop - start:
-            members = self._inside.view(np.uint8)  # its bits are shifted
+            members = self._inside.view(np.uint8)  # whole numbers, because their bits are shifted
             _renew_all(first_row, last_row, side, members, self._patterns, self._entries, self._factor)
         else:
             stored = self._patterns, self._rows_of_pattern, self._factor
@@ -271,22 +325,32 @@ class SparseFactor:
         _sum_squares(first_row, last_row, self._factor, self._unit, self._height, self._sides, self.squares)
 
     def restrict(self, residual: Array) -> Array:
-        """Compute G r, which is kept, from a flat field r; returns Wᵀ G r by rows and columns of blocks.
+        """Return Wᵀ G r by rows and columns of blocks, and keep G r for `prolong`.
 
-        W is the matrix of the vectors of row sums in the blocks, not normalised.
+        W has a column for each block: the vector of the row sums of G in the block, not normalised.
+
+        residual : r, flat field
         """
         blocks = self._height, self._sides, self.squares
         self._over_rows(_restrict, self._factor, self._unit, residual, *blocks, self._values, self._loads)
         return self._loads
 
     def prolong(self, loads: Array) -> Array:
-        """Return Gᵀ (G r − W loads), a flat field defined on the contact set only; valid until the next call."""
+        """Return Gᵀ (G r − W loads), with G r from the last call of `restrict`, and W as defined there.
+
+        The result is a flat field whose values outside the contact set have no meaning. The next call overwrites it.
+
+        loads : by rows and columns of blocks
+        """
         blocks = self._height, self._sides, self.squares
         self._over_rows(_correct, self._factor, self._unit, loads, *blocks, self._values)
         self._over_rows(_prolong, self._factor, self._unit, self._values, *blocks, self._result)
         return self._result
 
     def _over_rows(self, function: Callable[..., Any], *arguments: Any) -> None:
-        """Call function(first, last, *arguments) for all rows of blocks."""
+        """Call function(first, last, *arguments) on several threads, until all rows of blocks have been processed.
+
+        A call processes the rows of blocks from `first` to before `last`.
+        """
         size = len(self.squares), self._threads, self._rows_at_once
         run_blocks(lambda first, last: function(first, last, *arguments), *size)

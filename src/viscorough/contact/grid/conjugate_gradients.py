@@ -4,7 +4,8 @@ The contact set may change between the steps. An iteration has three parts:
 
 1. `ConjugateGradients.precondition` computes the preconditioned residual z = M e from the gap e.
 2. `ConjugateGradients.next_direction` computes the search direction d from z.
-3. `Direction.step` or `Direction.step_and_release` takes a step along d.
+3. `Direction.step` takes the step along d that minimises the energy. Or `Direction.step_and_release` takes a release
+   step: a step of given length, after which elements under tension leave the contact set.
 
 Symbols are defined in contact.state. The formulas of this module are for the pressure P and the gap e. For a tangent,
 read q for P and e_q for e.
@@ -68,7 +69,7 @@ class Direction:
 
     halfspace : half-space operator whose load array contains d
     residual : PreconditionedResidual that d was computed from
-    stencil : array of shares from `preconditioner.multilevel.load_redistribution_stencil`
+    stencil : shares of its load that a removed element passes to its neighbours, from `load_redistribution_stencil`
     loops : GridLoops that run the loops over the contact set
 
     released : indices in the flattened load array of the elements that `step_and_release` removed from the contact set
@@ -88,7 +89,7 @@ class Direction:
         self.released: Integers = np.empty(0, dtype=int)
 
     def conjugacy_factor(self, residual: PreconditionedResidual) -> float:
-        """Return the factor β of this direction d in the next direction β d − z, which makes the two conjugate.
+        """Return the factor β for the next direction β d − z, such that it is conjugate to this direction d.
 
         β = (z·Kd − d·e)/(d·Kd), with e and z after the step along d. The term d·e is zero after a step that minimises
         the energy along d. After a release step the term corrects β, on the assumption that the next step has length 1.
@@ -173,7 +174,7 @@ class Direction:
         return deflection[:, : self._halfspace.shape[1]]
 
     def _sums(self, residual: PreconditionedResidual) -> Array:
-        """Return z·Kd, d·e and d·Kd, summed over a contact set; the residual has the set and the fields e and z."""
+        """Return z·Kd, d·e and d·Kd, summed over the contact set; `residual` provides e, z and the contact set."""
         fields = self._values, self._deflection, residual.preconditioned, residual.gap
         members = residual.contact_set
         return sum(self._loops.each(kernels.direction_sums, fields, members.places, members.slots))

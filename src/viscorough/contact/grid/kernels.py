@@ -250,7 +250,7 @@ def release(direction, pressure, inside, places, slots, released, stencil, width
 
     inside : True for elements in contact, flat field; already False for elements under tension
     released : indices of the elements under tension in `places` and `slots`
-    stencil : array of shares from `preconditioner.multilevel.load_redistribution_stencil`
+    stencil : shares of its load that an element passes to its neighbours, from `load_redistribution_stencil`
     width : length of a row of flat fields
     stride : length of a row of the operator's load array
     """

@@ -30,9 +30,10 @@ _PER_JOINED_PLACE = 50
 # Number of double-precision arrays with the size of the spectrum of the influence coefficients. The spectrum is kept,
 # and the set-up of the operator needs a second array.
 _SPECTRA = 2
-# Each thread convolves columns in two blocks of columns, which have this number of entries per row in total.
+# Each thread needs two blocks of columns for convolutions (module column_fft). The rows of the two blocks together have
+# this number of entries.
 _NUMBERS_PER_ROW = 2 * 152
-# Number of columns in a block of columns.
+# Number of columns in a block of columns (module column_fft).
 _COLUMNS_PER_BLOCK = 64
 # Bytes for a map of any size: tables, and dense solutions of hundreds of elements.
 _CONSTANT = 6e6

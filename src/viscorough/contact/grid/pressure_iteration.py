@@ -10,8 +10,8 @@ step:
 2. Conjugate step: the step has the length that minimises the energy along d, and no element leaves. This is a step of
    the method of conjugate gradients.
 
-Before every step, a release step is chosen if it would put any element under tension, otherwise a conjugate step. Each
-direction is conjugate to the last change of pressure, after steps of either kind. If the bound on the rounding error
+A release step is taken if it would put any element under tension, otherwise a conjugate step. After steps of either
+kind, the next direction is conjugate to the last change of pressure. If the bound on the rounding error
 nears the tolerance, the gap is recomputed from the pressure. If possible this happens in a release step, which applies
 the operator anyway.
 
@@ -33,8 +33,9 @@ _EXCLUDED = 0.05
 # allowed residual, and if a step adds less than this share to the bound. Recomputing then takes the place of the
 # operator application of the step.
 _INEXACT = 0.25
-# Length of the release steps of a contact after the first, which has length 1: about the inverse of the mean eigenvalue
-# of M K. In the first step the contact set is too large, so the residual overestimates the change of pressure.
+# Length of all release steps of a contact except the first, which has length 1. It is about the inverse of the mean
+# eigenvalue of M K, with the preconditioner M. In the first step the contact set is too large, so the residual
+# overestimates the change of pressure.
 _LATER_STEPS = 1.1
 # The length of release steps is halved each time this number of release steps has been taken. After the first halving,
 # conjugate gradients also start anew after every release step. This is a safeguard against cycles if the preconditioner
@@ -171,7 +172,7 @@ class PressureIteration:
         return self._search.next_direction(residual)
 
     def _exclude_unloaded(self, direction: Direction) -> bool:
-        """Remove elements without pressure that a step would put under tension from the contact set, if they are many.
+        """If a step would put many unloaded elements under tension, remove these elements from the contact set.
 
         Returns True if elements were removed.
         """
@@ -183,9 +184,9 @@ class PressureIteration:
         return True
 
     def _can_recompute(self) -> bool:
-        """Return True if the rounding error of the gap is too large, and recomputing would reduce it lastingly.
+        """Return True if the rounding error of the gap is too large, and recomputing the gap is worthwhile.
 
-        The reduction is lasting if the rounding error of a further step is small.
+        It is worthwhile if later steps add so little rounding error that the gap need not be recomputed again.
         """
         grid, trial = self._grid, self._trial
         too_large = max(_INEXACT * self._limit, 2 * (grid.exact_rounding + grid.field_rounding) * trial.depth)

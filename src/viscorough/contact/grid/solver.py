@@ -47,7 +47,7 @@ class GridSolver:
 
     box : (first row, first column, rows, columns)
     elements : state.Elements in any order; the rank of an element is its position in the arrays of `elements`
-    tolerance : largest |e| in contact, or overlap elsewhere, relative to the depth
+    tolerance : largest allowed |e| in contact, and overlap elsewhere, relative to the depth
     options : SolverOptions
     threads : number of threads
     reach : the first `reach` elements can touch; by default all elements in the box can
@@ -86,7 +86,7 @@ class GridSolver:
     def place_elements(self, elements: Elements, reach: int | None = None) -> None:
         """Assign places in flat fields to the first `reach` elements (default: to all), and store their initial gaps.
 
-        An element outside the box gets the place 0, where the initial gap is not changed.
+        An element outside the box gets the place 0; the initial gap stored at this place is not changed.
 
         elements : Elements; they begin with the elements of the last call
         """

@@ -36,7 +36,7 @@ class GridWorkspace:
     """Half-space operators and preconditioner of a grid, and the fields that all solutions on the grid share.
 
     shape : rows and columns of the grid
-    tolerance : largest |e| in contact, or overlap elsewhere, relative to the depth
+    tolerance : largest allowed |e| in contact, and overlap elsewhere, relative to the depth
     options : SolverOptions
     aspect : dy/dx of the elements
     threads : number of threads
@@ -48,7 +48,7 @@ class GridWorkspace:
     width : length of a row of flat fields
     inner : slice of flat fields between the first and the last border rows; for a strip, most rows are border rows
     initial_gap : initial gap g, flat field; the grid solver sets the values at places with elements
-    residual : e or e_q on the contact set, flat field; the iteration that runs overwrites the values
+    residual : e or e_q on the contact set, flat field that every iteration overwrites
     precision : floating-point type of all flat fields except `residual`
     field_rounding : bound on the rounding error that a step adds to a field, relative to the depth
     step_rounding : rounding error of the operator of the iterations, relative to the largest deflection
@@ -136,7 +136,7 @@ class GridWorkspace:
         change.rounding = (self.exact_rounding + self.field_rounding) * depth
 
     def add_penetrating_elements(self, change: BoundedField, inside: Mask, limit: float) -> int:
-        """Add elements that overlap the surface by more than `limit` to a contact set; return the number of additions.
+        """Add elements that overlap the surface by more than `limit` to a contact set; return how many were added.
 
         change : BoundedField of e − g
         inside : True for elements in the set, flat field, changed in place

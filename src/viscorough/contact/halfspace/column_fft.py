@@ -246,7 +246,8 @@ def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, pad
         the first row for the stage
     factors : twiddle factors, with a row for every group of rows. The number of groups in a stage is n divided by the
         product of the radices up to and including the stage
-    padded : rows that the first stage of the first transform reads; behind the data this is the same row of zeros
+    padded : rows that the first stage of the first transform reads; for all rows beyond the data, this is the row of
+        zeros that follows the data
     place : row of every frequency after the last stage, which the first stage of the second transform reads
     same : 0, 1, 2, …, the rows that all other stages read
     x, y : two blocks; a stage reads from one block and writes to the other

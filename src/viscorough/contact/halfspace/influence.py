@@ -103,7 +103,8 @@ def _mean_inverse_distance(x, y, length, width):
     rectangle. The result is nan at the centre.
     """
     x2, y2 = x * x, y * y
-    # 1/r² for the centre is the only division, since divisions would take most of the time.
+    # 1/r², with the distance r of the point (x, y) from the centre. There is no other division, since divisions would
+    # take most of the time.
     inverse2 = 1 / (x2 + y2)
     inverse = np.sqrt(inverse2)
     inverse5 = inverse2 * inverse2 * inverse

@@ -183,8 +183,8 @@ class Convolution:
 class Halfspace(Convolution):
     """Half-space operator w = K P on a grid of rows × columns elements.
 
-    K are the influence coefficients. With P = p d/(4πG), for a pressure p on elements with sides dx and dy, a shear
-    modulus G and d = √(dx dy), the result w is the deflection of the surface.
+    K contains the influence coefficients. With P = p d/(4πG), for a pressure p on elements with sides dx and dy, a
+    shear modulus G and d = √(dx dy), the result w is the deflection of the surface.
 
     rows, columns : size of the grid
     precision : floating-point type of the computation

@@ -26,13 +26,13 @@ from viscorough.contact.parallel import Buffer, run_blocks
 SIDE = 120
 # Distance between two points of the coarse grid, in elements, along rows and along columns.
 _STRIDE = 4
-# The load of an element is distributed to this number of coarse points along rows, and as many along columns.
+# The load of an element is distributed to this number of points of the coarse grid, along rows and along columns.
 _POINTS = 14
 # Shape parameter β of the Kaiser window, by which the sinc functions are multiplied.
 _WINDOW = 16.5
-# Ratio of σ to the distance between two points of the coarse grid.
+# Ratio of the width σ of the Gaussian to the distance between two points of the coarse grid.
 _SMOOTHING = 4.5
-# Ratio of the range of K − S to σ; at larger distances K − S is taken as zero.
+# Ratio of a distance r to σ above which the short-range part K − S of the influence coefficients is taken as zero.
 _RANGE = 3.8
 # Ratio of a distance r to σ above which erf(r/σ) equals 1 within rounding.
 _FLAT = 7.0

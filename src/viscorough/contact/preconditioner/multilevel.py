@@ -10,7 +10,7 @@ contact (Kolotilina and Yeremin 1993). The module sparse_factor describes how G 
 The remainder G K Gᵀ − 1 is smooth, since it is the deflection by distant loads. The coarse correction represents the
 remainder on the next grid level, whose elements are blocks of elements. Within a block the remainder acts along a
 single vector: the row sums of G. Let W be the matrix whose columns are these vectors, one for each block, normalised to
-unit length, and let a be the diagonal matrix of their lengths before. Then
+unit length. Let a be the diagonal matrix of the lengths before normalisation. Then
 
     G K Gᵀ ≈ 1 + W (a K a) Wᵀ,     M = Gᵀ (1 − W (1 − (1 + a K a)⁻¹) Wᵀ) G ≈ K⁻¹
 
@@ -37,20 +37,22 @@ from viscorough.contact.parallel import run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH
 from viscorough.contact.preconditioner.sparse_factor import SparseFactor
 
-# Lower bound of the eigenvalues of M K (tests/viscorough/contact/preconditioner/test_multilevel.py).
+# Lower bound of the eigenvalues of M K, with the preconditioner M and the influence matrix K
+# (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35
 # Number of elements along each side of the square that contains the neighbours of an element.
 _ACROSS = 2 * REACH + 1
 # Relative positions (row, column) of the neighbours of a block, which are the four nearest blocks before the block.
 _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
 # The number of iterations depends only weakly on _SIDE, _RATIO and _DENSE.
-# Number of elements along each side of a block, if the elements are square.
+# Number of elements along each side of a block of the coarse correction, if the elements are square.
 _SIDE = 8
 # Number of blocks along each side of a block of the next grid level.
 _RATIO = 4
 # A grid level with at most this number of blocks along each side is inverted as a dense matrix.
 _DENSE = 9
-# The coarse levels are prepared again when the elements that have joined or left exceed this share of the contact set.
+# The coarse levels are prepared again when the number of elements that have joined or left exceeds this share of the
+# number of elements in contact.
 _OUTDATED = 0.02
 # Number of blocks for which a thread computes rows of G at a time.
 _FACTORISED_AT_ONCE = 1 << 13
@@ -79,7 +81,7 @@ def load_redistribution_stencil(aspect: float) -> Array:
 def _rows(field, place, width):
     """Return three views of a flat field, which begin at the leftmost neighbours of a place.
 
-    The neighbours are two rows before the place, one row before the place, and in the row of the place.
+    The first view begins two rows before the place, the second view one row before, and the third in the same row.
     """
     return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
 
@@ -340,8 +342,8 @@ def _dense_coupling(sides: tuple[int, int], aspect: float, height: int, width: i
 def _coupling(sides: tuple[int, int], aspect: float, row: Integers, column: Integers) -> Array:
     """Return the influence coefficients K between all pairs of blocks.
 
-    K approximates the mean deflection of a block by a unit load that is spread over another block. For a block and
-    itself, K is set by _OWN.
+    K approximates the mean deflection of a block by a unit load that is spread over another block. The influence of a
+    block on itself is set by _OWN.
 
     sides : rows and columns of elements in a block
     aspect : dy/dx of the elements

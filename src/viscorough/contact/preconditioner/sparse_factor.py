@@ -32,7 +32,7 @@ _TOGETHER = 4
 # Renewing the rows of G around an element that joins or leaves the contact set takes as much time as renewing the rows
 # of this number of elements when all rows of G are renewed.
 _COST_OF_CHANGE = 20
-# Bit of a pattern that marks a row of G that must be renewed.
+# Bit of a contact pattern (see `factor_entries`) that marks a row of G for renewal.
 _RENEWED = 1 << NEIGHBOURS
 
 
@@ -336,9 +336,10 @@ class SparseFactor:
         return self._loads
 
     def prolong(self, loads: Array) -> Array:
-        """Return Gᵀ (G r − W loads), with G r from the last call of `restrict`, and W as defined there.
+        """Return Gᵀ (G r − W loads), with G r from the last call of `restrict`, and W as explained at `restrict`.
 
-        The result is a flat field whose values outside the contact set have no meaning. The next call overwrites it.
+        The result is a flat field whose values outside the contact set have no meaning. The next call overwrites the
+        returned array.
 
         loads : by rows and columns of blocks
         """

@@ -1,9 +1,10 @@
 """The method of dimensionality reduction (MDR): a line of independent springs instead of the half-space.
 
-Each point of a line with spacing Δx is a spring of stiffness 4G Δx. At depth u the springs carry F/G = 4 Δx Σ(u - g)₊,
-with the initial gaps g below the highest point. If G is replaced by the viscosity η, they are dashpots of damping 4η Δx
-that carry ∫F dt/η (paper, Sec. V). No equation has to be solved or integrated in time: the loading curve follows from
-the sorted gaps, and it suffices to count and add gaps in narrow bins.
+Each point of a line with spacing Δx is a spring of stiffness 4G Δx, with the shear modulus G. The initial gap g of a
+point is its depth below the highest point. At the depth u of the indenter the springs carry the force F with
+F/G = 4 Δx Σ(u - g)₊. On a fluid of viscosity η the springs become dashpots of damping 4η Δx, and ∫F dt/η takes the
+place of F/G (paper, Sec. V). No equation has to be solved or integrated in time: the loading curve follows from the
+sorted gaps. Instead of sorting, it suffices to count and add the gaps in narrow bins.
 """
 
 from typing import Any
@@ -21,32 +22,34 @@ from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter, check_indenter
 from viscorough.surfaces.spectrum import seed_sequence
 
-# Bins per octave of gaps, a power of 2. Bins are then 0.8 to 1.6 % wide.
+# Number of bins per octave of gaps (factor of 2), a power of 2. Bins are then 0.8 to 1.6 % wide.
 _BINS_PER_OCTAVE = 64
-# Octaves below the largest gap that are divided into bins. Smaller gaps share one bin.
+# Number of octaves, counted down from the largest gap, that are divided into bins. All smaller gaps share one bin.
 _OCTAVES = 128
-# Number of the longest waves of a map, which a window changes.
+# Number of the longest waves of a map that a window function changes (see `line_of_map`).
 _SPOILED = 3
-# Counters per bin. Neighbouring points often fall into one bin, and separate counters avoid waiting for an update.
+# Number of counters per bin. Neighbouring points often fall into the same bin. With several counters, the processor
+# does not wait for the update by the previous point.
 _LANES = 4
-# Points whose bins are found at a time.
+# Number of points whose bins are computed in one vectorized loop.
 _BLOCK = 512
 
 
 def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | None = None) -> LoadingCurve:
     """Compute the loading curve of a line by the method of dimensionality reduction (MDR).
 
-    Levels are the edges of bins of gaps, if contact grows in the bin. Force and stiffness at a level::
+    The initial gaps g, the depths of the points below the highest point, are sorted into narrow bins. The levels of the
+    curve are at the edges of those bins that contain a gap. Force and stiffness at a level are::
 
         F/G = 4 Δx Σ(u - g)₊,   k/G = 4 Δx (number of g < u)
 
-    are exact, up to the rounding of gaps and sums in double precision. If at most one point comes into contact between
-    two levels, LoadingCurve.at_force is exact there. Otherwise the levels are one bin apart, 0.8 to 1.6 % in depth, and
-    the error of the interpolated depth is a small part of this width.
+    These values are exact, up to the rounding of gaps and sums in double precision. If at most one point comes into
+    contact between two levels, LoadingCurve.at_force is exact between these levels. Otherwise the levels are one bin
+    apart, 0.8 to 1.6 % in depth, and the error of the interpolated depth is a small part of this width.
 
-    At the first level only the highest points touch. The last level is the first to reach `until_fraction` or
-    `until_force`, but at least the second level. A flat line has no scale of depth; its levels are at half a spacing
-    and at one spacing.
+    At the first level only the highest points touch. The last level is the first level that reaches `until_fraction` or
+    `until_force`, but the curve has at least two levels. On a flat line all gaps are zero, so its levels are at depths
+    of half a spacing and one spacing.
 
     Parameters
     ----------
@@ -55,8 +58,8 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
     until_fraction : float, optional
         Contact fraction of the last level, in (0, 1] [1].
     until_force : float, optional
-        Force F/G of the last level [length²]. If the line is in full contact before, a level at exactly this force is
-        added, unless `until_fraction` ends the curve.
+        Force F/G of the last level [length²]. If the whole line is in contact at a smaller force, a level at exactly
+        `until_force` is added, unless `until_fraction` ends the curve.
 
     Returns
     -------
@@ -65,7 +68,7 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
     Raises
     ------
     ValueError
-        For a map instead of a line, and for values outside these ranges.
+        For a map instead of a line, and for values out of range.
 
     Notes
     -----
@@ -93,13 +96,14 @@ def reduce_heights(
     until_force: float | None = None,
     length_unit: str = "1",
 ) -> LoadingCurve:
-    """Compute the loading curve of a line like `reduce`, from heights in any order, since springs are independent.
+    """Compute the loading curve of a line as in `reduce`. The heights may be in any order: springs are independent.
 
     heights : heights in single or double precision, shape (points,) [length]
     spacing : distance between neighbouring points [length]
+    until_fraction, until_force : arguments of `reduce`
     length_unit : unit of heights and spacing, as in Indenter
 
-    Raises the errors of `reduce`, and ValueError for heights that are not finite.
+    Raises the same errors as `reduce`, and ValueError for heights that are not finite.
     """
     until_fraction = fraction("reduce: until_fraction", until_fraction)
     if until_force is not None:
@@ -132,7 +136,7 @@ def reduce_heights(
 
 
 def _levels(heights: Array, spacing: float) -> tuple[Array, Array, Array, Integers]:
-    """Return depth, force F/G, stiffness k/G and contact count at the edges of all bins with contact growth."""
+    """Return depth, force F/G, stiffness k/G and contact count at the edges of all bins that contain a gap."""
     edges, counts, sums = _binned_gaps(heights)
     grown = 1 + np.flatnonzero(counts[1:])
     levels = np.union1d(grown, grown + 1)  # edge r is the lower edge of bin r
@@ -146,10 +150,11 @@ def _levels(heights: Array, spacing: float) -> tuple[Array, Array, Array, Intege
 
 
 def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
-    """Generate a line with the power spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
+    """Generate a line with random phases and the power spectrum C1D = π q C2D (Eq. 13) of a periodic map.
 
-    The wave with wavenumber k per period of the line has the power of all waves of the map with wavenumbers from k -
-    1/2 to k + 1/2, up to the Nyquist wavelength.
+    C1D and C2D are the power spectral densities of the line and of the map at the wavenumber q. The wave with k periods
+    along the line has the power of all waves of the map with wavenumbers from k - 1/2 to k + 1/2 periods per side of
+    the map. Waves shorter than the Nyquist wavelength, two spacings, are left out.
 
     Parameters
     ----------
@@ -191,19 +196,19 @@ def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
 def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     """Generate a line with the radially averaged power spectrum and the rms height of a map that is not periodic.
 
-    1. Multiply the deviations of the heights from their mean by a Hann window, cos²(πr/2) at the relative distance r
-       from the centre to the edge of the inscribed ellipse. Without a window the edges of the map, which are steps of a
-       periodic map, would add to the short waves.
-    2. Take the power spectrum of the line from the windowed map, as `line_of_surface`.
-    3. Take the three longest waves, which the window changes, from the heights without a window, and scale them so that
-       the line has the rms height of the map.
+    1. Multiply the deviations of the heights from their mean by a Hann window. The window is cos²(πr/2), where r grows
+       from 0 at the centre of the map to 1 on the inscribed ellipse. Without a window, the heights would jump at the
+       edges of the periodically repeated map, and the jumps would add to the short waves.
+    2. Compute the power spectrum of the line from the windowed map, as `line_of_surface` does.
+    3. The window changes the three longest waves. Take their relative powers from the heights without a window, and
+       scale these powers so that the line has the rms height of the map.
 
-    The line is as long as the longer side of the map, with the larger of its two spacings.
+    The line is as long as the longer side of the map. Its spacing is the larger of the two spacings of the map.
 
     Parameters
     ----------
     surface : Indenter
-        Indenter with two-dimensional heights; elements that are nan count as having the mean height.
+        Indenter with two-dimensional heights. Elements that are nan are treated as having the mean height.
     seed : int or SeedSequence
         Seed of the phases. The same seed gives the same line.
 
@@ -228,7 +233,8 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     check_indenter("line_of_map", surface, 2)
     heights = surface.heights.astype(float)
     (rows, columns), spacing = heights.shape, max(surface.spacing, surface.row_spacing)
-    dx, dy = surface.spacing / spacing, surface.row_spacing / spacing  # like the length, in units of the larger spacing
+    # dx, dy and the length are in units of the larger spacing.
+    dx, dy = surface.spacing / spacing, surface.row_spacing / spacing
     length = max(rows * dy, columns * dx)
     points = round(length)
     y, x = ((np.arange(n) - (n - 1) / 2) / (n / 2) for n in heights.shape)
@@ -248,23 +254,34 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
 
 
 def _power_of_piece(heights: Array, weights: Array) -> Array:
-    """Return the power of the waves of weighted deviations from the mean, over the mean square of the weights."""
+    """Return the power of each wave of the weighted heights, divided by the mean square of the weights.
+
+    The weights multiply the deviations of the heights from their weighted mean. Heights that are nan have weight 0.
+    """
     over_mean = np.where(weights > 0, heights - np.sum(weights * np.nan_to_num(heights)) / weights.sum(), 0)
     return np.abs(np.fft.fft2(weights * over_mean)) ** 2 / (weights.size * np.sum(weights**2, dtype=float))
 
 
 def _ring_sums(power: Array, wavenumber: Array, points: int) -> NDArray[Any]:
-    """Sum the power of all waves whose wavenumber per length rounds to 0, 1, ..., points // 2."""
+    """Return the sums of the power of all waves whose wavenumber rounds to 0, 1, ..., points // 2.
+
+    power, wavenumber : power of each wave, and number of its periods along the line
+    points : number of points of the line
+    """
     ring = np.rint(wavenumber).astype(int)
     most = points // 2 + 1
     return np.bincount(ring.ravel(), weights=power.ravel(), minlength=most)[:most]
 
 
 def _random_line(power: Array, points: int, seed: Seed) -> Array:
-    """Return heights, shape (points,), of waves with this power and random phases, without the zero mode."""
+    """Return the heights, shape (points,), of a line that consists of waves with random phases; their mean is 0.
+
+    power : power of the waves with 0, 1, ..., points // 2 periods along the line; the first value is ignored
+    """
     amplitude = np.sqrt(power / 2)
     if points % 2 == 0:
-        amplitude[-1] *= np.sqrt(2)  # equals its mirror image
+        # Every other wave also stands for its complex conjugate. The shortest wave equals its complex conjugate.
+        amplitude[-1] *= np.sqrt(2)
     phase = np.random.default_rng(seed_sequence(seed)).uniform(0, 2 * np.pi, amplitude.size)
     spectrum = amplitude * (np.exp(1j * phase) if points % 2 else np.append(np.exp(1j * phase[:-1]), 1.0))
     spectrum[0] = 0
@@ -274,13 +291,15 @@ def _random_line(power: Array, points: int, seed: Seed) -> Array:
 def _binned_gaps(heights: Array) -> tuple[Array, Integers, Array]:
     """Sort initial gaps into bins; return the edges of the bins, and number and sum of the gaps in every bin.
 
-    Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The number of a bin consists of the leading bits
-    (exponent and first bits of the mantissa) of the floating-point numbers in it, so bins divide every octave evenly.
+    Bin r contains the gaps g with edges[r] <= g < edges[r + 1]; bin 0 contains all g < edges[1]. All floating-point
+    numbers in a bin have the same leading bits (exponent and first bits of the mantissa), and these bits give the
+    number of the bin. Bins therefore divide every octave evenly.
     """
     highest, lowest = np.float64(heights.max()), np.float64(heights.min())
-    if not np.isfinite([highest, lowest]).all():  # their bins would lie outside the table
+    if not np.isfinite([highest, lowest]).all():  # bins of infinite gaps and of nan would lie outside the table
         raise ValueError("reduce: heights must be finite")
-    highest += 0.0  # turns -0.0 into 0.0, which otherwise sets the sign bit of gaps
+    # Adding 0.0 turns -0.0 into 0.0. With -0.0, a gap could be -0.0, and its sign bit would change its bin.
+    highest += 0.0
     shift = np.uint64(52 - (_BINS_PER_OCTAVE.bit_length() - 1))
     top = int((highest - lowest).view(np.uint64) >> shift)
     base = max(0, top - _OCTAVES * _BINS_PER_OCTAVE)
@@ -293,17 +312,20 @@ def _binned_gaps(heights: Array) -> tuple[Array, Integers, Array]:
 
 @njit
 def _bin_gaps(heights, highest, shift, base, table):
-    """Add the number and the sum of the gaps in every bin to table[bin, lane, :]."""
+    """Add the number and the sum of the gaps in every bin to table[bin, lane, :]; see `_binned_gaps`.
+
+    Point i uses lane i % _LANES, so that neighbouring points update different counters of a bin.
+    """
     gaps, bins = np.empty(_BLOCK), np.empty(_BLOCK, np.uint32)
     for start in range(0, heights.size, _BLOCK):
         block = heights[start : start + _BLOCK]
-        for i in range(block.size):  # a separate loop, which is vectorized
+        for i in range(block.size):  # this loop is separate from the next, so that the compiler can vectorize it
             gaps[i] = highest - np.float64(block[i])
             bins[i] = max(np.float64(gaps[i]).view(np.uint64) >> shift, base) - base
         for i in range(block.size):
             bin_, lane = (
                 np.uint64(bins[i]),
                 np.uint64(i % _LANES),
-            )  # unsigned numbers need no check for negative indices
+            )  # unsigned indices cannot be negative, which saves a check
             table[bin_, lane, 0] += 1
             table[bin_, lane, 1] += gaps[i]

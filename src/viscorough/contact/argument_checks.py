@@ -1,4 +1,4 @@
-"""Check the arguments that curves and single contacts have in common."""
+"""Check the arguments that the computations of loading curves and of single contacts have in common."""
 
 import sys
 import warnings
@@ -16,10 +16,12 @@ from viscorough.surfaces.indenter import Indenter, check_indenter
 def check_solvable(
     name: str, indenter: Indenter, tolerance: float, threads: int = 1, options: SolverOptions = DEFAULT
 ) -> float:
-    """Return the tolerance as a float.
+    """Check the arguments of a function of the contact solver, and return the tolerance as a float.
 
-    Raises ValueError, which starts with the name, unless an indenter is a map, and tolerance and threads are in range,
-    and TypeError for other options than SolverOptions.
+    name : name of the function; messages of errors start with it
+
+    Raises ValueError if the indenter is not a map, its spacing is too small, or tolerance or threads are out of range.
+    Raises TypeError if the options are not SolverOptions.
     """
     check_indenter(name, indenter, 2)
     if indenter.spacing * indenter.row_spacing < sys.float_info.min:
@@ -35,10 +37,12 @@ def check_solvable(
 
 
 def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:
-    """Give an AccuracyWarning, which starts with the name, for a depth larger than the map is wide.
+    """Give an AccuracyWarning if the depth is larger than the longer side of the map.
 
-    No warning is given if the unit of length is unknown: the theory is linear in the heights, which may then be in any
-    unit.
+    No warning is given if the unit of length is unknown. The theory is linear in the heights, so the user may then have
+    given the heights in a different unit than the spacing.
+
+    name : name of the function that the user called; the message starts with it
     """
     rows, columns = indenter.heights.shape
     extent = max(rows * indenter.row_spacing, columns * indenter.spacing)

@@ -1,12 +1,12 @@
 """Find the depth of complete contact, when all elements touch, from two linear problems.
 
-Let all elements be joined to the surface, under tension as well. With the symbols of contact.state, their pressures are
+First let all elements be joined to the surface, so that they also transmit tension. Their pressures are then
 
     P = u q − s,    K q = 1,    K s = g
 
-with g the initial gap. The frictionless contact is complete from the depth u = max(s/q) on, where the last
-tension vanishes. Beyond it the loading curve is straight: ΣP = Σq (u − ⟨g⟩_q). Here ⟨g⟩_q = Σs/Σq is the mean of g with
-the weights q.
+Here u is the depth, g the initial gap of an element, and K the matrix of influence coefficients (see contact.state).
+At the depth u = max(s/q) the last tension vanishes. From this depth on, the frictionless contact is therefore complete,
+and its loading curve is straight: ΣP = Σq (u − ⟨g⟩_q), where ⟨g⟩_q = Σs/Σq is the mean of g with the weights q.
 """
 
 from typing import NamedTuple
@@ -19,18 +19,21 @@ from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
 from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
 
-# Smallest residual of the linear problems: its norm over the norm of the right-hand side.
+# Smallest residual to which the linear problems are solved: ratio of the norms of residual and right-hand side.
 EXACT = 1e-12
-# Largest number of iterations; beyond it ConvergenceError is raised.
+# Largest number of iterations. ConvergenceError is raised if these do not suffice.
 _MAX_ITERATIONS = 500
 
 
 class JoinedSurface(NamedTuple):
-    """Solution with all elements of an indenter joined to the surface; reduced.
+    """Solutions of K q = 1 and K s = g, if all elements of an indenter are joined to the surface (see the module).
 
-    tangent, load : q and s, by rank, shape (elements,)
-    initial_gap : g, by rank, shape (elements,)
-    residual : norm of the residuals of both problems over the norm of their right-hand sides
+    Lengths are in the reduced units of contact.state. Arrays are in the order of increasing initial gap.
+
+    tangent : q, the increase of the pressures P with the depth, shape (elements,)
+    load : s, the tensions at depth 0, shape (elements,)
+    initial_gap : g, shape (elements,)
+    residual : bound on the ratio of the norms of residual and right-hand side, for each of the two problems
     """
 
     tangent: Array
@@ -49,7 +52,7 @@ class JoinedSurface(NamedTuple):
         return float(self.load.sum() / self.tangent.sum())
 
     def first_complete_contact(self, units: Units) -> DenseContact:
-        """Return the contact at the smallest depth of complete contact."""
+        """Return the contact at the smallest depth at which contact is complete."""
         depth, stiffness = self.depth, float(self.tangent.sum())
         # Rounding can make the pressure of the last element to touch negative.
         pressure = np.maximum(depth * self.tangent - self.load, 0.0)
@@ -69,14 +72,15 @@ class JoinedSurface(NamedTuple):
 def joined_surface(
     elements: Elements, *, residual: float = EXACT, padding: bool = True, threads: int = 1
 ) -> JoinedSurface:
-    """Solve K q = 1 and K s = g over all elements by preconditioned conjugate gradients, in double precision.
+    """Solve K q = 1 and K s = g for all elements by preconditioned conjugate gradients, in double precision.
 
-    elements : Elements, all ranked
-    residual : norm of the residual over the norm of the right-hand side; the iterations stop below it
+    elements : Elements, all of which must be ranked
+    residual : the iterations stop when the norm of the residual falls below this share of the norm of the right-hand
+        side
     padding : see SolverOptions
     threads : number of threads
 
-    Raises ConvergenceError if the residuals do not fall below it.
+    Raises ConvergenceError if a residual does not fall below this limit.
     """
     from scipy.sparse.linalg import LinearOperator, cg  # this import takes long
 

@@ -1,7 +1,9 @@
-"""Solve contacts of few elements by dense linear algebra: exact to rounding, and cheaper than on any grid.
+"""Solve contacts of few elements by dense linear algebra, which is exact to rounding and cheaper than on a grid.
 
-Elements are identified by their rank in the order of increasing initial gap. The elements that can be in contact at a
-given depth are therefore the first ones.
+Elements are identified by their rank in the order of increasing initial gap. Only elements with an initial gap below
+the depth can be in contact, so these elements have the lowest ranks.
+
+The module contact.state defines the symbols: depth u, pressure P, tangent q, initial gap g, influence coefficients K.
 """
 
 from typing import NamedTuple
@@ -16,33 +18,40 @@ from viscorough.contact.halfspace.growing_cholesky import append_element, solve_
 from viscorough.contact.options import LATE
 from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
 
-# Allowed rounding error of a gap over the depth, of a pressure over the largest pressure, and of the depth of an event
-# over this depth.
+# Allowed relative rounding error: of a gap relative to the depth, of a pressure relative to the largest pressure, and
+# of the depth at which an element touches, relative to this depth.
 ROUNDING = 1e-12
-# Largest number of contact sets tried; beyond it ConvergenceError is raised.
+# Largest number of contact sets that are tried. ConvergenceError is raised if these do not suffice.
 _MAX_ITERATIONS = 100
-# Depth of an event that never happens; finite, because compiled loops may assume that numbers are finite.
+# Depth for an element that never touches. It is finite, because the compiler assumes finite numbers in loops with
+# fastmath.
 _NEVER = 1e300
 
 
 class ContactEvents(NamedTuple):
-    """Depths at which elements touch, one after the other; reduced, arrays of shape (events,).
+    """Contact events: the depths at which further elements touch, in increasing order.
 
-    depth, pressure_sum, tangent_sum : u, ΣP and Σq
-    count : elements in contact just beyond the event
+    All fields are arrays of shape (events,) in reduced units, in the order of the fields of step_control.Level.
 
-    The fields have the order of the fields of step_control.Level.
+    depth : depth u of each event
+    pressure_sum, tangent_sum : sums ΣP and Σq of the elements in contact just beyond the event
+    count : number of elements in contact just beyond the event
     """
 
     depth: np.ndarray
     pressure_sum: np.ndarray
     tangent_sum: np.ndarray
-    count: np.ndarray  # type: ignore[assignment]  # replaces the method of a tuple
+    count: np.ndarray  # type: ignore[assignment]  # this field hides the method `count` of tuples
 
 
 @njit
 def _influence_matrix(influence, row, column, members):
-    """Return the lower triangle of the influence matrix K of the members, shape (count, count)."""
+    """Return the influence matrix K of the elements in contact, shape (count, count); only its lower triangle is set.
+
+    influence : influence coefficients by distance in rows and columns
+    row, column : position of each element on the grid
+    members : ranks of the elements in contact, shape (count,)
+    """
     n = members.size
     matrix = np.empty((n, n))
     for a in range(n):
@@ -54,7 +63,10 @@ def _influence_matrix(influence, row, column, members):
 
 @njit(fastmath=True)
 def _deflections(influence, row, column, members, pressure, tangent, targets):
-    """Return Σ_j K_ij P_j and Σ_j K_ij q_j of the members' loads at the elements i of `targets`."""
+    """Return the deflections Σ_j K_ij P_j and their increase with depth Σ_j K_ij q_j at the elements i of `targets`.
+
+    The sums are over the elements j in contact (`members`), with pressures P_j and tangents q_j.
+    """
     deflections, rates = np.empty(targets.size), np.empty(targets.size)
     member_row, member_column = row[members], column[members]
     for i in range(targets.size):
@@ -69,30 +81,39 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
 
 
 def solve_highest_element(elements: Elements, depth: float) -> DenseContact:
-    """Solve the contact of the highest element alone, at a reduced depth so small that no other element touches."""
+    """Return the contact of the highest element alone, at a reduced depth so small that no other element touches."""
     factor = 1 / np.sqrt(elements.influence[0, 0])
-    pressure, tangent = (right * factor * factor for right in (np.array([depth]), np.ones(1)))  # as by Cholesky factors
+    # Multiply twice by the factor, as the Cholesky solution does, so that rounding is the same.
+    pressure, tangent = (right * factor * factor for right in (np.array([depth]), np.ones(1)))
     return _exact_contact(elements.units, depth, np.zeros(1, int), pressure, tangent)
 
 
 def solve(
     elements: Elements, contact: DenseContact, depth: float, candidates: int, max_count: int
 ) -> DenseContact | None:
-    """Solve the contact at a larger reduced depth by the primal-dual active set method; None above `max_count` members.
+    """Solve the contact at a larger reduced depth by the primal-dual active set method.
 
-    Only the `candidates` elements of lowest rank have an initial gap below the depth. Gaps are convex functions of the
-    depth, so an element can join the contact only if it overlaps the surface after the step P + Δu q. The first set
-    consists of the last set and of these elements, except elements that touch late in the step (LATE).
-    Raises ConvergenceError if the set still changes after the largest number of iterations.
+    The method repeats two steps until the contact set no longer changes: it solves for the pressures of the set, then
+    removes elements under tension and adds elements that overlap the surface. Gaps are convex functions of the depth,
+    so an element can join the contact only if it overlaps the surface for the predicted pressures P + Δu q, with the
+    depth step Δu. The first set that is tried consists of the elements in contact at the smaller depth, and of the
+    elements that overlap, except those that touch late in the step (see `LATE`).
+
+    contact : contact at a smaller depth
+    candidates : number of elements with an initial gap below `depth`
+    max_count : largest number of elements in contact
+
+    Returns None if more than `max_count` elements come into contact.
+    Raises ConvergenceError if the set still changes after _MAX_ITERATIONS solutions.
     """
     if candidates > max_count and not 0 < contact.count < max_count:
-        return None  # the contact only grows
+        return None  # contact only grows with depth, so it will not have fewer elements
     loads, depth_step = contact.loads, depth - contact.reduced_depth
     others = _without(np.arange(candidates), loads.members)
     table = elements.influence, elements.row, elements.column
     deflection, rate = _deflections(*table, *loads, others)
     gap = deflection - contact.reduced_depth + elements.initial_gap[others]
-    # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
+    # An element whose gap or pressure is zero within rounding stays in or out of contact, as it was.
     overlap = -ROUNDING * depth
     is_early = gap + depth_step * (1 - LATE * depth_step / depth) * (rate - 1) < overlap
     members = np.sort(np.append(loads.members, others[is_early]))
@@ -116,17 +137,18 @@ def solve(
 def follow_events(
     elements: Elements, contact: DenseContact, most: int, pressure_sum: float
 ) -> tuple[ContactEvents, DenseContact, bool]:
-    """Follow contact events after a contact: the depths at which the next elements touch, one after the other.
+    """Compute contact events after a given contact: the depths at which the next elements touch, one after the other.
 
-    Until the next element touches, pressures grow at the constant tangent q, so depths are exact. Every element that
-    touches adds a row to the Cholesky factor of the influence matrix, so hundreds of events cost as much as a few dense
-    solutions. The same recursion in time integrates the viscous problem (viscous.integration.events).
+    Until the next element touches, the pressures grow linearly with the depth, at the constant rate q. The depths of
+    events are therefore exact. Every element that touches adds a row to the Cholesky factor of the influence matrix, so
+    hundreds of events cost as much as a few dense solutions. Elements that touch at the same depth, within rounding,
+    are one event. The module viscous.integration.events integrates the viscous problem in time by the same recursion.
 
     most : largest number of elements in contact
     pressure_sum : largest reduced ΣP
 
-    Returns ContactEvents after the given contact, the DenseContact at the last event, and True if ΣP reaches its limit
-    before another element touches. Elements that touch at the same depth, to rounding, are one event.
+    Returns the ContactEvents after the given contact, the DenseContact at the last of these events, and True if ΣP
+    reaches `pressure_sum` before another element touches.
     """
     loads = contact.loads
     with uninterrupted():
@@ -135,14 +157,15 @@ def follow_events(
             loads.members, loads.pressure, min(most, elements.initial_gap.size), pressure_sum,
         )  # fmt: skip
     count = np.arange(contact.count, contact.count + depth.size)
-    # The first entry is the given contact. The last event is certain to be complete only if no element is left.
+    # An event is complete if no further element touches at the same depth. The last event is certain to be complete
+    # only if all elements are in contact. The first entry is the given contact, which is no event.
     complete = np.append(np.diff(depth) > ROUNDING * depth[1:], members.size == elements.count)
     complete[0] = False
     events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
     ends_at_force = bool(total[-1] > pressure_sum)
     if events.depth.size == 0:
         return events, contact, ends_at_force
-    # Solve the contact at the last event again from the members and their Cholesky factor.
+    # Solve the contact at the last event again, by the Cholesky factor of the elements in contact.
     last, last_depth = events.count[-1], events.depth[-1]
     solution = np.stack([last_depth - elements.initial_gap[members[:last]], np.ones(last)])
     solve_factored(factor[:last], solution)
@@ -158,12 +181,13 @@ def _without(elements: Integers, members: Integers) -> Integers:
 
 
 def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -> tuple[Array, Array]:
-    """Return P and q of a contact set at a depth, each of shape (count,)."""
+    """Return pressure P and tangent q of the elements of a contact set at a depth, each of shape (count,)."""
     from scipy.linalg.lapack import dposv  # this import takes long
 
     matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
     right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
-    # LAPACK stores matrices by columns, so our lower triangle is its upper triangle.
+    # LAPACK stores matrices by columns and numpy by rows. The lower triangle is therefore the upper one for LAPACK, and
+    # the transposed matrix needs no copy.
     _, solution, failed = dposv(matrix.T, right.T, lower=False, overwrite_a=True, overwrite_b=True)
     if failed:
         raise ConvergenceError(f"contact of {members.size} elements: their influence matrix is not positive definite")
@@ -171,24 +195,29 @@ def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -
 
 
 def _exact_contact(units: Units, depth: float, members: Integers, pressure: Array, tangent: Array) -> DenseContact:
-    """Return the DenseContact of a dense solution."""
-    pressure = np.maximum(pressure, 0.0)  # rounding can make pressures of elements that just touch negative
+    """Return the DenseContact with the given pressures P and tangents q of its elements."""
+    pressure = np.maximum(pressure, 0.0)  # rounding can make the pressure of an element that just touches negative
     loads = MemberLoads(members, pressure, tangent)
     return DenseContact(units, depth, members.size, pressure.sum(), tangent.sum(), loads=loads)
 
 
 @njit(fastmath=True)
 def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
-    """Follow events after a contact of the elements `start` with these pressures; compiled, hence plain arrays.
+    """Compute the contact events after a given contact, as `follow_events`; compiled code needs plain arrays.
 
-    Returns the depth, ΣP and Σq of every event (the first is the given contact), all elements in contact, and
-    the Cholesky factor of their influence matrix.
+    depth : reduced depth of the given contact
+    start, pressure : ranks of its elements in contact, and their pressures P
+    most : largest number of elements in contact
+    force : largest reduced ΣP
+
+    Returns depth, ΣP and Σq of every event; ranks of all elements in contact, in the order of touch; and the Cholesky
+    factor of their influence matrix. The first event is the given contact.
     """
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
-    # Depth below which an element cannot touch, _NEVER in contact. A gap is a convex function of the depth: its closing
-    # slows down, and is never faster than the growth of the depth.
+    # Lower bound of the depth at which each element touches; _NEVER for elements in contact. A gap is a convex function
+    # of the depth: it closes at most as fast as the depth grows, and ever more slowly.
     earliest = initial_gap.copy()
     count, total, following = 0, 0.0, 0
     for t in range(start.size - 1):
@@ -223,16 +252,22 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
 
 @njit(inner=True, fastmath=True)
 def _next_touch(influence, row, column, initial_gap, depth, members, load, tangent, earliest, guess):
-    """Return the depth to the next touch, the element that touches, and the element that may touch first after it.
+    """Find the element that touches next.
 
-    earliest : depth below which an element cannot touch, _NEVER in contact; changed in place when evaluated
-    guess : element to evaluate first; if it touches soon, few others have to be evaluated
+    depth : reduced depth of the contact
+    members, load, tangent : ranks of the elements in contact, their pressures P and their tangents q
+    earliest : lower bound of the depth at which each element touches, _NEVER for elements in contact; raised in place
+        for every element whose gap is computed
+    guess : element whose gap is computed first; if it touches soon, few other gaps have to be computed
+
+    Returns the increase of the depth until the next touch, the element that touches, and a guess for the next call: the
+    element with the smallest lower bound among the others.
     """
     depth_step, element, following, first_later = _NEVER, -1, 0, _NEVER
     member_row, member_column = row[members], column[members]
     for position in range(-1, initial_gap.size):
         i = guess if position < 0 else position
-        # By rank: an element touches no earlier than at a depth equal to its initial gap.
+        # An element touches no earlier than at a depth equal to its initial gap, which increases with the rank.
         if position >= 0 and initial_gap[i] - depth >= depth_step:
             break
         if earliest[i] - depth < depth_step:

@@ -1,4 +1,4 @@
-"""Compute the map of the gap between the deformed surfaces, from a solved contact."""
+"""Compute the map of the gap between indenter and deformed surface, from a solved contact."""
 
 import numpy as np
 
@@ -12,21 +12,23 @@ from viscorough.contact.state import ContactState, DenseContact, GridContact
 
 
 def gap_map(solver: ContactSolver, contact: ContactState) -> Array:
-    """Return the gap e between the deformed surfaces [length], shape of the heights; nan outside the indenter.
+    """Return the gap e between indenter and deformed surface [length], in the shape of the heights.
 
-    The fields of a contact on the grid already have the gap in the box of this grid. Elsewhere the deflection by all
-    loads is computed.
+    The gap is nan outside the indenter. If the contact was solved on the grid of a box, its fields contain the gap in
+    this box. At all other elements, the gap follows from the deflection by all loads.
 
     solver : ContactSolver that has solved the contact
 
-    Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact.
+    Raises ConvergenceError if the overlap of an element, relative to the depth, exceeds the residual of the contact by
+    more than the tolerance.
     """
     gap = _undeformed_gap(solver, contact.depth)
     (top, left), (rows, columns) = solver.elements.grid.origin, solver.elements.shape
     on_grid = slice(top, top + rows), slice(left, left + columns)
     part, box, box_gap = gap[on_grid], (0, 0, 0, 0), None
     grid = solver.grid_of(contact)
-    # The operator of a restricted grid computes no deflection in the other tiles of the box.
+    # The operator of a restricted grid computes the deflection only in tiles with elements that can touch, so the
+    # fields lack the gap in the other tiles of the box.
     if grid and isinstance(contact, GridContact) and not grid.is_restricted:
         box, box_gap = grid.box, grid.in_box(contact.fields.gap_change.values)
     if box != (0, 0, rows, columns):
@@ -45,7 +47,7 @@ def gap_map(solver: ContactSolver, contact: ContactState) -> Array:
 
 
 def _undeformed_gap(solver: ContactSolver, depth: float) -> Array:
-    """Return g − u of all heights [length], the gap without deflection of the surface."""
+    """Return the gap g − u of all elements without deflection of the surface [length], in the shape of the heights."""
     heights, highest = solver.indenter.heights, solver.ranking.highest
     gap = np.empty(heights.shape)
 
@@ -58,10 +60,10 @@ def _undeformed_gap(solver: ContactSolver, depth: float) -> Array:
 
 
 def _add_deflection(solver: ContactSolver, contact: ContactState, gap: Array, box: tuple[int, ...]) -> None:
-    """Add the deflection by the loads of a contact to a gap [length], in place.
+    """Add the deflection of the surface by the loads of a contact to the gap, in place.
 
-    gap : gap on the grid of the elements, shape (rows, columns)
-    box : (first row, first column, rows, columns) in which the gap may be left unchanged
+    gap : gap on the grid of the elements, shape (rows, columns) [length]
+    box : (first row, first column, rows, columns) of a box whose gap need not be updated
     """
     loads, elements, options = contact.member_loads(), solver.elements, solver.options
     rows, columns = elements.shape
@@ -73,7 +75,7 @@ def _add_deflection(solver: ContactSolver, contact: ContactState, gap: Array, bo
         restricted.load[place] = load * solver.units.length
         restricted.add_to(gap, tiles.tiles_beyond(box, elements.shape))
     else:
-        # Dense solutions are exact to the rounding of double precision.
+        # Dense solutions are exact within the rounding of double precision, so the deflection must be, too.
         is_exact = isinstance(contact, DenseContact) or solver.tolerance < options.exact_gap_below
         precision, threads = np.float64 if is_exact else np.float32, solver.threads
         spectrum = spectrum_of_grid(rows, columns, aspect=elements.aspect, padding=options.padding, threads=threads)

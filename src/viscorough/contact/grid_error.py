@@ -1,16 +1,18 @@
-"""Estimate the error of the grid: compare the loading curve of a map with the curve on every second point of it.
+"""Estimate the error due to the spacing of a map, from its loading curve and the curve of every second point.
 
-A map contains no roughness between its points. The change of a curve when the spacing doubles estimates its change when
-the spacing is halved, and the sum of all further changes. At equal forces F the velocities v = F/(η k/G) of both curves
-have the ratio of the stiffnesses. With ⟨·⟩ the mean over half a decade of force to either side, uniform in ln F,
+A map contains no roughness between its points. How much a curve changes when the spacing doubles is used to estimate
+how much it would change if the spacing were halved again and again. In a fluid of viscosity η the velocity is
+v = F/(η k/G) at the force F, with the stiffness k and the shear modulus G, so velocities are compared by stiffnesses.
+The estimates are as follows; the index 2 denotes the curve of every second point, and ⟨·⟩ the mean over half a decade
+of force to either side, uniform in ln F:
 
-    velocity:  s √⟨ln²(v/v₂)⟩          v₂ on every second point, s a safety factor
-    force:     r √⟨(1 − F₂/F)²⟩        F₂ at the depth of F, counted from the highest point of the full map; r a factor
-    area:      exp⟨ln(A/A₂)⟩ − 1       the change of the contact area when the spacing is halved; not an error
+    error of the velocity:          s √⟨ln²(v/v₂)⟩     v and v₂ at equal force; s = SAFETY_FACTOR
+    error of the force:             r √⟨(1 − F₂/F)²⟩   F and F₂ at equal depth; r = FORCE_SAFETY_FACTOR
+    change of the contact area A:   exp⟨ln(A/A₂)⟩ − 1  A and A₂ at equal force
 
-The raw contact area of a self-affine surface decreases with the spacing without a limit, so it has no error. A coarse
-map misses the highest point: if its depth were counted from its own highest point, the error of the force would be four
-times as large.
+The contact area of a self-affine surface decreases with the spacing without a limit, so its change is no error. For F₂,
+the depth is counted from the highest point of the full map, which the coarse map usually misses. If the depth were
+counted from the highest point of the coarse map, the error of the force would be four times as large.
 """
 
 from dataclasses import replace
@@ -22,27 +24,29 @@ from viscorough.basics.types import Array
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# The difference from the curve on every second point exceeds the true error of most surfaces. With this factor it
-# exceeds the error of nine surfaces of ten (benchmarks/grid_errors.py).
+# The difference between the velocities of the two curves is multiplied by this factor. On most surfaces the difference
+# alone exceeds the true error; with this factor it does so on nine surfaces of ten (benchmarks/grid_errors.py).
 SAFETY_FACTOR = 1.3
-# The same factor for the force at a given depth. The force changes in one direction from spacing to spacing, above all
-# on surfaces of small Hurst exponent, so its changes add up to more than the changes of the velocity.
+# The difference between the forces at equal depth is multiplied by this factor. If the spacing is halved repeatedly,
+# the force changes in the same direction each time, above all on surfaces of small Hurst exponent. The changes of the
+# force therefore add up to more than the changes of the velocity.
 FORCE_SAFETY_FACTOR = 3.0
-# Points per decade of force in comparisons of two curves, whose stiffnesses jump at contact events.
+# Number of points per decade of force at which two curves are compared. Many are needed, since the stiffnesses jump at
+# contact events.
 _POINTS_PER_DECADE = 50
-# Half the width, in ln F, of the range of forces for averages of differences: half a decade.
+# Differences are averaged over forces whose ln F differs by at most this much: half a decade to either side.
 _HALF_WINDOW = 0.5 * np.log(10)
-# Smallest normalised force X = F/(4GhL) for means over a curve: a few summits carry a smaller force, and coarse grids
-# cannot represent them.
+# Smallest normalised force X = F/(4GhL) for means over a whole curve. A smaller force is carried by a few summits,
+# which coarse grids cannot represent.
 _LEAST_X = 0.01
-# A curve that ends at a small force is judged by this part of it.
+# If a curve ends at a small force, means over the whole curve begin at this share of its last force.
 _LEAST_RANGE = 0.1
 
 
 def every_nth_point(indenter: Indenter, step: int) -> Indenter:
-    """Return the map of the points 0, n, 2n, … of every n-th row, at n times the spacings.
+    """Return the map of every n-th point of every n-th row, with n = `step` times the spacings.
 
-    Raises ValueError if no point is left, or fewer than two rows or columns.
+    Raises ValueError if all points of the coarser map are nan, or if it has fewer than two rows or columns.
     """
     if step == 1:
         return indenter
@@ -55,21 +59,23 @@ def every_nth_point(indenter: Indenter, step: int) -> Indenter:
 
 
 def ordinal(number: int) -> str:
-    """Return a number as it counts, such as "2nd" or "4th"."""
+    """Return the ordinal of a number as a text, such as "2nd" or "4th"."""
     ending = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th") if number // 10 % 10 != 1 else "th"
     return f"{number}{ending}"
 
 
 def highest_missed(indenter: Indenter, coarse: Indenter) -> float:
-    """Return the height of the highest point of a map above the highest point of a coarser map [length]."""
+    """Return how much higher the highest point of a map is than the highest point of a coarser map [length]."""
     return float(np.nanmax(indenter.heights)) - float(np.nanmax(coarse.heights))
 
 
 def lowest_force(indenter: Indenter, last_force: float) -> float:
-    """Return the smallest F/G of means over a curve [length²].
+    """Return the force F/G from which on means over a whole curve are taken [length²].
 
-    It is X = F/(4GhL) = 0.01, with the rms height h of the map and the diameter L of a disc of its area, or a tenth of
-    the last force if this is smaller.
+    This is the force with X = F/(4GhL) = 0.01, where h is the rms height of the map, and L the diameter of a disc with
+    the area of the map. If a tenth of the last force of the curve is smaller, this tenth is returned instead.
+
+    last_force : F/G at the end of the curve [length²]
     """
     area = indenter.elements * indenter.spacing * indenter.row_spacing
     diameter = 2 * np.sqrt(area / np.pi)
@@ -77,11 +83,12 @@ def lowest_force(indenter: Indenter, last_force: float) -> float:
 
 
 def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indenter, missed: float) -> LoadingCurve:
-    """Return a curve with the estimated errors of its grid.
+    """Return a curve together with the estimated errors due to the spacing of its map.
 
-    curve, coarse : curve on a map, and on every second point of it; the coarse curve is straight beyond its last level
-    indenter : map for `lowest_force`
-    missed : `highest_missed` of the two maps
+    curve : loading curve of a map
+    coarse : loading curve of every second point of the map; it is continued as a straight line beyond its last level
+    indenter : map whose height and size determine the smallest force of means (see `lowest_force`)
+    missed : height of the highest point of the map above the highest point of the coarse map [length]
     """
     levels = np.log(curve.force)
     points = _points(levels[0], levels[-1])
@@ -90,7 +97,8 @@ def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indent
     coarse_stiffness = coarse.at_force(np.minimum(force, coarse.force[-1]))[1]
     velocity = np.log(coarse_stiffness / stiffness) ** 2
     lost = (1 - _force_at_depth(coarse, depth - missed) / force) ** 2
-    area = np.log(_contact_count(curve, force) / (4 * _contact_count(coarse, force)))  # larger elements
+    # An element of the coarse map has four times the area.
+    area = np.log(_contact_count(curve, force) / (4 * _contact_count(coarse, force)))
     window = np.maximum(levels - _HALF_WINDOW, levels[0]), np.minimum(levels + _HALF_WINDOW, levels[-1])
     whole = np.log(max(lowest_force(indenter, curve.force[-1]), curve.force[0])), levels[-1]
     return replace(
@@ -104,19 +112,20 @@ def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indent
 
 
 def _points(first: float, last: float) -> Array:
-    """Return equidistant points from first to last for the comparison of curves."""
+    """Return equidistant values of ln F from `first` to `last`, at which curves are compared."""
     return np.linspace(first, last, 2 + int(_POINTS_PER_DECADE * (last - first) / np.log(10)))
 
 
 def _forces(points: Array, curve: LoadingCurve) -> Array:
-    """Return forces at the points ln F, without rounding beyond the ends of the curve."""
+    """Return the forces F for given values of ln F, limited to the forces of the curve in spite of rounding."""
     return np.clip(np.exp(points), curve.force[0], curve.force[-1])
 
 
 def _means(points: Array, values: Array, low: Any, high: Any) -> Any:
-    """Return means from `low` to `high` of values that are linear between the points; the value itself if low = high.
+    """Return the mean of a piecewise linear function from `low` to `high`, or its value there if low = high.
 
-    low, high : ends within the points, numbers or arrays of equal shape
+    points, values : function values at the points, between which the function is linear
+    low, high : ends of the interval, within the range of the points; numbers or arrays of equal shape
     """
     integrals = np.append(0.0, np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(points)))
     width = high - low
@@ -125,9 +134,11 @@ def _means(points: Array, values: Array, low: Any, high: Any) -> Any:
 
 
 def _force_at_depth(curve: LoadingCurve, depth: Array) -> Array:
-    """Return the force at depths, 0 above the first contact; beyond its ends the curve is straight.
+    """Return the force F/G at each depth, which is 0 for depths below 0.
 
-    The power law between forces at close distances takes far less time than `LoadingCurve.at_depth`.
+    Before its first level the curve is a straight line from the origin, and beyond its last level its tangent. Between
+    the levels, the force is a power law of the depth between closely spaced points of the curve, which takes far less
+    time than `LoadingCurve.at_depth`.
     """
     force = _forces(_points(*np.log(curve.force[[0, -1]])), curve)
     log_depth = np.log(np.clip(depth, curve.depth[0], curve.depth[-1]))
@@ -138,5 +149,5 @@ def _force_at_depth(curve: LoadingCurve, depth: Array) -> Array:
 
 
 def _contact_count(curve: LoadingCurve, force: Array) -> Array:
-    """Return the number of elements in contact at forces, a power law of the force between the levels."""
+    """Return the number of elements in contact at each force; between levels it is a power law of the force."""
     return np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))

@@ -1,10 +1,13 @@
-"""Follow the elastic loading path of a rigid indenter by boundary elements, from level to level.
+"""Compute the elastic loading curve of a rigid indenter by boundary elements, level by level at increasing depths.
 
-One path determines the solution of the viscous problem for every force history (viscorough.viscous.kinetics).
-While few elements are in contact, every contact event (the next element touches) is a level: between events the curve
-is straight, so interpolation is exact. Later, levels are placed as interpolation requires (step_control). A curve that
-reaches complete contact ends at this depth, which two linear problems give (complete_contact): elements whose overlap
-stays within the tolerance need not join the contact, so a search for the last elements could continue without end.
+The loading curve determines the solution of the viscous problem for every force history (viscorough.viscous.kinetics).
+While few elements are in contact, there is a level at every contact event, the depth at which the next element touches.
+The curve is straight between events, so interpolation is exact. Later, levels are placed as the interpolation requires
+(step_control).
+
+A curve that reaches complete contact ends at the depth of complete contact, which is computed from two linear problems
+(complete_contact). It cannot be found by increasing the depth: an element that overlaps the surface by less than the
+tolerance need not join the contact, so the last elements might never join.
 """
 
 from __future__ import annotations
@@ -35,21 +38,24 @@ from viscorough.contact.step_control import ContactsAhead, Level, StepControl, d
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# Ratio of depths of the steps that approach the start fraction.
+# Below the contact fraction `start_fraction`, levels are far apart: each depth is this multiple of the depth before.
 _APPROACH_DEPTH_RATIO = 4.0
-# Approach the start fraction up to this share of it.
+# These long steps end when the contact fraction reaches this share of `start_fraction`.
 _APPROACH_SHARE = 0.7
-# End the approach when its steps, which become shorter close to the start, reach this ratio of depths.
+# The long steps become shorter close to `start_fraction`. They end at the latest when the ratio of successive depths
+# falls to this value.
 _APPROACH_MIN_RATIO = 1.02
-# A curve up to this contact fraction does not need the depth of complete contact for its end.
+# A curve that ends at a contact fraction up to this one does not need the depth of complete contact.
 _FAR_FROM_COMPLETE = 0.95
-# Tolerance of a curve unless one is given.
+# Tolerance of a curve if the user gives none.
 _DEFAULT_TOLERANCE = 1e-3
 # Smallest and largest error of the velocity that can be requested.
 _ERRORS = 1e-3, 0.5
-# Share of a curve in the computation of a curve and its estimated grid error.
+# If the grid error is estimated, too, the curve itself takes about this share of the time. The rest is for the curve of
+# every second point.
 _SHARE_OF_CURVE = 0.75
-# Exponent of the share of the contact, or of the force, in the estimated share of the computation.
+# The finished share of the computation is estimated as a power of the reached share of the final contact count, or of
+# the final force, with this exponent.
 _PROGRESS_EXPONENT = 0.5
 
 
@@ -73,65 +79,71 @@ def indent(
 ) -> LoadingCurve:
     """Compute the loading curve of a rigid indenter in an incompressible elastic half-space, without friction.
 
-    Solves w = (1/4πG) ∫ p/r dA with p ≥ 0, w ≥ u − g and p (w − u + g) = 0 for the initial gaps g of the indenter's
-    elements (uniform pressure on square elements; Love 1929), at increasing depths u.
+    At increasing depths u, the pressure p and the deflection w of the surface satisfy::
+
+        w = (1/4πG) ∫ p/r dA,   p ≥ 0,   w ≥ u − g,   p (w − u + g) = 0
+
+    Here G is the shear modulus, g the initial gap of an element, and r the distance from the area element dA. The
+    pressure is uniform on each rectangular element (Love 1929).
 
     Parameters
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
     forces : array_like, optional
-        Levels at exactly these F/G, increasing [length²]; not together with depths.
+        Forces F/G of the levels, increasing [length²]; not together with depths.
     depths : array_like, optional
-        Levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires.
+        Depths of the levels, increasing [length]. By default levels are placed as the tolerance requires.
     start_fraction : float, optional
         Smallest contact fraction that is of interest, below `until_fraction`. At smaller fractions the curve has only a
-        few levels, and interpolation between these may exceed the tolerance. Ignored if depths or forces are given.
+        few levels, and the error of interpolation between them may exceed the tolerance. Ignored if depths or forces
+        are given.
     until_fraction : float, optional
         Largest contact fraction of the curve, in (0, 1]; ignored if depths or forces are given.
     until_force : float or str, optional
         Largest F/G of the curve [length²]; ignored if depths or forces are given.
     shear_modulus : float or str, optional
-        G of an incompressible half-space [Pa], or a text like "2 MPa"; forces are then F [N], or texts like "5 mN".
-        Depths may be texts, too.
+        Shear modulus G of an incompressible half-space [Pa], or a text like "2 MPa". If it is given, `forces` and
+        `until_force` are forces F [N], or texts like "5 mN". Depths may be texts, too.
     young_modulus : float or str, optional
         Young's modulus E instead of G: G = E/(1 − ν²)/4.
     poisson : float, optional
         Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
     tolerance : float, optional
-        Largest gap in contact, or overlap outside it, over the depth, at every level, rounding included. The relative
-        error of the force is far below it; the stiffness is less accurate (docs/solver.md). Also the largest relative
-        error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5, if neither depths nor
-        forces are given. Between 1e-12 and 0.1; by default 1e-3. It does not include the error of the grid, which is
-        often larger (`estimate_grid_error`).
+        Accuracy of every level, between 1e-12 and 0.1; by default 1e-3. It bounds the gap in contact and the overlap
+        outside the contact, each divided by the depth, with rounding included. The relative error of the force is far
+        smaller; the stiffness is less accurate (docs/solver.md). If neither depths nor forces are given, the tolerance
+        (but at least 1e-5) also bounds the relative error of the depth that LoadingCurve.at_force interpolates between
+        levels. The error of the grid is not included and is often larger (see `estimate_grid_error`).
     error : float, optional
-        Relative error of the velocity that is allowed, from 1e-3 to 0.5, instead of a tolerance. The curve is computed
-        on as few points of the map, and to as loose a tolerance, as the estimated error allows: on every n-th point in
-        both directions, with n a power of two, from coarse to fine. It is the root mean square over all forces F/G from
-        hL/25 on, with the rms height h and the diameter L of a disc of the same area, and is relative to the curve
-        of all points. The result states `sampling` and the reason for it, `choice`.
+        Allowed relative error of the velocity, from 1e-3 to 0.5, instead of a tolerance. The curve is computed to a
+        loose tolerance on every n-th point of the map in both directions. The step n is a power of two and is halved
+        until the estimated error is small enough. The error is relative to the curve of all points. It is the root mean
+        square over all forces F/G from hL/25 on, with the rms height h of the map and the diameter L of a disc of the
+        same area. The result states the step n as `sampling`, and the reason for it as `choice`.
     estimate_grid_error : bool, optional
-        Estimate the error due to the spacing of the map, `grid_error` of the result, from a second curve on every
-        second point. This takes 0.2 to 0.6 times as long as the curve. With `error` it is always estimated.
+        Estimate the error due to the spacing of the map from a second curve on every second point; the result contains
+        it as `grid_error`. The second curve takes 0.2 to 0.6 times as long as the first. With `error` the error of the
+        grid is always estimated.
     progress : Progress, optional
-        Function called after a level with the estimated finished share of the computation, up to 1.
+        Function that is called after each level with the estimated finished share of the computation, up to 1.
     threads : int, optional
-        Number of threads; the result does not depend on it. Use several for large maps.
+        Number of threads; it does not change the result. Use several for large maps.
     options : SolverOptions, optional
         Details of the iterations, such as their precision; change them only to measure their effect.
 
     Returns
     -------
     LoadingCurve
-        Its last level is the first level at or beyond `until_fraction` or `until_force`, or the depth of
-        `complete_contact`: beyond it the curve is straight. An indenter of one height has a
-        single level, at a depth of one spacing (√(dx dy) for two): its curve is the straight line from the origin
-        through it.
+        Curve whose last level is the first one at or beyond `until_fraction` or `until_force`, or else the level at the
+        depth of complete contact, beyond which the curve is straight. If all heights of the indenter are equal, the
+        curve is a straight line from the origin. It then has a single level, at the depth √(dx dy), with the spacings
+        dx and dy of the map.
 
     Raises
     ------
     ValueError
-        For arguments out of range, for an error together with a tolerance, depths or forces, and for maps of fewer than
+        For arguments out of range; for `error` together with a tolerance, depths or forces; for maps of fewer than
         3 x 3 points if the error of the grid is needed.
     ConvergenceError
         If a level cannot be solved to the tolerance.
@@ -139,7 +151,8 @@ def indent(
     Warns
     -----
     AccuracyWarning
-        If the estimated error of the grid of the whole map exceeds the requested error.
+        If the estimated error exceeds the requested `error` even with all points of the map, or if the depth is larger
+        than the map is wide.
 
     Examples
     --------
@@ -149,7 +162,7 @@ def indent(
     >>> curve.depth.tolist(), bool(curve.force[0] < curve.force[1])
     ([0.005, 0.01], True)
 
-    Request the velocity within 20 %, which takes every second point:
+    Request an error of the velocity of at most 20 %, for which every second point suffices:
 
     >>> disc = viscorough.self_affine_disc(0.8, 129, rms=0.01, seed=1)
     >>> viscorough.indent(disc, error=0.2).sampling
@@ -186,11 +199,13 @@ def indent(
 
 @dataclass(frozen=True)
 class _CurveRequest:
-    """Range or levels of a curve, and details of its computation: the checked arguments of `indent`, as numbers.
+    """Arguments of `indent` after they were checked and converted to numbers.
 
-    depths, forces : levels [length] or F/G [length²]; at most one of them is given, and then the range is ignored
     start_fraction, until_fraction : range of contact fractions
     until_force : largest F/G of the curve [length²]
+    depths : depths of the levels [length], or None
+    forces : forces F/G of the levels [length²], or None; depths and forces are never both given, and if either is
+        given, the three values above are ignored
     threads : number of threads
     options : SolverOptions
     """
@@ -205,7 +220,7 @@ class _CurveRequest:
 
 
 def _check_fractions(start_fraction: float, until_fraction: float) -> tuple[float, float]:
-    """Return both contact fractions as floats. Raises ValueError for fractions out of range."""
+    """Return both contact fractions as floats. Raises ValueError if either is out of range."""
     until_fraction = fraction("indent: until_fraction", until_fraction)
     start_fraction = real_number("indent: start_fraction", start_fraction)
     if not 0 <= start_fraction < until_fraction:
@@ -214,7 +229,11 @@ def _check_fractions(start_fraction: float, until_fraction: float) -> tuple[floa
 
 
 def _check_until_force(until_force: float | str, modulus: float | None, unit: str) -> float:
-    """Return the largest force of a curve as F/G [length²]. Raises ValueError unless it is positive."""
+    """Return the largest force of a curve as F/G [length²]. Raises ValueError unless it is positive.
+
+    modulus : shear modulus G, or None if `until_force` is F/G already
+    unit : unit of length
+    """
     if not (isinstance(until_force, float | np.floating) and until_force == np.inf):
         until_force = units.forces_over_modulus(until_force, modulus, unit, argument("until_force"))
         until_force = real_number(argument("until_force"), until_force)
@@ -232,7 +251,11 @@ def _check_depths(depths: ArrayLike | None, unit: str) -> Array | None:
 
 
 def _check_forces(forces: ArrayLike | None, modulus: float | None, unit: str) -> Array | None:
-    """Return the forces of levels as F/G [length²]. Raises ValueError unless they are positive and increase."""
+    """Return the forces of levels as F/G [length²]. Raises ValueError unless they are positive and increase.
+
+    modulus : shear modulus G, or None if `forces` are F/G already
+    unit : unit of length
+    """
     if forces is None:
         return None
     numbers = np.atleast_1d(units.forces_over_modulus(forces, modulus, unit, argument("forces")))
@@ -240,7 +263,12 @@ def _check_forces(forces: ArrayLike | None, modulus: float | None, unit: str) ->
 
 
 def _check_error(error: float | None, **others: Any) -> float | None:
-    """Return the error as a float. Raises ValueError unless it is in range, and for other arguments along with it."""
+    """Return the requested error as a float, or None if none is requested.
+
+    others : arguments that exclude a requested error, by name; None if not given
+
+    Raises ValueError if the error is out of range, or if any of the other arguments is given, too.
+    """
     if error is None:
         return None
     error = real_number(argument("error", of="indent"), error)
@@ -260,7 +288,7 @@ def _check_error(error: float | None, **others: Any) -> float | None:
 def _curve_with_grid_errors(
     request: _CurveRequest, indenter: Indenter, tolerance: float, progress: Progress
 ) -> LoadingCurve:
-    """Compute the LoadingCurve of a map, and estimate the errors of its grid from a curve on every second point."""
+    """Return the LoadingCurve of a map with the errors of its grid, estimated from the curve of every second point."""
     curve = _curve(request, indenter, tolerance, part_of(progress, 0.0, _SHARE_OF_CURVE))
     coarse, rest = every_nth_point(indenter, 2), part_of(progress, _SHARE_OF_CURVE, 1.0)
     whole = replace(request, depths=None, forces=None, until_fraction=1.0, until_force=curve.force[-1])
@@ -269,14 +297,15 @@ def _curve_with_grid_errors(
 
 
 def _curve(request: _CurveRequest, indenter: Indenter, tolerance: float, progress: Progress) -> LoadingCurve:
-    """Compute the LoadingCurve of a map."""
+    """Compute the LoadingCurve of a map to a tolerance."""
     depths, forces, options, threads = request.depths, request.forces, request.options, request.threads
     if depths is not None:
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1], whole=False)
         contacts = accumulate(depths, solver.advance, initial=solver.unloaded_state())
         levels = _levels(islice(contacts, 1, None), len(depths), progress)
     elif forces is not None:
-        # The correction to the force takes the other half of the tolerance.
+        # Contacts use half of the tolerance. The correction of each contact to exactly the given force may use the
+        # other half.
         solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False)
         levels = _levels(map(ForceSearch(solver).contact_at, forces), len(forces), progress)
     else:
@@ -304,7 +333,12 @@ def _curve(request: _CurveRequest, indenter: Indenter, tolerance: float, progres
 
 
 def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str) -> None:
-    """Raise ValueError if given depths or forces are so close that the results at them do not increase."""
+    """Raise ValueError if given depths are so close that the computed forces do not increase, or vice versa.
+
+    given : depths or forces of the levels as the user has given them, or None
+    found : computed forces or depths of the same levels
+    name, other : names of the given and of the computed quantity, "depths" or "forces"
+    """
     if given is not None and (closer := np.diff(found) <= 0).any():
         level, values = int(np.argmax(closer)), np.asarray(given)
         pair = f"{values[level]:.17g} and {values[level + 1]:.17g} are closer than the accuracy"
@@ -313,7 +347,10 @@ def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str
 
 
 def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:
-    """Return the levels of so many contacts, which are solved one after the other."""
+    """Return the levels of contacts, which are solved as the iterator is read; report progress after each contact.
+
+    number : number of contacts
+    """
     levels = []
     for contact in contacts:
         levels.append(Level.of(contact))
@@ -322,21 +359,27 @@ def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -
 
 
 class _LoadingPath:
-    """Path from first contact to the largest contact fraction or force of a curve; works in reduced units."""
+    """Levels of a loading curve, from first contact up to a contact fraction or force; works in reduced units.
+
+    solver : ContactSolver of the indenter
+    until_fraction : largest contact fraction of the curve
+    until_force : largest F/G of the curve [length²]
+    progress : function that is called with the finished share of the computation
+    """
 
     def __init__(self, solver: ContactSolver, until_fraction: float, until_force: float, progress: Progress) -> None:
         self._solver, self._progress = solver, progress
         self._control = StepControl(solver.tolerance, solver.threads)
         self._until_count = until_fraction * solver.elements.count
-        self._complete: ContactState | None = None  # computed when the path may have reached it
-        # Slightly more, so that rounding does not leave the last level below the force.
+        self._complete: ContactState | None = None  # complete contact; computed only when a contact may have reached it
+        # The limit is slightly above the force, so that rounding does not leave the last level below the force.
         self._until_pressure_sum = (1 + ROUNDING / 2) * until_force / solver.units.force
         self._contact = solver.first_contact()
         self._levels = [Level.of(self._contact)]
         self._ahead = ContactsAhead()
 
     def levels_from(self, start_fraction: float) -> list[Level]:
-        """Return all levels; there are only a few below the start fraction."""
+        """Return the levels of the whole curve, with only a few levels below the contact fraction `start_fraction`."""
         self._approach(start_fraction * self._solver.elements.count)
         self._follow_events()
         self._step_to_the_end()
@@ -348,13 +391,15 @@ class _LoadingPath:
             return False
         if contact.count < every or isinstance(contact, DenseContact):
             return contact.count < self._until_count  # a dense solution is exact
-        # On the grid the last elements may join too early, within the tolerance.
+        # All elements are in contact on the grid. There, elements may join slightly too early, because their gaps are
+        # computed to the tolerance, so contact need not be complete yet.
         return self._until_count > every - 1 and not self._solver.is_flat
 
     def _advance_to(self, depth: float) -> ContactState:
-        """Return the contact at a larger depth, or the first complete contact if that is reached before.
+        """Return the contact at a larger depth, or the contact at the depth of complete contact if this is smaller.
 
-        The depth of complete contact is computed as soon as a contact may lie beyond it, unless the curve ends there.
+        The depth of complete contact is computed as soon as a contact may lie beyond it, unless the curve ends with
+        this contact.
         """
         if self._complete is None:
             contact = self._solver.advance_reduced(self._contact, depth)
@@ -365,7 +410,8 @@ class _LoadingPath:
             if is_last or not self._solver.may_be_complete(contact):
                 return contact
             self._complete = self._solver.complete_contact()
-            # Rounding and residuals must not decide the order of two levels at almost the same depth.
+            # If the contact is at almost the depth of complete contact, return complete contact: rounding and residuals
+            # could otherwise put two levels in the wrong order.
             is_before = depth * self._control.min_ratio < self._complete.reduced_depth
             return contact if is_before else self._complete
         if depth >= self._complete.reduced_depth:
@@ -379,27 +425,31 @@ class _LoadingPath:
         self._progress(min(done, 1.0) ** _PROGRESS_EXPONENT)
 
     def _approach(self, start_count: float) -> None:
-        """Take long steps towards the smallest contact count of interest, and shorter steps close to it."""
+        """Take long steps towards the smallest contact count of interest, and shorter steps close to this count."""
         ratio, most = _APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
         while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
             contact = self._advance_to(self._contact.reduced_depth * ratio)
-            # Contacts beyond the start are kept for later: the interval that contains the start must be short.
+            # A contact beyond the start count is kept for later. It is not the next level, because levels near the
+            # start count must be close together.
             if contact.count >= start_count or contact.pressure_sum > self._until_pressure_sum:
                 self._ahead.keep(contact)
             else:
                 self._add(contact)
-            if self._ahead:  # then levels approach the nearest of these contacts
+            if self._ahead:  # go half of the way, in ln u, to the nearest contact beyond the start count
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 
     def _follow_events(self) -> None:
-        """Add the contact events as levels while few elements are in contact; only a dense solution is exact enough."""
+        """Add contact events as levels while few elements are in contact.
+
+        Nothing is added after a contact on the grid, which is not exact enough.
+        """
         contact = self._contact
         if not self._is_unfinished() or not isinstance(contact, DenseContact) or contact.count >= self._control.events:
             return
         most = min(self._control.events, int(np.ceil(self._until_count)))
         events, self._contact, _ = self._solver.follow_events(contact, most, self._until_pressure_sum)
         if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
-            self._levels.pop()  # more elements touch at exactly this depth
+            self._levels.pop()  # the first event is at the same depth as this level, and more elements touch there
         self._levels += [Level(*event) for event in zip(*events, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
         self._ahead = ContactsAhead(contact for contact in self._ahead if contact.reduced_depth > nearest)
@@ -419,10 +469,13 @@ class _LoadingPath:
             ratio = self._control.next_ratio(step, excess)
 
     def _advance(self, ratio: float) -> ContactState:
-        """Return the contact at a depth larger by a ratio, or at the largest force of the curve if that comes first."""
+        """Return the contact at `ratio` times the current depth, or at a smaller depth that ends the curve.
+
+        The curve ends at its largest force, or at the depth of complete contact.
+        """
         contact, last_depth = self._contact, self._contact.reduced_depth
-        # The curve lies above its tangent. At this depth the force therefore reaches the largest force of the
-        # curve, or exceeds it by at least the rounding error of the contact.
+        # The tangent reaches the largest force of the curve at `sufficient_depth`. The curve lies above its tangent, so
+        # its force at this depth is at least as large. The factor is a margin for rounding.
         sufficient = (1 + ROUNDING) * self._until_pressure_sum
         sufficient_depth = last_depth + (sufficient - contact.pressure_sum) / contact.tangent_sum
         depth = max(min(last_depth * ratio, sufficient_depth), last_depth * self._control.min_ratio)

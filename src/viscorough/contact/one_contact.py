@@ -25,7 +25,8 @@ from viscorough.contact.state import ContactState
 from viscorough.results.contact_maps import Contact
 from viscorough.surfaces.indenter import Indenter
 
-# Share of the contacts up to a force in the time for this force; contacts near it take the rest.
+# Finding the contact at a force takes about this share of the time until the force is reached for the first time. The
+# rest is for contacts close to the force.
 _SHARE_OF_APPROACH = 0.6
 
 
@@ -124,39 +125,41 @@ def contact_at(
 ) -> Contact | list[Contact]:
     """Solve the contact of a rigid indenter with an incompressible elastic half-space at a given depth or force.
 
-    Solves the same problem as `indent`, at this depth only, or at the few depths that lead to the force.
+    The problem is the same as in `indent`. It is solved at the given depth only, or at the few depths that are needed
+    to find the given force.
 
     Parameters
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
     force : array_like, optional
-        F/G, G the shear modulus [length²]; with a modulus F [N], or a text with a unit like "5 mN"; or several
-        forces, increasing. Either depth or force must be given.
+        Force F/G, where G is the shear modulus [length²]. If a modulus is given, force F [N], or a text with a unit
+        like "5 mN". Several forces must increase. Either depth or force must be given.
     depth : array_like, optional
-        u, from first contact [length], or a text with a unit like "20 nm"; or several depths, increasing.
+        Depth u from first contact [length], or a text with a unit like "20 nm". Several depths must increase.
     shear_modulus : float or str, optional
-        G of an incompressible half-space [Pa], or a text like "2 MPa". If the unit of length is unknown, it is in
-        consistent units.
+        Shear modulus G of an incompressible half-space [Pa], or a text like "2 MPa". If the unit of length is unknown,
+        G is in units consistent with force and length.
     young_modulus : float or str, optional
         Young's modulus E instead of G, in the same units: G = E/(1 − ν²)/4.
     poisson : float, optional
         Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
     tolerance : float, optional
-        Largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of force
-        at a given depth, and of depth at a given force, are far below it. Between 1e-12 and 0.1.
+        Accuracy of the contact, between 1e-12 and 0.1. It bounds the gap in contact and the overlap outside the
+        contact, each divided by the depth, with rounding included. The relative errors of the force at a given depth,
+        and of the depth at a given force, are far smaller.
     progress : Progress, optional
-        Function called after each contact with the estimated finished share of the computation, up to 1.
+        Function that is called after each contact with the estimated finished share of the computation, up to 1.
     threads : int, optional
-        Number of threads; the result does not depend on it. Use several for large maps.
+        Number of threads; it does not change the result. Use several for large maps.
     options : SolverOptions, optional
         Details of the iterations, such as their precision; change them only to measure their effect.
 
     Returns
     -------
     Contact or list[Contact]
-        One Contact; for several depths or forces a list of contacts, which are solved along one path. The pressures add
-        up to `force` to rounding.
+        The contact, or a list of contacts for several depths or forces; each contact is solved from the one before. The
+        pressures times the area of an element add up to the force F/G within rounding.
 
     Raises
     ------
@@ -188,13 +191,14 @@ def contact_at(
         given = units.forces_over_modulus(force, modulus, unit, argument("force"))
     name = argument("depth" if by_depth else "force", of="contact_at")
     values = increasing(name, np.atleast_1d(given), above_zero=True)
-    # Pressures that add up to the force exactly take the other half of the tolerance.
+    # Contacts use half of the tolerance. The change of the pressures to exactly the sum of the force may use the other
+    # half.
     largest_depth = float(values[-1]) if by_depth else np.inf
     solver = ContactSolver(indenter, tolerance / 2, options, threads, largest_depth=largest_depth, whole=False)
     states = (_states_at_depths if by_depth else _states_at_forces)(solver, values, progress or (lambda done: None))
     contacts = []
     for value, state in zip(values, states, strict=True):
-        # Keep the given value instead of its rounded value.
+        # Return the depth or force as given: conversion to reduced units and back would round it.
         depth, force = (float(value), state.force) if by_depth else (state.depth, float(value))
         contacts.append(_with_maps(solver, state, depth, force, tolerance, modulus))
     warn_beyond_theory("contact_at", indenter, contacts[-1].depth)
@@ -204,7 +208,7 @@ def contact_at(
 
 
 def _states_at_depths(solver: ContactSolver, depths: Array, progress: Progress) -> Iterator[ContactState]:
-    """Solve the contacts at depths [length], one from the other; pressures are rescaled to the sum ΣP."""
+    """Solve the contacts at depths [length], each from the one before; pressures are rescaled to add up to ΣP."""
     last: ContactState = solver.unloaded_state()
     for number, depth in enumerate(depths, 1):
         last = solver.advance(last, depth)
@@ -213,7 +217,7 @@ def _states_at_depths(solver: ContactSolver, depths: Array, progress: Progress) 
 
 
 def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) -> Iterator[ContactState]:
-    """Solve the contacts at F/G [length²], one from the other."""
+    """Solve the contacts at forces F/G [length²], each from the one before."""
     search = ForceSearch(solver)
     for number, force in enumerate(forces):
         yield search.contact_at(force, _approach(progress, number, forces.size))
@@ -221,14 +225,24 @@ def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) 
 
 
 def _approach(progress: Progress, number: int, size: int) -> Progress:
-    """Return the progress of the approach to a force after `number` of `size` forces, for shares of the force."""
+    """Return a function that reports the progress of the search for a force.
+
+    The returned function takes the share of the force that is reached so far, from 0 to 1.
+
+    progress : function that takes the finished share of the whole computation
+    number, size : number of forces that are finished, and number of all forces
+    """
     return lambda share: progress((number + _SHARE_OF_APPROACH * share) / size)
 
 
 def _with_maps(
     solver: ContactSolver, state: ContactState, depth: float, force: float, tolerance: float, modulus: float | None
 ) -> Contact:
-    """Return a contact with its maps of pressure and gap; arguments of `contact_at` as numbers."""
+    """Return a solved contact with its maps of pressure and gap.
+
+    state : solved contact
+    depth, force, tolerance, modulus : values for the result, in the units of Contact
+    """
     if not np.isfinite(state.force):
         text = "the force is too large to represent; a larger unit of length is needed"
         raise ValueError(f"{caller('contact_at')}{text}")
@@ -237,7 +251,7 @@ def _with_maps(
     pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
     contact = pressure > 0
     for array in (pressure, gap, contact):
-        array.flags.writeable = False  # then they need not be copied
+        array.flags.writeable = False  # a Contact copies writeable arrays
     return Contact(
         pressure=pressure,
         gap=gap,
@@ -255,7 +269,7 @@ def _with_maps(
 
 
 def _completeness_warning(indenter: Indenter, contact: Contact) -> str:
-    """Return the text of a warning if all elements are in contact although their heights differ, otherwise nothing."""
+    """Return a warning text if all elements are in contact although their heights differ, and "" otherwise."""
     if contact.contact_count < contact.elements or np.ptp(indenter.initial_gap[contact.contact]) == 0:
         return ""
     depth = with_unit(contact.depth, indenter.length_unit)

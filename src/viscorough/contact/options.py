@@ -1,60 +1,68 @@
-"""Options of the contact solver: how a contact is computed."""
+"""Define the options of the contact solver."""
 
 from dataclasses import dataclass, fields
 
 from viscorough.basics.arrays import real_number, shown, whole_number
 
-# The first set leaves out elements that touch in this last part of a step from the unloaded state (in a smaller part of
-# smaller steps): the load of elements that touch before bends the surface away from them.
+# A step from one depth to the next starts from a guess of the contact set. The guess leaves out elements that are
+# predicted to touch late in the step, since the elements that touch earlier will push the surface away from them. In a
+# step from depth 0, "late" is this last share of the step. In a smaller step, the share is smaller by the ratio of the
+# step to the new depth.
 LATE = 0.5
 
 
 @dataclass(frozen=True)
 class SolverOptions:
-    """Options of the contact solver. The defaults suit every indenter; other values serve to measure the effect of a
-    part.
+    """Options of the contact solver.
+
+    The defaults suit every indenter. Change an option only to measure the effect of a part of the solver.
 
     Parameters
     ----------
     precision : str
-        "single" or "double": floating-point type of the iterations on the grid. They compute corrections to the
-        predicted contact, so rounding to single precision stays far below the tolerance.
+        Floating-point type of the iterations on the grid, "single" or "double". The iterations compute corrections to
+        the predicted contact, so rounding to single precision stays far below the tolerance.
     exact_gap_below : float
-        Tolerance below which the gap is recomputed in double precision when the bound on its rounding error nears the
-        tolerance; 0: the gap is never recomputed.
+        If the tolerance is below this value, the gap is recomputed in double precision as soon as the bound on its
+        rounding error comes close to the tolerance. With 0 the gap is never recomputed.
     operator_rounding : float
-        Bound on the rounding error of one application of the half-space operator, over the largest deflection and the
-        machine precision; 0: rounding is ignored.
+        Bound on the rounding error of one application of the half-space operator, as a multiple of the largest
+        deflection times the machine precision. With 0 this rounding error is ignored.
     max_iterations : int
-        Largest number of iterations of one level; beyond it ConvergenceError is raised.
+        Largest number of iterations for one contact. ConvergenceError is raised if these do not suffice.
     dense_contacts : int
-        Largest number of elements in contact for a dense solution of a level.
+        Contacts of up to this number of elements are solved by dense linear algebra instead of on a grid.
     dense_interactions : int
-        Largest product, for a dense solution of a level, of the number of elements that can be in contact and the
-        number of elements in contact at the level before.
+        A contact is solved by dense linear algebra only if a product of two numbers is at most this: the number of
+        elements that can touch at its depth, and the number of elements in contact at the depth solved before.
     padding : bool
-        Pad the grid against periodic images; without padding the indenter repeats at its own period.
+        True to pad the grid with zeros, as a single indenter requires. Without padding, the grid is repeated
+        periodically without space between the images, and the loads of all images act on the indenter.
     max_depths : int
-        Largest number of depths that are solved for a force; beyond it ConvergenceError is raised.
+        Largest number of depths that are solved to find the contact at a force. ConvergenceError is raised if these do
+        not suffice.
     rank_first : int
-        Number of elements that are ranked before the first contact at a force; maps of fewer elements are ranked whole.
+        Before the first contact at a force, about this number of elements is sorted by height ("ranked"), from the
+        highest element on. On maps of fewer elements, all are ranked at once.
     rank_all_for_curves : int
-        Largest number of elements that are all ranked before a curve.
+        Before the computation of a curve, all elements are ranked if their number is at most this.
     rank_all_share : float
-        Share of the elements above which all are ranked as soon as a contact needs that many.
+        As soon as a contact needs more than this share of the elements to be ranked, all elements are ranked.
     blocks_from : int
-        Number of elements above which the depth at a force is first estimated on a coarser map, of blocks of elements.
+        If the map has more elements than this, the depth at a force is first estimated on a coarser map, in which each
+        block of 4 x 4 elements is replaced by its highest element.
     blocks_in_contact : int
-        Smallest number of blocks in contact for such an estimate.
+        The estimate is used only if at least this number of blocks is in contact.
     tiles_from : int
-        Number of elements of a grid above which the operator may be restricted to tiles with elements in contact.
+        If a grid has more elements than this, the operator may be restricted to those tiles (parts of the grid) that
+        contain elements that can touch.
     tiles_share : float
-        Largest share of these tiles in the grid for the restriction.
+        The operator is restricted only if these tiles are at most this share of the grid.
 
     Raises
     ------
     ValueError
-        For other texts, for negative numbers, and for max_iterations, max_depths or rank_first below 1.
+        For an unknown `precision`, for negative numbers, and for max_iterations, max_depths or rank_first below 1.
 
     Examples
     --------
@@ -82,7 +90,7 @@ class SolverOptions:
     tiles_share: float = 0.5
 
     def __repr__(self) -> str:
-        """Show the call that makes these options, without default values."""
+        """Return the call that creates these options; options with default values are left out."""
         given = {field.name: getattr(self, field.name) for field in fields(self)}
         changed = [f"{name}={given[name]!r}" for name in given if given[name] != getattr(SolverOptions, name)]
         return f"SolverOptions({', '.join(changed)})"

@@ -1,8 +1,9 @@
 """Run loops over large arrays on several threads of the process.
 
-Compiled loops and Fourier transforms release the interpreter's lock, so blocks of an array are processed at the same
-time. The division of an array does not depend on the number of threads, and results of blocks are combined in their
-order. So computed numbers are the same to the last bit for any number of threads.
+Compiled loops and Fourier transforms release Python's global interpreter lock, so several blocks of an array can be
+processed at the same time. The division into blocks does not depend on the number of threads, and the results of blocks
+are combined in the order of the blocks. Computed numbers are therefore the same to the last bit for any number of
+threads.
 """
 
 import os
@@ -17,15 +18,19 @@ from numpy.typing import DTypeLike, NDArray
 
 from viscorough.basics.arrays import is_whole, shown
 
-# Entries of a block: a map of 257 x 257 elements is one block, so such maps take no more time.
+# Largest number of array entries in a block. A map of 257 x 257 elements fits into one block, so threads cost no time.
 BLOCK = 1 << 17
+# Largest number of threads that a user can request.
 MOST_THREADS = 1024
-# Bytes that the processor reads and writes at a time.
+# Size of a line of the processor's cache in bytes.
 _CACHE_LINE = 64
 
 
 def require_threads(name: str, threads: Any) -> None:
-    """Raise ValueError, which starts with the name, unless `threads` is a whole number from 1 to MOST_THREADS."""
+    """Raise ValueError unless `threads` is a whole number from 1 to MOST_THREADS.
+
+    name : name of the function that the user called; the message starts with it
+    """
     if not is_whole(threads) or not 1 <= threads <= MOST_THREADS:
         raise ValueError(f"{name}: threads must be a whole number from 1 to {MOST_THREADS}, not {shown(threads)}")
 
@@ -33,15 +38,19 @@ def require_threads(name: str, threads: Any) -> None:
 def run_blocks(
     function: Callable[[int, int], Any], size: int, threads: int, block: int = BLOCK, multiple: int = 1
 ) -> list[Any]:
-    """Call function(start, stop) for every block of range(size), on so many threads; return its results in order.
+    """Divide range(size) into blocks, call function(start, stop) for every block, and return the results in order.
 
-    function : releases the interpreter's lock while it computes, and writes to no entry that another block reads
-    block : largest number of entries of a block, itself a multiple of `multiple`
-    multiple : all blocks except the last have a multiple of this number of entries
+    The calls run on up to `threads` threads.
+
+    function : function that releases Python's global interpreter lock while it computes, and that does not write to
+        array entries which the call for another block reads
+    size : number of entries to divide
+    block : largest number of entries in a block, a multiple of `multiple`
+    multiple : the number of entries in every block except the last is a multiple of this number
     """
     if size <= block:
         return [function(0, size)]
-    # An even number of blocks of equal size: two threads then take the same time even for few blocks.
+    # Use an even number of blocks of equal size, so that two threads take the same time even if there are few blocks.
     count = -(-size // (2 * block)) * 2
     block = -(-size // (count * multiple)) * multiple
     starts = range(0, size, block)
@@ -57,13 +66,15 @@ def run_blocks(
         work()
     finally:
         for helper in pending:
-            if not helper.cancel():  # a helper that has not started yet has nothing left to do
+            # Cancelling succeeds if a helper has not started. No block is then left for it, so it need not run. Wait
+            # only for helpers that have started.
+            if not helper.cancel():
                 helper.result()
     return results
 
 
 def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
-    """Return an array of zeros whose first entry starts a line of the cache; loops then access it faster."""
+    """Return an array of zeros that starts at the beginning of a line of the cache; loops access such arrays faster."""
     size = int(np.prod(shape)) * np.dtype(dtype).itemsize
     memory = np.zeros(size + _CACHE_LINE, np.uint8)
     start = -memory.ctypes.data % _CACHE_LINE
@@ -71,7 +82,10 @@ def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
 
 
 class Buffer(threading.local):
-    """A scratch array for every thread: zero when allocated, later as the thread has left it."""
+    """Scratch array `array`, separate for each thread.
+
+    It consists of zeros when a thread uses it first; later it contains what the thread has written last.
+    """
 
     def __init__(self, shape: tuple[int, ...], dtype: DTypeLike) -> None:
         self.array = aligned_zeros(shape, dtype)
@@ -79,5 +93,8 @@ class Buffer(threading.local):
 
 @lru_cache(maxsize=1)
 def _helpers(_process: int, threads: int) -> ThreadPoolExecutor:
-    """Return threads in addition to the calling thread; a forked process needs its own."""
+    """Return the pool of threads that work in addition to the calling thread.
+
+    The pool is cached by the id of the process, because a forked process cannot use the threads of its parent.
+    """
     return ThreadPoolExecutor(threads, thread_name_prefix="viscorough")

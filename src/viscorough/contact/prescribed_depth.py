@@ -1,11 +1,15 @@
 """Solve the frictionless contact of a rigid indenter at a prescribed depth, from the contact at a smaller depth.
 
-A contact of few elements is solved densely, a larger contact on the grid of a box around the elements that can touch.
+A contact of few elements is solved by dense linear algebra. A larger contact is solved on the grid of a box around the
+elements that can touch.
 
-The half-space is elastic. Deflections are written w = K P with P = p d/(4πG), a length, so F/G = 4π d ΣP for elements
-of area d² (symbols: contact.state). At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the
-initial gap. With the tangent q, the solution of K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq
-is the exact tangent stiffness and P + Δu q the predictor for the depth u + Δu.
+The half-space is elastic with the shear modulus G. The pressures p of elements of area d² are written as lengths
+P = p d/(4πG). The deflections are then w = K P with the influence coefficients K, and the force is F/G = 4π d ΣP
+(symbols: contact.state). At the depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, where g is the
+initial gap.
+
+The tangent q solves K q = 1 for the elements in contact, as if they were a flat punch. It gives the exact tangent
+stiffness k/G = 4π d Σq, and P + Δu q predicts the pressures at the depth u + Δu.
 """
 
 from dataclasses import replace
@@ -35,40 +39,45 @@ from viscorough.contact.state import (
 )
 from viscorough.surfaces.indenter import Indenter
 
-# Allow for this multiple of the requested depth when a new box is set up: a smaller margin means more boxes, each of
-# which costs two applications of the operator.
+# A new box contains all elements that can touch up to this multiple of the requested depth. With a smaller margin more
+# boxes are needed, and each new box costs two applications of the operator.
 _BOX_DEPTH_MARGIN = 2.0
-# Use the whole grid if the box would cover more than this share of it.
+# Use the whole grid if the box would cover more than this share of the grid.
 _LARGEST_BOX = 0.8
-# Largest growth of the area of a box by an allowance for a larger depth.
+# A box is enlarged to allow for a larger depth only as long as its area grows at most by this factor.
 _GROWTH_OF_BOX = 1.3
-# Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
-# multiple of the tolerance times the depth; a larger gap is an error.
+# Contact only grows with depth. Within the accuracy of the solution, though, an element may leave the contact. It is an
+# error if the gap of this element exceeds the tolerance times the depth by more than this factor.
 _LOST_CONTACT = 3
-# Largest reduced depth: single precision has a range of at least a thousand times as much.
+# Largest reduced depth. The largest number of single precision is more than a thousand times as large.
 _LARGEST_DEPTH = 1e25
-# Residual of the linear problems of complete contact, over the tolerance. The relative error of the depth is a few
-# times this residual. The largest residual of an element is below it times the root of the number of elements.
+# The linear problems of complete contact are solved until the norm of the residual, divided by the norm of the
+# right-hand side, is this share of the tolerance. The relative error of the depth is a few times this ratio. At a
+# single element, the residual may be √n times as large relative to the right-hand side, with the number n of elements.
 _JOINED_SHARE = 1e-4
-# A gap counts as open if it exceeds the residual by this factor, a margin for rounding.
+# A gap counts as open if it exceeds the residual by this factor, which is a margin for rounding.
 _OPEN_GAP = 1.1
-# Largest ratio of depths for a contact to be transferred to another grid as a start.
+# The last contact is transferred to a new grid, to start the iteration there, only if the new depth is less than this
+# multiple of its depth.
 _LARGEST_RATIO_OF_START = 2.0
 
 
 class ContactSolver:
-    """Solver for the contact of one indenter at increasing depths, to a residual of `tolerance` times the depth.
+    """Solver for the contact of one indenter at increasing depths.
+
+    Arguments, of which the first four are also attributes:
 
     indenter : Indenter with two-dimensional heights
-    tolerance : largest |e| in contact or overlap outside it, over the depth
+    tolerance : largest allowed ratio to the depth of the gap |e| in contact or the overlap outside the contact
     options : SolverOptions
     threads : number of threads for contacts on the grid
-    largest_depth : the largest depth that will be requested; no grid allows for more [length]
-    whole : True if the whole map will be in contact, so memory is checked for the whole map; otherwise it is checked
-        for each box around the elements that can touch
+    largest_depth : largest depth that will be requested; grids contain no elements that touch only beyond it [length]
+    whole : True if the whole map may come into contact. Memory is then checked for the whole map at once, otherwise for
+        each new box around the elements that can touch
 
-    indenter, tolerance, options, threads : as they were given
-    ranking : Ranking of the elements, which solutions extend as far as they need
+    Further attributes:
+
+    ranking : Ranking of the elements by height; each solution ranks further elements as needed
     units : state.Units
 
     Raises MemoryError if the available memory does not suffice for the map.
@@ -92,18 +101,18 @@ class ContactSolver:
         self.units: Units = self.ranking.elements.units
         self._largest_depth = largest_depth / self.units.length
         self._loops = GridLoops(threads)
-        self._grid: GridSolver | None = None  # of the current box; only `_grid_up_to` replaces it
-        self._reach = 0  # elements, by rank, that the current box allows for
-        self._former_applications = 0  # of the operators of former boxes
+        self._grid: GridSolver | None = None  # solver for the current box; only `_grid_up_to` replaces it
+        self._reach = 0  # the current box contains all elements with a rank below this number
+        self._former_applications = 0  # number of times that the operators of earlier boxes were applied
 
     @property
     def elements(self) -> Elements:
-        """Return the Elements ranked so far."""
+        """Return the Elements, with arrays of the elements ranked so far."""
         return self.ranking.elements
 
     @property
     def is_flat(self) -> bool:
-        """Return True if all elements have one height, so all touch at once."""
+        """Return True if all elements have the same height, so that all touch at once."""
         return self.ranking.is_flat
 
     @property
@@ -116,26 +125,27 @@ class ContactSolver:
         return unloaded_contact(self.units)
 
     def first_contact(self) -> ContactState:
-        """Return the contact where the straight start of the curve ends: only the highest elements touch.
+        """Return the contact at the depth up to which only the highest elements touch, so that the curve is straight.
 
-        Its depth is the smallest positive initial gap, or the side of an element for an indenter of one height.
+        This depth is the smallest positive initial gap, or the side of an element if all elements have the same height.
         """
         self.ranking.rank_highest()
         gap = self.elements.initial_gap
         highest = np.searchsorted(gap, 0, side="right")
         depth = 1.0 if self.is_flat else gap[highest]
-        if highest == 1 and self.options.dense_contacts:  # takes a tenth of the time of a solution
+        if highest == 1 and self.options.dense_contacts:  # a tenth of the time of a general solution
             return dense.solve_highest_element(self.elements, depth)
         return self.advance_reduced(self.unloaded_state(), depth)
 
     def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
         """Extrapolate the contact along its tangent to a nearby depth, and rescale its pressures to the given sum.
 
-        contact : the contact solved last
-        depth, pressure_sum : u and ΣP, reduced; for a dense contact, the values of the contact
+        The residual of the returned contact may be up to twice the tolerance. It includes a bound on the overlap of
+        elements outside the box of the grid, namely the depth minus their smallest initial gap, relative to the depth.
 
-        Its residual may be up to twice the tolerance. It includes a bound on the overlap of elements outside the box of
-        the grid: the depth beyond the initial gap.
+        contact : the contact solved last
+        depth, pressure_sum : u and ΣP of the returned contact, reduced. For a contact that was solved by dense linear
+            algebra they must be its own depth and sum
         """
         if not isinstance(contact, GridContact) or self._grid is None:
             return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
@@ -145,7 +155,8 @@ class ContactSolver:
     def advance(self, contact: ContactState, depth: float) -> ContactState:
         """Solve the contact at a depth [length] larger than the depth of `contact`.
 
-        Raises ConvergenceError if it is not solved to the tolerance, ValueError for a depth too large to represent.
+        Raises ConvergenceError if the contact is not solved to the tolerance, and ValueError for a depth that is too
+        large to represent.
         """
         return self.advance_reduced(contact, depth / self.units.length)
 
@@ -156,12 +167,14 @@ class ContactSolver:
         target: TargetForce | None = None,
         guess: MemberLoads | None = None,
     ) -> ContactState:
-        """Solve the contact at a larger depth in units of the largest initial gap. Raises errors like `advance`.
+        """Solve the contact at a larger depth in units of the largest initial gap. Raises the errors of `advance`.
 
-        target : TargetForce if the depth is a first guess for it. On the grid the contact is then solved at this force,
-            within the tolerance, or at the largest depth; a dense solution is at the guess
-        guess : loads similar to the loads at the larger depth. The iteration on a grid starts from them if the contact
-            is far from the larger depth
+        contact : contact at a smaller depth
+        depth : depth at which the contact is solved, or a first guess of the depth if there is a target
+        target : force to reach. On the grid, the contact is solved at this force within the tolerance, or at the
+            largest depth of the target. A dense solution ignores the target: it is at the guessed depth
+        guess : loads similar to the loads at the larger depth. If the depth of `contact` is much smaller, the iteration
+            on the grid starts from these loads instead
         """
         if depth > _LARGEST_DEPTH:
             text = f"contact at depth {depth * self.units.length:g}: larger than {_LARGEST_DEPTH:g} times the largest"
@@ -171,7 +184,7 @@ class ContactSolver:
             deepest = target.largest_depth
         self.ranking.require(depth, up_to=deepest)
         candidates = self.elements.count_below(depth)
-        # A dense evaluation of few interactions is cheaper than the grid.
+        # Computing few interactions between elements directly is cheaper than computing all of them on the grid.
         if isinstance(contact, DenseContact) and candidates * contact.count <= self.options.dense_interactions:
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
@@ -184,7 +197,10 @@ class ContactSolver:
     def follow_events(
         self, contact: DenseContact, most: int, pressure_sum: float
     ) -> tuple[ContactEvents, DenseContact, bool]:
-        """Follow the touches of the next elements; return them and the last contact; see dense.follow_events."""
+        """Compute the next contact events, the depths where elements touch, as `dense.follow_events` does.
+
+        Further elements are ranked as needed.
+        """
         while True:
             events, last, ends_at_force = dense.follow_events(self.elements, contact, most, pressure_sum)
             if last.reduced_depth < self.elements.ranked_depth:
@@ -192,11 +208,11 @@ class ContactSolver:
             self.ranking.rank_up_to(_BOX_DEPTH_MARGIN * last.reduced_depth)
 
     def may_be_complete(self, contact: ContactState) -> bool:
-        """Return True if a contact may lie at or beyond the depth of complete contact.
+        """Return True if the depth of a contact may be at or beyond the depth of complete contact.
 
-        An element that overlaps the surface by less than the tolerance need not join the contact, so the number of
-        elements in contact does not decide. At and beyond the depth of complete contact no exact gap is open, and no
-        computed gap exceeds the residual.
+        The number of elements in contact does not show this, because an element that overlaps the surface by less than
+        the tolerance need not join the contact. From the depth of complete contact on, though, all exact gaps are zero,
+        and no computed gap exceeds the residual. The method returns True if no computed gap does.
         """
         if not isinstance(contact, GridContact):
             return contact.count == self.elements.count  # a dense solution is exact
@@ -207,9 +223,9 @@ class ContactSolver:
         return not any(self._loops.each(kernels.has_open_gap, fixed, fields.place))
 
     def complete_contact(self) -> ContactState:
-        """Return the contact at the smallest depth of complete contact, from two linear problems.
+        """Compute the contact at the depth where contact becomes complete, from two linear problems.
 
-        Raises ConvergenceError if these cannot be solved.
+        Raises ConvergenceError if the linear problems cannot be solved.
         """
         self.ranking.rank_up_to(np.inf)
         require_for_complete_contact(self.elements, self.threads)
@@ -221,15 +237,18 @@ class ContactSolver:
         return self._grid_up_to(contact.count, contact.reduced_depth).transferred(contact)
 
     def grid_of(self, contact: ContactState) -> GridSolver | None:
-        """Return the grid solver of the current box if a contact is on its grid."""
+        """Return the grid solver of the current box if the contact is stored on its grid, otherwise None."""
         grid = self._grid
         return grid if grid and _is_on(grid, contact) else None
 
     def depth_of_box(self, depth: float, deepest: float) -> float:
-        """Return the largest reduced depth, up to a deepest one, whose box is at most slightly larger than for a depth.
+        """Return the largest reduced depth whose box is at most slightly larger than the box of a given depth.
 
-        All elements up to the deepest one must be ranked. A single element far from all others can make the box many
-        times as large, although it does not touch.
+        The box of a depth surrounds all elements that can touch at this depth. A single element far from all others can
+        make the box many times as large, even if this element does not come into contact.
+
+        depth : given reduced depth; the area of its box may grow by the factor _GROWTH_OF_BOX
+        deepest : largest reduced depth to return; all elements up to this depth must be ranked
         """
         rank, reach = (max(self.elements.count_below(u), 1) for u in (depth, deepest))
         area = np.ones(reach - rank + 1)
@@ -242,24 +261,30 @@ class ContactSolver:
     def _start(
         self, grid: GridSolver, contact: ContactState, depth: float, guess: MemberLoads | None
     ) -> GridContact | MemberLoads:
-        """Return the start of the iteration on the grid for a larger depth: a contact on this grid, or loads."""
+        """Return the start of the iteration on the grid for a larger depth: a contact on this grid, or loads.
+
+        contact : contact solved last, on any grid or by dense linear algebra
+        guess : loads to start from if the depth of `contact` is much smaller; None for a start without loads
+        """
         if isinstance(contact, GridContact) and _is_on(grid, contact):
             return contact
-        # The fields of a much smaller contact cost more than they save.
+        # Computing the fields of a contact at a much smaller depth takes more time than it saves.
         if depth < _LARGEST_RATIO_OF_START * contact.reduced_depth:
             return grid.transferred(contact)
         return unloaded_contact(self.units).loads if guess is None else guess
 
     def _grid_up_to(self, rank: int, deepest: float) -> GridSolver:
-        """Return the grid solver of a box around the elements up to a rank: the current one, or one of a larger box.
+        """Return the grid solver of the current box, or of a new box if the current one lacks elements.
 
-        Only elements whose initial gap is below the depth can touch.
+        Only elements whose initial gap is below the depth can touch, so a box need not contain the others.
 
-        deepest : depth that a larger box allows for
+        rank : number of elements, from the highest element on, that the box must contain
+        deepest : reduced depth; a new box contains all elements that can touch up to this depth
         """
         if self._grid and rank <= self._reach:
             return self._grid
-        # The box allows for larger depths to come, or is the whole grid if a box would save little.
+        # The new box also contains elements that touch only at larger depths. It is the whole grid if a smaller box
+        # would save little.
         self.ranking.rank_up_to(deepest)
         reach = max(rank, self.elements.count_below(deepest))
         places = self.elements.row[:reach], self.elements.column[:reach]
@@ -273,7 +298,7 @@ class ContactSolver:
             self._grid.place_elements(self.elements)
             return self._grid
         self._former_applications = self.operator_applications
-        self._grid = None  # frees its memory for the larger grid
+        self._grid = None  # frees the memory of the current grid for the larger one
         require_for_box(self.indenter.heights, box, **self._memory_options)
         if reach == self.elements.count:
             self.ranking.free_influence()  # contacts on the whole grid need no dense solutions
@@ -281,7 +306,10 @@ class ContactSolver:
         return self._grid
 
     def _checked(self, before: ContactState, after: ContactState) -> ContactState:
-        """Return the contact after a step, if it is valid: no tension, a small residual, and only growth."""
+        """Return the contact after a step. Raises ConvergenceError unless it is valid.
+
+        A valid contact has no tension and a residual within the tolerance, and no element lost contact in the step.
+        """
         pressure = after.fields.pressure if isinstance(after, GridContact) else after.member_loads().pressure
         if after.residual > self.tolerance or self._loops.lowest(pressure) < 0:
             raise ConvergenceError(
@@ -295,12 +323,13 @@ class ContactSolver:
                 f"{opening * self.units.length:g} although contact can only grow; choose a smaller tolerance"
             )
         if self.elements.initial_gap[after.count - 1] == 0 and self.elements.initial_gap[after.members[-1]] == 0:
-            # All elements touch at once: the curve is straight up to here, as LoadingCurve.at_force recognizes.
+            # All elements in contact have the same, largest height, so the curve is straight up to this depth. The
+            # sum of pressures is made exactly proportional to the depth, so that LoadingCurve.at_force recognizes this.
             return replace(after, pressure_sum=after.reduced_depth * after.tangent_sum)
         return after
 
     def _lost_contact(self, before: ContactState, after: ContactState) -> tuple[int, float]:
-        """Return the number of elements that left the contact in a step, and their largest gap, reduced."""
+        """Return the number of elements that left the contact in a step, and the largest reduced gap among them."""
         if isinstance(after, GridContact) and isinstance(before, GridContact):
             _, places = self._loops.new_places(before.fields, after.fields)
         else:
@@ -312,5 +341,5 @@ class ContactSolver:
 
 
 def _is_on(grid: GridSolver, contact: ContactState) -> bool:
-    """Return True if a contact is on the grid of this grid solver."""
+    """Return True if a contact is stored on the grid of this grid solver."""
     return isinstance(contact, GridContact) and contact.fields.initial_gap is grid.initial_gap

@@ -1,15 +1,17 @@
 """Find contacts at prescribed forces with as few solved depths as possible.
 
-The force is a convex function F(u) of the depth, and the contact solver gives F and its exact tangent k at any depth.
-The search therefore needs few contacts:
+The force is a convex function F(u) of the depth u, and the contact solver gives F and its exact slope k at any depth.
+The search for the depth therefore needs few contacts:
 
-1. For a large map, estimate the depth on a map of the highest points of its blocks, solved in the same way.
-2. If there is no estimate, follow contact events. While few elements touch, they end at the force, which is exact.
+1. On a large map, estimate the depth from a coarser map that consists of the highest point of every block of 4 x 4
+   elements. The contact of this coarser map is found by the same search.
+2. Without an estimate, compute contact events, the depths where the next elements touch, as long as few elements touch.
+   If the force is reached between two events, the contact is exact.
 3. Otherwise guess the depth from a power law through the last contact. On a grid, the depth is then adjusted while the
    contact is solved (grid.depth_adjustment).
-4. If the force is not met yet, bracket it. The next depth lies between the nearest contacts below and above the force:
-   on the interpolant of a loading curve, or at the intersection with the tangents.
-5. Extrapolate the last, small difference along the tangent.
+4. If the force is not met yet, bracket the force. The next depth lies between the nearest contacts below and above the
+   force. It is found from the interpolated loading curve between these contacts, or from their tangents.
+5. Extrapolate the small remaining difference in force along the tangent.
 """
 
 from dataclasses import replace
@@ -27,50 +29,56 @@ from viscorough.contact.state import ContactState, DenseContact, Elements, Membe
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.surfaces.indenter import Indenter
 
-# Largest ratio of successive depths before the force is exceeded.
+# While the force has not been exceeded, a depth is at most this multiple of the previous depth, if few elements touch.
 _MAX_DEPTH_RATIO = 4.0
-# A guessed depth may be too small by its ratio to the last depth, raised to this power; boxes allow for no more.
+# The depth for a force may turn out larger than the guessed depth. At most it is the guess times the ratio of the guess
+# to the last depth, raised to this power. The box of the grid contains only elements that can touch up to this limit.
 _UNCERTAINTY = 0.2
-# Follow contact events up to this number of elements in contact.
+# Contact events are computed up to this number of elements in contact.
 _EVENTS = 200
-# From this number of elements in contact on, the power law is trusted over larger ratios of depths.
+# From this number of elements in contact on, the power law is trusted even for depths of more than _MAX_DEPTH_RATIO
+# times the last depth.
 _REPRESENTATIVE = 100
-# Avoids a division by zero for two contacts at one depth.
+# This number avoids a division by zero for two contacts at the same depth.
 _TINY = 1e-300
 # Side of a block in elements.
 _SIDE = 4
-# Tolerance on the map of blocks.
+# Tolerance of contacts on the map of blocks.
 _COARSE_TOLERANCE = 1e-2
-# Estimate the depth on a map of blocks only for at least this multiple of the last force.
+# The depth is estimated on a map of blocks only for forces of at least this multiple of the last force.
 _FAR = 4.0
-# The depth of the map exceeds the depth of the blocks by a share of c over the square root of the number of blocks in
-# contact. These are a small, likely and large excess c (self-affine maps had 0.6 to 3).
+# At the same force, the depth of the map is larger than the depth u of the map of blocks. The difference is written as
+# u c/√n with the number n of blocks in contact and the "excess" c. These values are a small, a likely and a large value
+# of c (c was 0.6 to 3 on self-affine maps).
 _EXCESS = 0.6, 1.2, 2.5
-# If the excess c was measured on the next coarser map, the three values are these multiples of it (the c of the map was
-# 0.9 to 1.6 times as large).
+# If the excess between the map of blocks and a still coarser map has been measured, the three values are these
+# multiples of the measured excess. (On self-affine maps, c was 0.9 to 1.6 times the measured excess.)
 _GROWTH_OF_EXCESS = 0.8, 1.1, 1.6
-# Replace a measured excess below this value by it.
+# A measured excess smaller than this is replaced by this value.
 _LEAST_EXCESS = 0.3
-# Deflection of the centre of a square under a uniform pressure, over P.
+# Reduced deflection of the centre of a square element under its own uniform pressure, divided by P.
 _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 
 
 def _highest_in_blocks(indenter: Indenter) -> Indenter:
-    """Return the indenter of the highest points of blocks of elements, which is nowhere lower."""
+    """Return an indenter with a single element for each block of elements, at the largest height in the block.
+
+    It is nowhere lower than the given indenter.
+    """
     heights = _largest_in_blocks(np.ascontiguousarray(indenter.heights))
     return Indenter(heights, _SIDE * indenter.spacing, _SIDE * indenter.row_spacing)
 
 
 @njit
 def _largest_in_blocks(heights):
-    """Return the largest height in each block of _SIDE x _SIDE elements, nan for a block without elements."""
+    """Return the largest height in each block of _SIDE x _SIDE points, nan if all heights in the block are nan."""
     rows, columns = heights.shape
     largest = np.empty((-(-rows // _SIDE), -(-columns // _SIDE)), heights.dtype)
     in_columns = np.empty(_SIDE * largest.shape[1], heights.dtype)
     for i in range(largest.shape[0]):
         in_columns[:] = -np.inf
         for row in heights[_SIDE * i : _SIDE * (i + 1)]:
-            for j in range(columns):  # nan is larger than nothing
+            for j in range(columns):  # nan is skipped, because a comparison with nan is false
                 in_columns[j] = row[j] if row[j] > in_columns[j] else in_columns[j]
         for k in range(largest.shape[1]):
             value = in_columns[_SIDE * k]
@@ -81,19 +89,22 @@ def _largest_in_blocks(heights):
 
 
 def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
-    """Divide the loads of blocks among their elements.
+    """Divide the load of every block among the elements of the block.
 
-    pressure : P of blocks, in reduced units of the elements, shape of the map of blocks
+    An element is loaded if its depth below the highest element of its block is less than the deflection of the block by
+    its own pressure. Within a block, loads are proportional to the square root of this difference, as in a Hertzian
+    contact.
 
-    An element is loaded if its distance below the highest element of its block is at most the block's own deflection.
-    The loads follow the ellipse of pressures of a Hertzian contact.
+    elements : Elements, of which all that can be loaded are ranked
+    pressure : pressure P of every block, in reduced units of the elements, shape of the map of blocks
     """
     row, column = elements.places_on_map()
     block = row // _SIDE * pressure.shape[1] + column // _SIDE
     members = np.flatnonzero(pressure.ravel()[block])
     block, gap = block[members], elements.initial_gap[members]
     highest = np.empty(pressure.size)
-    highest[block[::-1]] = gap[::-1]  # the highest element of a block, the first by rank, is written last
+    # Write gaps in the order of decreasing rank: the gap of the highest element of a block is written last and remains.
+    highest[block[::-1]] = gap[::-1]
     pressure = pressure.ravel()[block]
     share = np.sqrt(np.maximum(highest[block] + _OWN_DEFLECTION * pressure - gap, 0))
     loads = _SIDE * pressure * share / np.bincount(block, share)[block]
@@ -102,11 +113,12 @@ def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
 
 
 class _Guess(NamedTuple):
-    """The contact to solve next in the search for a force.
+    """Guess of the contact at a force, which is solved next in the search for this force.
 
-    depth : reduced depth, likely for the force
-    target : TargetForce with the largest likely depth; None solves the contact at `depth` exactly
-    loads : MemberLoads of the likely contact; None if only the contacts solved before are available
+    depth : likely reduced depth
+    target : TargetForce, so that the depth is adjusted to the force while the contact is solved; None to solve the
+        contact at exactly `depth`
+    loads : likely loads of the contact; None if the iteration should start from a contact that was solved before
     """
 
     depth: float
@@ -115,10 +127,11 @@ class _Guess(NamedTuple):
 
 
 class _BlockDepth(NamedTuple):
-    """Depth of a contact of blocks at a force; it gives an estimate of the depth of the elements.
+    """Depth of the contact on the map of blocks at a force. It serves to estimate the depth on the map itself.
 
-    depth : in reduced units of the elements
-    share : number of blocks in contact to the power −1/2; the excess of the depth is proportional to it
+    depth : depth of the map of blocks, in reduced units of the elements
+    share : 1/√n with the number n of blocks in contact. The estimated depth is depth · (1 + c share), with c from
+        _EXCESS
     """
 
     depth: float
@@ -126,34 +139,40 @@ class _BlockDepth(NamedTuple):
 
 
 class ForceSearch:
-    """Contacts of one ContactSolver at increasing forces; works in reduced units.
+    """Search for the contacts of one ContactSolver at increasing forces; works in reduced units.
 
-    Its contacts bracket the force: `_below` is the nearest contact solved at most at the force, or the unloaded one,
-    and `_above` holds contacts beyond the force.
+    The contacts solved so far bracket the force. `_below` is the contact with the largest force up to the requested
+    force, at first the contact without load. `_above` contains contacts with larger forces.
     """
 
     def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
         self._below: ContactState = solver.unloaded_state()
         self._above = ContactsAhead()
-        # Follow contact events up to this number of elements; the event of the last element may lie beyond the force.
+        # Largest number of elements in contact up to which contact events are computed. It is less than the number of
+        # all elements, because the event of the last element may lie beyond the force.
         dense = solver.options.dense_contacts, solver.options.dense_interactions
         self._events = int(min(_EVENTS, *dense, solver.elements.count - 1))
-        self._block_depth: _BlockDepth | None = None  # of the last estimate
+        self._block_depth: _BlockDepth | None = None  # depth on the map of blocks in the last estimate
 
     @cached_property
     def _first(self) -> ContactState:
-        """Return the first contact, for which dense solutions tabulate influence coefficients for the whole map."""
+        """Return the contact at the end of the straight start of the loading curve.
+
+        It is computed only if it is needed, because it requires a table of influence coefficients for the whole map.
+        """
         return self._solver.first_contact()
 
     def contact_at(self, force: float, progress: Progress = lambda share: None) -> ContactState:
-        """Solve the contact at F/G [length²], a larger force than at the last call.
+        """Solve the contact at the force F/G [length²], which must be larger than in the previous call.
 
-        ΣP belongs to the force, and the pressures sum to it. At the depth, the tangent from the nearest solved contact
-        reaches the force; over this distance the stiffness changes by less than the tolerance.
-        progress : function called after each contact with the reached share of the force, up to 1
-        Raises ConvergenceError if a contact cannot be solved to the tolerance, ValueError for a force too large
-        to represent.
+        The pressures of the contact add up to exactly this force. The contact is extrapolated along the tangent from
+        the nearest solved contact, over such a small distance that the stiffness changes by less than the tolerance.
+
+        progress : function that is called after each solved contact with the share of the force reached so far, up to 1
+
+        Raises ConvergenceError if a contact cannot be solved to the tolerance, and ValueError for a force that is too
+        large to represent.
         """
         target = force / self._solver.units.force
         while self._above and self._above[-1].pressure_sum <= target:
@@ -180,14 +199,20 @@ class ForceSearch:
         )
 
     def _tighten_bracket(self, contact: ContactState, target: float) -> None:
-        """Let a contact replace the contact below the force, or add it to the contacts above."""
+        """Store a solved contact as the nearest contact below the force, or as the nearest contact above the force."""
         if contact.pressure_sum <= target:
             self._below = contact
         else:
             self._above.keep(contact)
 
     def _exact_contact(self, target: float, attempt: int) -> ContactState | None:
-        """Return the contact at a force if the straight start of the curve or the contact events lead to it."""
+        """Return the exact contact at a force, or None if there is no exact solution.
+
+        The contact is exact on the straight start of the loading curve and between contact events.
+
+        target : reduced ΣP of the force
+        attempt : number of depths solved before in the search for this force
+        """
         is_start = attempt == 0 or not self._below.count
         if is_start and (target <= self._first.pressure_sum or self._solver.is_flat):
             # Only the highest elements are in contact: the curve is straight.
@@ -199,10 +224,12 @@ class ForceSearch:
         return self._follow_events(target)
 
     def _estimate(self, target: float) -> _Guess | None:
-        """Guess the contact at a force from a map of blocks, if that helps.
+        """Guess the contact at a force from the contact of the map of blocks. Return None if no estimate is made.
 
-        An indenter that is nowhere lower carries the same force at a smaller depth. The map of blocks therefore
-        estimates the depth from below.
+        The map of blocks is nowhere lower than the map itself, so it carries the same force at a smaller depth. This
+        depth therefore is a lower bound.
+
+        target : reduced ΣP of the force
         """
         solver, below = self._solver, self._below
         is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
@@ -213,12 +240,12 @@ class ForceSearch:
         try:
             search = ForceSearch(coarse)
             contact = search.contact_at(target * solver.units.force)
-        except (ConvergenceError, ValueError):  # the highest points may have one height to rounding
+        except (ConvergenceError, ValueError):  # for example if all blocks have the same height within rounding
             return None
         unit = coarse.units.length / solver.units.length
         measured = _BlockDepth(unit * contact.reduced_depth, contact.count**-0.5)
         least, likely, largest = (measured.depth * (1 + c * measured.share) for c in search._excess_bounds(contact))
-        solver.ranking.rank_up_to(largest)  # the first contact then ranks no further elements
+        solver.ranking.rank_up_to(largest)  # rank all elements that may touch, so that none must be ranked later
         if contact.count < solver.options.blocks_in_contact or least <= below.reduced_depth:
             return None
         self._block_depth = measured
@@ -229,9 +256,12 @@ class ForceSearch:
         return _Guess(min(likely, largest), TargetForce(target, largest), loads)
 
     def _excess_bounds(self, contact: ContactState) -> tuple[float, ...]:
-        """Return a small, likely and large excess c for the indenter whose blocks this search solves.
+        """Return a small, a likely and a large value of the excess c (see `_EXCESS`).
 
-        contact : contact that this search has found last
+        The method belongs to the search on a map of blocks. The returned c relates the depth of this map to the depth
+        of the finer map. If the depth has also been estimated on a still coarser map, c follows from this estimate.
+
+        contact : last contact that this search has found
         """
         if self._block_depth is None:
             return _EXCESS
@@ -240,9 +270,12 @@ class ForceSearch:
         return tuple(growth * excess for growth in _GROWTH_OF_EXCESS)
 
     def _follow_events(self, target: float) -> ContactState | None:
-        """Follow the contact events up to a force, while few elements are in contact.
+        """Compute contact events up to a force, while few elements are in contact.
 
-        Returns the contact at the force if no further element touches before it: the pressures grow at their tangent.
+        Returns the contact at the force, or None if the events end before the force. After the last event the pressures
+        grow linearly with the depth, at the rate of their tangent.
+
+        target : reduced ΣP of the force
         """
         start = self._below = self._below if self._below.count else self._first
         if not isinstance(start, DenseContact) or start.count >= self._events:
@@ -252,12 +285,17 @@ class ForceSearch:
         depth = below.reduced_depth + (target - below.pressure_sum) / below.tangent_sum
         if not ends_at_force or depth > self._solver.elements.ranked_depth:
             return None
-        # An element that touches at this force has no pressure: rounding must not put it under tension.
+        # An element that begins to touch at exactly this force has no pressure. Rounding must not make its pressure
+        # negative.
         pressure = np.maximum(loads.pressure + (depth - below.reduced_depth) * loads.tangent, 0.0)
         return replace(below, reduced_depth=depth, pressure_sum=target, loads=loads._replace(pressure=pressure))
 
     def _guess(self, target: float, attempt: int) -> _Guess:
-        """Guess the contact at a force from the contacts solved; within a bracket, its depth is solved as it is."""
+        """Guess the contact at a force from the contacts solved before.
+
+        If contacts below and above the force have been solved, the next contact is solved at exactly the guessed depth.
+        Otherwise the depth is adjusted to the force while the contact is solved.
+        """
         depth = self._next_depth(target, attempt)
         if self._above:
             return _Guess(depth, None)
@@ -272,25 +310,28 @@ class ForceSearch:
         if below.count == self._solver.elements.count:
             return by_tangent
         if not self._above:
-            # Use the power law through the last contact; its exponent grows as the contact grows.
+            # Assume u ∝ F^m with m = F/(k u) at the last contact. The exponent m grows as the contact grows.
             exponent = below.pressure_sum / (below.tangent_sum * below.depth)
             ratio = (target / below.pressure_sum) ** exponent
             return below.depth * (ratio if below.count >= _REPRESENTATIVE else min(ratio, _MAX_DEPTH_RATIO))
         above = Level.of(self._above[-1])
-        if attempt % 2:  # converges for any convex curve
+        if attempt % 2:  # every second time use the tangents, because this method converges for any convex curve
             depth = min(by_tangent, above.depth - (above.pressure_sum - target) / above.tangent_sum)
         else:
             depth = interpolate(below, above, np.array([target]))[0]
-        # Both contacts are only as exact as the tolerance. If they are too close, the tangent gives the next depth.
+        # Both contacts are only as exact as the tolerance. If they are too close for a depth in between, follow the
+        # tangent of the lower contact to the force.
         return float(min(depth, above.depth) if depth > below.depth else by_tangent)
 
     def _is_near(self, contact: ContactState, other: ContactState, target: float) -> bool:
-        """Return True if the tangent of a contact leads to the force: the stiffness changes by less than the tolerance.
+        """Return True if a contact is so near to the force that it can be extrapolated along its tangent.
 
-        other : a second contact, which gives the change of the stiffness with depth
+        The relative change of the stiffness up to the force must be below the tolerance.
+
+        other : second contact, for an estimate of the change of the stiffness with depth
         """
         distance = abs(target - contact.pressure_sum) / contact.tangent_sum
-        if isinstance(contact, DenseContact):  # exact only at its own depth
+        if isinstance(contact, DenseContact):  # settling a dense contact does not change its pressures
             return distance <= ROUNDING * contact.reduced_depth
         width = max(abs(contact.reduced_depth - other.reduced_depth), _TINY)
         change = abs(contact.tangent_sum - other.tangent_sum) / width * distance

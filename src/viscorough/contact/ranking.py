@@ -1,8 +1,8 @@
-"""Rank the elements of an indenter by increasing initial gap, as far as a contact needs them.
+"""Rank the elements of an indenter: sort them by increasing initial gap, as far as a contact needs them.
 
-Only elements whose initial gap is below the depth can touch. Light contact on a large map therefore needs few of them,
-and sorting all would take longer than the contact itself. The map is read a few times instead, and only the elements
-up to a depth are sorted.
+Only elements whose initial gap is below the depth can touch. Light contact on a large map therefore needs few elements,
+and sorting all elements would take longer than solving the contact. Instead, the map is searched for the elements up to
+a depth, and only these elements are sorted. If larger depths are needed, the map is searched again.
 """
 
 from dataclasses import replace
@@ -15,33 +15,39 @@ from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.state import ElementGrid, Elements, Units
 from viscorough.surfaces.indenter import Indenter
 
-# Sample size for choosing the ranges of a sort on several threads.
+# To sort gaps on several threads, they are divided into ranges of about equal size. The limits of the ranges are
+# estimated from a sample of about this number of gaps.
 _SAMPLE = 1000
 # Largest number of these ranges.
 _MOST_RANGES = 8
-# Rank at most this share of the elements first.
+# The elements ranked first are at most this share of all elements.
 _FIRST_SHARE = 0.25
-# A sample of the map gives the depth of the elements ranked first. Expect this number of them in the sample.
+# The depth up to which elements are ranked first is estimated from a sample of the map. The sample is chosen so large
+# that about this number of its elements will be among those ranked first.
 _FIRST_IN_SAMPLE = 64
-# Largest size of this sample.
+# Largest number of elements in this sample.
 _LARGEST_SAMPLE = 1 << 14
-# If only elements of the largest height are ranked, rank next up to this depth over the largest initial gap.
+# If all ranked elements have the largest height, elements are ranked at least up to this reduced depth.
 _SMALLEST_DEPTH = 1e-3
 
 
 class Ranking:
-    """Elements of an indenter, ranked from the highest element on as far as they are needed.
+    """Elements of an indenter, ranked from the highest element on, as far as they are needed.
+
+    Arguments:
 
     indenter : Indenter with two-dimensional heights
     threads : number of threads
     options : SolverOptions with the numbers of elements to rank first
-    largest_depth : the elements up to this depth are ranked first [length]. If it is infinite, all elements of a small
-        map are ranked, and none of a large map
+    largest_depth : all elements up to this depth are ranked at the start [length]. If it is infinite, all elements of a
+        small map are ranked at the start, and no elements of a large map
     whole : True if all elements will be needed
 
-    elements : state.Elements ranked so far; only the methods of this class replace them
-    highest : the largest height
-    is_flat : True if all elements have this height
+    Attributes:
+
+    elements : Elements with the elements ranked so far; each method that ranks elements replaces this object
+    highest : largest height
+    is_flat : True if all elements have the same height
     """
 
     def __init__(
@@ -73,11 +79,14 @@ class Ranking:
             self.rank_up_to(largest_depth / units.length)
 
     def rank_highest(self) -> None:
-        """Rank about `rank_first` elements, which takes little time, unless some elements are ranked already."""
+        """Rank about `rank_first` elements (see SolverOptions), unless some elements are ranked already.
+
+        The depth of these elements is estimated from a sample of the map, which takes little time.
+        """
         if self.elements.initial_gap.size:
             return
         (rows, columns), share = self._heights.shape, min(self._options.rank_first / self.elements.count, _FIRST_SHARE)
-        # Sample the map evenly by a quasi-random sequence (R2, Roberts 2018).
+        # Choose places that cover the map evenly by a quasi-random sequence (R2, Roberts 2018).
         places = np.arange(min(_FIRST_IN_SAMPLE / share, _LARGEST_SAMPLE))
         row, column = (places * 0.7548776662466927 % 1 * rows, places * 0.5698402909980532 % 1 * columns)
         sample = self._heights[row.astype(int), column.astype(int)]
@@ -86,7 +95,7 @@ class Ranking:
         self.rank_up_to(float(np.partition(gap, rank)[rank]) if gap.size else np.inf)
 
     def rank_up_to(self, depth: float) -> None:
-        """Rank all elements with initial gaps up to a reduced depth, or to a larger depth."""
+        """Rank all elements whose initial gap does not exceed a reduced depth, and possibly more elements."""
         elements = self.elements
         if depth <= elements.ranked_depth:
             return
@@ -96,7 +105,7 @@ class Ranking:
             if ranked > self._options.rank_all_share * elements.count and ranked < elements.count:
                 place, gap = self._between(elements.ranked_depth, depth := np.inf)
                 ranked = elements.count
-            # If the highest elements have one height, their depth is 0. The depth to rank must be above it.
+            # Increase the depth until an element below the largest height is ranked, too.
             if ranked == elements.count or max(gap.max(initial=0), elements.initial_gap.max(initial=0)) > 0:
                 break
             depth = max(4 * depth, _SMALLEST_DEPTH)
@@ -110,16 +119,19 @@ class Ranking:
         )
 
     def require(self, depth: float, *, up_to: float) -> None:
-        """Rank all elements up to the reduced depth `up_to`, unless all up to a smaller depth are ranked already."""
+        """Rank all elements up to the reduced depth `up_to`, if not all elements up to `depth` are ranked already."""
         if depth > self.elements.ranked_depth:
             self.rank_up_to(up_to)
 
     def free_influence(self) -> None:
-        """Free the memory of the influence coefficients; a later use computes them again."""
+        """Free the memory of the influence coefficients; they are computed again if they are needed later."""
         self.elements = replace(self.elements, grid=replace(self.elements.grid))
 
     def _between(self, above: float, up_to: float) -> tuple[Integers, Array]:
-        """Return places on the map of the elements with reduced initial gaps between two depths, and these gaps."""
+        """Return the elements with reduced initial gaps between two depths: their places on the map, and their gaps.
+
+        A place is an index of the flattened map.
+        """
         heights, length = self._heights.ravel(), self.elements.units.length
 
         def find(i: int, j: int) -> tuple[Integers, Array]:
@@ -132,7 +144,10 @@ class Ranking:
         return np.concatenate(places), np.concatenate(gaps)
 
     def _in_order(self, place: Integers, gap: Array) -> tuple[Integers, Integers, Array]:
-        """Return row, column and initial gap in increasing order of the gaps."""
+        """Return rows, columns and initial gaps of elements in the order of increasing gap.
+
+        place, gap : indices of the elements in the flattened map, and their initial gaps
+        """
         order = _increasing_order(gap, self._threads)
         row, column, in_order = (np.empty(gap.size, dtype) for dtype in (np.int32, np.int32, float))
         top, left = self.elements.grid.origin
@@ -148,19 +163,21 @@ class Ranking:
 
 
 def all_elements(indenter: Indenter, threads: int = 1) -> Elements:
-    """Return all Elements of an indenter."""
+    """Return the Elements of an indenter, all of them ranked."""
     ranking = Ranking(indenter, threads)
     ranking.rank_up_to(1.0)
     return ranking.elements
 
 
 def _increasing_order(gap: Array, threads: int) -> Integers:
-    """Return indices that sort an array and keep the order of equal values, so that ranks are the same everywhere.
+    """Return indices that sort an array; indices of equal values are in increasing order.
 
-    Sorting is several times as fast if it need not keep this order. Indices of equal values are sorted afterwards.
+    The ranks of elements with equal gaps are therefore the same on every machine and for any number of threads. First
+    the array is sorted by a fast method that may exchange equal values. The indices of equal values are sorted
+    afterwards. This is several times as fast as a method that keeps the order of equal values.
     """
     order = np.argsort(gap) if threads == 1 or gap.size <= BLOCK else _order_by_ranges(gap, min(threads, _MOST_RANGES))
-    is_equal = np.zeros(gap.size, dtype=bool)  # equal to the value before
+    is_equal = np.zeros(gap.size, dtype=bool)  # True if a value equals the previous one in sorted order
 
     def compare(i: int, j: int) -> None:
         in_order = gap[order[max(i - 1, 0) : j]]
@@ -169,14 +186,18 @@ def _increasing_order(gap: Array, threads: int) -> Integers:
     run_blocks(compare, gap.size, threads)
     if is_equal.any():
         members = np.flatnonzero(is_equal | np.append(is_equal[1:], False))
-        # These numbers order the members by groups of equal values, and by their indices within a group.
+        # Add a number to each index that grows from group to group of equal values by more than any index. Sorting the
+        # sums sorts the indices within each group.
         group = np.cumsum(~is_equal[members]) * gap.size
         order[members] = np.sort(group + order[members]) - group
     return order
 
 
 def _order_by_ranges(gap: Array, ranges: int) -> Integers:
-    """Return indices that sort an array, in ranges of about equal size on separate threads."""
+    """Return indices that sort an array; values are divided into ranges, which are sorted on separate threads.
+
+    ranges : number of ranges, which contain about equal numbers of values
+    """
     inner = np.quantile(gap[:: max(gap.size // _SAMPLE, 1)], np.arange(1, ranges) / ranges)
     limits = [-np.inf, *inner, np.inf]
 

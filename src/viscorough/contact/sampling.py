@@ -1,11 +1,12 @@
-"""Choose the coarsest sampling of a map and the loosest tolerance that meet a requested error.
+"""Compute a loading curve within a requested error, on the coarsest sampling of a map and to the loosest tolerance.
 
-1. Choose the tolerance: it may use a part of the error.
-2. Compute the curve on every n-th point of the map, with n a power of two, from coarse to fine. Compare it with the
-   curve before, on half as many points in each direction (grid_error).
-3. Stop when the estimated error is within the request, or at the full map.
+1. Choose the tolerance so that it causes only a part of the requested error.
+2. Compute the curve on every n-th point of the map, beginning with a large step n, a power of two.
+3. Halve n, compute the curve again, and estimate its error by a comparison with the previous curve (see grid_error).
+4. Repeat step 3 until the estimated error is within the requested error, or n = 1.
 
-The last curve costs most: the curve before, on a quarter of the points, takes about a quarter of its time.
+Most of the time is spent on the last curve: the previous curve has a quarter of the points and takes about a quarter of
+the time.
 """
 
 import warnings
@@ -20,28 +21,36 @@ from viscorough.contact.grid_error import every_nth_point, highest_missed, ordin
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# A tolerance t causes an error of this number times √t in the velocity on a given grid, as root mean square over all
-# forces: 1 % at t = 1e-2, and 2 to 4 % at t = 0.1 (self-affine discs of 129 to 513 elements across, H = 0.2 to 0.8). It
-# grows as √t because k jumps at contact events, which loose tolerances do not resolve.
+# On a given grid, a tolerance t causes an error of the velocity of this number times √t, as root mean square over all
+# forces. The measured error was 1 % at t = 1e-2, and 2 to 4 % at t = 0.1 (self-affine discs of 129 to 513 elements
+# across, H = 0.2 to 0.8). The error grows as √t because the stiffness jumps at contact events, which loose tolerances
+# do not resolve.
 _ERROR_PER_ROOT = 0.12
-# Share of the requested error that the tolerance may cause. Independent errors add in squares: 92 % are left to the
-# grid.
+# Share of the requested error that the tolerance may cause. The squares of independent errors add up, so a share of
+# √(1 − 0.4²) = 92 % is left for the error of the grid.
 _SHARE_OF_TOLERANCE = 0.4
+# The tolerance is never larger than this, however large the requested error is.
 _LOOSEST_TOLERANCE = 0.1
-# Smallest number of points across a map in the coarsest sampling: with fewer, grids agree by chance.
+# Steps n above 2 are used only if the sampled map has at least this number of rows and of columns. On smaller maps, the
+# curves of two samplings can agree by chance.
 _FEWEST_POINTS = 16
-# Smallest number of points that are not nan, for the same reason.
+# For the same reason, steps n above 2 are used only if at least this number of the sampled points are not nan.
 _FEWEST_ELEMENTS = 100
 
+# Function that computes the loading curve of a map to a tolerance and reports its progress.
 Compute = Callable[[Indenter, float, Progress], LoadingCurve]
 
 
 def curve_within(error: float, indenter: Indenter, compute: Compute, progress: Progress) -> LoadingCurve:
-    """Return the LoadingCurve of a map within an error of the velocity; its depths count from the highest point of all.
+    """Return the LoadingCurve of a map within a requested error of the velocity.
 
-    error : relative, root mean square over the forces from grid_error.lowest_force on
-    compute : function of a map, a tolerance and a Progress that returns the curve
-    progress : function of the finished share
+    The curve may be computed on every n-th point of the map. Depths are counted from the highest point of the full map.
+    If the estimated error exceeds the requested error even on the full map, an AccuracyWarning is given.
+
+    error : requested relative error, as root mean square over the forces from `grid_error.lowest_force` on
+    indenter : full map
+    compute : function of a map, a tolerance and a Progress that returns the LoadingCurve of this map
+    progress : function that is called with the finished share of the computation
     """
     tolerance, steps = tolerance_for(error), _steps(indenter)
     ends = np.cumsum([0.0, *(1.0 / step**2 for step in steps)])
@@ -69,17 +78,23 @@ def curve_within(error: float, indenter: Indenter, compute: Compute, progress: P
 
 
 def tolerance_for(error: float) -> float:
-    """Return the loosest tolerance for an error of the velocity: the tolerance may cause a part of it."""
+    """Return the loosest tolerance that causes only the allowed part of a requested error of the velocity."""
     return min((_SHARE_OF_TOLERANCE * error / _ERROR_PER_ROOT) ** 2, _LOOSEST_TOLERANCE)
 
 
 def part_of(progress: Progress, start: float, end: float) -> Progress:
-    """Return the Progress of a part of a computation, from the share `start` to the share `end`."""
+    """Return a function that reports the progress of a part of a computation.
+
+    The returned function takes the finished share of the part, from 0 to 1.
+
+    progress : function that takes the finished share of the whole computation
+    start, end : shares of the whole computation that are finished at the start and at the end of the part
+    """
     return lambda done: progress(float(start + done * (end - start)))
 
 
 def _steps(indenter: Indenter) -> list[int]:
-    """Return the steps n of the samplings, powers of two, from coarse to fine."""
+    """Return the steps n for samplings of every n-th point: powers of two, from the coarsest sampling to n = 1."""
     step = 2
     while (
         min(indenter.heights.shape) >= 2 * step * _FEWEST_POINTS
@@ -90,7 +105,10 @@ def _steps(indenter: Indenter) -> list[int]:
 
 
 def _choice(indenter: Indenter, sampled: Indenter, step: int, tolerance: float) -> str:
-    """Return the sampling and the tolerance as a text."""
+    """Return a text that states the sampling and the tolerance.
+
+    indenter, sampled : full map, and map of every n-th point with n = `step`
+    """
     full, chosen = (" x ".join(map(str, each.heights.shape)) for each in (indenter, sampled))
     points = f"all {full} points" if step == 1 else f"every {ordinal(step)} point, {chosen} of {full},"
     return f"{points} and a tolerance of {tolerance:.2g}"

@@ -1,17 +1,18 @@
-"""Define the types that the parts of the contact solver exchange, and their symbols.
+"""Define the symbols of the contact solver, and the types that its parts exchange.
 
-For elements of sides dx and dy on an incompressible half-space of shear modulus G, with d = √(dx dy):
+The indenter consists of elements with the sides dx and dy, pressed into an incompressible half-space of shear modulus
+G. With d = √(dx dy), the symbols are:
 
     u                  depth of the indenter below first contact
-    g                  initial gap, between the undeformed surfaces at first contact
+    g                  initial gap between indenter and undeformed surface at first contact
     P = p d/(4πG)      pressure p of an element, expressed as a length
     K                  influence coefficients, dimensionless: w = K P is the deflection of the surface
-    e = w − u + g      gap between the deformed surfaces, zero in contact
-    q = dP/du          tangent, dimensionless: K q = 1 on the contact set, q = 0 outside it
+    e = w − u + g      gap between indenter and deformed surface, zero in contact
+    q = dP/du          tangent, dimensionless: K q = 1 for the elements in contact (the contact set), q = 0 for others
     e_q = K q − 1      tangent gap de/du, dimensionless, zero in contact
 
-Inside the solver, u, g, P and e are in units of the largest initial gap, so results do not depend on the user's unit of
-length; such quantities are called reduced. `Units` holds the factors that convert them.
+Inside the solver, u, g, P and e are divided by the largest initial gap, so results do not depend on the user's unit of
+length. Such quantities are called reduced. `Units` contains the factors that convert them back.
 """
 
 from abc import ABC, abstractmethod
@@ -29,8 +30,8 @@ from viscorough.contact.halfspace.influence import influence_table
 class Units:
     """Factors that convert reduced quantities to the user's units.
 
-    length : the largest initial gap, or the side d for an indenter of one height [length]
-    side : d, the side of the square with the area of an element [length]
+    length : largest initial gap, or d if all heights of the indenter are equal [length]
+    side : side d = √(dx dy) of the square that has the area of an element [length]
     """
 
     length: float
@@ -38,27 +39,27 @@ class Units:
 
     @property
     def stiffness(self) -> float:
-        """Return the factor 4π d of the tangent stiffness k/G = 4π d Σq [length]."""
+        """Return the factor 4π d that converts Σq to the tangent stiffness k/G = 4π d Σq [length]."""
         return 4 * np.pi * self.side
 
     @property
     def force(self) -> float:
-        """Return the factor of the force F/G = 4π d ΣP [length²]."""
+        """Return the factor that converts reduced ΣP to the force F/G = 4π d ΣP [length²]."""
         return 4 * np.pi * self.side * self.length
 
     @property
     def pressure(self) -> float:
-        """Return the factor of the pressure p/G = 4π P/d [1]."""
+        """Return the factor that converts reduced P to the pressure p/G = 4π P/d [1]."""
         return 4 * np.pi * self.length / self.side
 
 
 @dataclass(frozen=True)
 class ElementGrid:
-    """The smallest grid with all elements of an indenter.
+    """Smallest rectangle of the map of heights that contains all elements of an indenter.
 
-    origin : first row and column of the indenter's heights that have an element
-    shape : rows and columns
-    aspect : dy/dx of the elements
+    origin : first row and first column of the map that contain an element
+    shape : number of rows and columns of the rectangle
+    aspect : ratio dy/dx of the sides of an element
     """
 
     origin: tuple[int, int]
@@ -67,21 +68,24 @@ class ElementGrid:
 
     @cached_property
     def influence(self) -> Array:
-        """Return influence coefficients K by distance in rows and columns, for dense solutions."""
+        """Return influence coefficients K as a table [distance in rows, distance in columns], for dense solutions."""
         rows, columns = (np.arange(n, dtype=float) for n in self.shape)
         return influence_table(rows, columns, self.aspect)
 
 
 @dataclass(frozen=True)
 class Elements:
-    """The elements of an indenter, ranked in the order of increasing initial gap; arrays of shape (ranked elements,).
+    """Elements of an indenter in the order of increasing initial gap; their index in this order is called rank.
 
-    row, column : positions on the grid
+    Only the elements with the smallest initial gaps are ranked, as far as a contact needs them. Arrays have the shape
+    (ranked elements,).
+
+    row, column : positions of the elements on the grid
     initial_gap : g, reduced
-    grid : ElementGrid
+    grid : ElementGrid with all elements, ranked or not
     units : Units of the reduced quantities
-    unranked : number of further elements, with larger initial gaps
-    ranked_depth : all elements up to this depth are ranked
+    unranked : number of elements that are not ranked yet; their initial gaps are larger
+    ranked_depth : all elements whose reduced initial gap does not exceed this depth are ranked
     """
 
     row: Integers
@@ -94,51 +98,61 @@ class Elements:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Return rows and columns of the grid."""
+        """Return the numbers of rows and columns of the grid."""
         return self.grid.shape
 
     @property
     def aspect(self) -> float:
-        """Return dy/dx of the elements."""
+        """Return the ratio dy/dx of the sides of an element."""
         return self.grid.aspect
 
     @property
     def influence(self) -> Array:
-        """Return influence coefficients K by distance in rows and columns, for dense solutions."""
+        """Return influence coefficients K as a table [distance in rows, distance in columns], for dense solutions."""
         return self.grid.influence
 
     @property
     def count(self) -> int:
-        """Return the number of elements."""
+        """Return the number of all elements, ranked or not."""
         return self.initial_gap.size + self.unranked
 
     def count_below(self, depth: float) -> int:
-        """Return the number of ranked elements with initial gaps below a reduced depth: only these can touch at it."""
+        """Return the number of ranked elements whose initial gap is below a reduced depth, so that they may touch."""
         return int(np.searchsorted(self.initial_gap, depth))
 
     def next_gap(self, count: int) -> float:
-        """Return a lower bound of the initial gaps after the `count` first elements; infinite if there are no more."""
+        """Return a lower bound of the initial gaps of all but the first `count` elements; infinity if none are left."""
         return float(self.initial_gap[count]) if count < self.initial_gap.size else self.ranked_depth
 
     def places_on_map(self, ranks: Integers | slice = slice(None)) -> tuple[Integers, Integers]:
-        """Return rows and columns in the indenter's heights of elements of given ranks, or of all ranked elements."""
+        """Return the rows and the columns of elements in the map of heights.
+
+        ranks : ranks of the elements; by default all ranked elements
+        """
         return self.row[ranks] + self.grid.origin[0], self.column[ranks] + self.grid.origin[1]
 
 
 @dataclass
 class BoundedField:
-    """A reduced field on the grid, as a flat array, and a bound on the rounding error accumulated in it."""
+    """Reduced quantity at every place of the grid, with a bound on its accumulated rounding error.
+
+    values : flat array with a border
+    rounding : bound on the rounding error of every value
+    """
 
     values: np.ndarray
     rounding: float
 
 
 class ContactSet(NamedTuple):
-    """The elements of a grid that are in contact.
+    """Elements of a grid that are in contact.
 
-    inside : for every place of the flat grid, True if it is in contact
+    Flat fields are flattened arrays of the grid with a border.
+
+    inside : flat field, True for elements in contact
     places : indices of the elements in contact in flat fields, shape (count,)
-    slots : indices of the same elements in the flattened load array of the half-space operator, which has no border
+    slots : indices of the elements in contact in the flattened load array of the half-space operator, which has no
+        border, shape (count,)
     """
 
     inside: np.ndarray
@@ -147,10 +161,10 @@ class ContactSet(NamedTuple):
 
 
 class MemberLoads(NamedTuple):
-    """Loads of the elements in contact, without the fields of a grid.
+    """Loads of the elements in contact, stored without the fields of a grid.
 
-    members : elements in contact, as ranks, increasing, shape (count,)
-    pressure, tangent : P and q = dP/du on the members, shape (count,)
+    members : ranks of the elements in contact, increasing, shape (count,)
+    pressure, tangent : P and q = dP/du of these elements, shape (count,)
     """
 
     members: np.ndarray
@@ -160,16 +174,18 @@ class MemberLoads(NamedTuple):
 
 @dataclass(frozen=True)
 class GridFields:
-    """A contact on the grid: reduced fields as flat arrays with a border.
+    """Reduced quantities of a contact at every place of a grid, as flat arrays with a border.
+
+    The symbols are defined at the top of this module.
 
     inside : True for places in contact
     pressure : P
-    gap_change : e − g = w − u, the change of the gap since first contact; unlike e it does not exceed the depth, so
-        single precision suffices for it
+    gap_change : e − g = w − u, the change of the gap since first contact. Its magnitude never exceeds the depth, while
+        e can be much larger, so single precision suffices for e − g
     tangent : q = dP/du
     tangent_gap : e_q = K q − 1 = de/du, zero in contact
     initial_gap : g
-    place : indices of the elements in the flat arrays, by rank
+    place : index in the flat arrays of every element, by rank
     """
 
     inside: np.ndarray
@@ -181,21 +197,22 @@ class GridFields:
     place: np.ndarray
 
     def gap(self, places: Integers) -> Array:
-        """Return the reduced gap e at places of the flat arrays."""
+        """Return the reduced gap e at the given indices of the flat arrays."""
         return self.gap_change.values[places] + self.initial_gap[places]
 
     def member_loads(self) -> MemberLoads:
-        """Return the MemberLoads, in double precision."""
+        """Return the loads of the elements in contact, in double precision."""
         members = np.flatnonzero(self.inside[self.place])
         place = self.place[members]
         return MemberLoads(members, self.pressure[place].astype(float), self.tangent[place].astype(float))
 
 
 class TargetForce(NamedTuple):
-    """Force to be met by a contact on a grid.
+    """Force at which a contact on a grid is to be solved.
 
-    pressure_sum : reduced ΣP to be met
-    largest_depth : largest reduced depth; there a smaller sum is accepted
+    pressure_sum : reduced ΣP of the force
+    largest_depth : largest reduced depth; if the force is not reached at this depth, the contact is solved at this
+        depth instead
     """
 
     pressure_sum: float
@@ -204,14 +221,14 @@ class TargetForce(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactState(ABC):
-    """The contact at one depth: the quantities that a dense contact and a contact on a grid have in common.
+    """Contact at one depth: base class of a contact solved by dense linear algebra and a contact solved on a grid.
 
     units : Units of the reduced quantities
-    reduced_depth : u
+    reduced_depth : u, reduced
     count : number of elements in contact
-    pressure_sum, tangent_sum : reduced ΣP, and Σq, corrected for the remaining residuals; both errors are then of
-        second order in the residuals for the given contact set
-    residual : largest |e| on the contact set or overlap outside it, rounding included, over the depth
+    pressure_sum, tangent_sum : reduced ΣP, and Σq. Both sums are corrected for the remaining residuals, so that for the
+        given contact set their errors are of second order in the residuals
+    residual : ratio to the depth of the largest |e| in contact or overlap outside the contact, rounding included
     """
 
     units: Units
@@ -227,7 +244,7 @@ class ContactState(ABC):
 
     @property
     def members(self) -> Integers:
-        """Return elements in contact as ranks, shape (count,)."""
+        """Return the ranks of the elements in contact, shape (count,)."""
         return self.member_loads().members
 
     @property
@@ -248,7 +265,7 @@ class ContactState(ABC):
 
 @dataclass(frozen=True)
 class DenseContact(ContactState):
-    """A contact from dense linear algebra, exact to rounding unless it has a residual.
+    """Contact solved by dense linear algebra, exact within rounding if `residual` is 0.
 
     loads : MemberLoads of the elements in contact
     """
@@ -262,7 +279,7 @@ class DenseContact(ContactState):
 
 @dataclass(frozen=True)
 class GridContact(ContactState):
-    """A contact on a grid, solved by iteration.
+    """Contact solved by iteration on a grid.
 
     fields : GridFields of the contact
     """

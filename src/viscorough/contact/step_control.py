@@ -1,9 +1,9 @@
-"""Place the levels of a loading path: few levels, yet close enough for accurate interpolation.
+"""Choose the depths of the levels of a loading curve: few levels, yet close enough for accurate interpolation.
 
-The curve is convex, so between two levels it lies in the triangle of their tangents and their chord. This bounds the
-error of the interpolated depth in every interval, for every surface. On rough surfaces the error is far below the
-bound. About three times the bound is accepted if the error predicted from the contact depths of the elements is small
-enough.
+The curve is convex, so between two levels it lies in the triangle formed by the chord and the two tangents. This gives
+an upper bound on the error of the interpolated depth in every interval, for every surface. On rough surfaces the error
+is far smaller than the bound. A bound of about three times the allowed error is therefore accepted, if the error is
+also predicted from the depths where the elements touch, and the predicted error is small enough.
 """
 
 from dataclasses import dataclass
@@ -16,55 +16,58 @@ from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.state import ContactState, GridContact
 from viscorough.results.loading_curve import interpolate_between
 
-# Finest tolerance of interpolation: a smaller tolerance would require every contact event as a level, like direct
-# integration.
+# Smallest error of interpolation that can be requested. A smaller error would require a level at every contact event,
+# as many as direct integration needs.
 FINEST_ACCURACY = 1e-5
 # Largest ratio of the depths of successive levels.
 _MAX_DEPTH_RATIO = 2.0
-# Ratio of the depths of the first step if there are few contact events.
+# Depth ratio of the first step after contact events, if the events are too few to estimate it.
 _INITIAL_DEPTH_RATIO = 1.15
-# Every contact event is a level up to a contact count of this number over the accuracy: an element that joins n others
-# makes a kink of about 1/n in the stiffness.
+# With n elements in contact, the next element that touches makes the stiffness jump by about 1/n, relatively. Every
+# contact event is therefore a level as long as n is at most this number divided by the allowed error.
 _EVENTS_PER_ACCURACY = 0.4
-# Follow at least this number of events, since so few cost less than a single longer step.
+# Contact events are levels up to at least this contact count, because computing so few events takes less time than a
+# single longer step.
 _FEWEST_EVENTS = 40
-# Follow at most this number of events.
+# Contact events are levels up to at most this contact count.
 _MAX_EVENTS = 400
-# The next step aims at this share of the admissible bound.
+# The next step is chosen so that its bound is expected to be this share of the allowed bound.
 _AIM = 0.8
-# Order of the bound in the logarithm of the depth ratio.
+# The bound grows as this power of the logarithm of the depth ratio of a step.
 _ORDER = 2
-# Smallest change of this logarithm from step to step, as a factor.
+# From a step to the next, the logarithm of the depth ratio is multiplied by at least this factor.
 _LEAST_CHANGE = 0.3
-# Largest change of this logarithm from step to step, as a factor.
+# From a step to the next, the logarithm of the depth ratio is multiplied by at most this factor.
 _LARGEST_CHANGE = 2.0
-# A step is divided within these shares of it.
+# An interval is divided at a depth between these shares of its width.
 _DIVISION = 0.15, 0.85
-# Shares of an interval's force for evaluations of the bound.
+# The bound is evaluated where the force has grown by these shares of its growth in the interval.
 _POINTS = np.linspace(0, 1, 18)[1:-1]
-# The bound may be larger between these points by this factor.
+# Between these points, the bound may be larger by this factor than at the points.
 _BETWEEN_POINTS = 1.15
-# An interval is accepted up to this multiple of the bound if the predicted error is small enough.
+# If the predicted error is small enough, an interval is accepted even if its bound is this multiple of the allowed one.
 _RELAXED_BOUND = 3.3
-# Largest predicted error for a relaxed bound, over the accuracy.
+# The predicted error is small enough if it is at most this share of the allowed error.
 _PREDICTED_ERROR = 0.5
-# Smallest number of joining elements for a prediction.
+# The error is predicted only if at least this number of elements joins the contact in the interval.
 _PREDICTED_COUNT = 10
-# A prediction must agree with the force to within these factors.
+# The prediction is used only if it gives the growth of the force within these factors.
 _AGREEMENT = 0.8, 1.25
-# Below this share of the accuracy the next step becomes as much longer as allowed, without a prediction.
+# If the bound is below this share of the allowed error, the next step is made as much longer as allowed, and the error
+# need not be predicted.
 _NEGLIGIBLE_BOUND = 0.15
-# Smallest share of an interval's force for an evaluation of the bound: the logarithm of the force must not overflow.
+# The bound is evaluated only where the force has grown by at least this share of its growth in the interval. Otherwise
+# the logarithm of the force could overflow.
 _SMALLEST_SHARE = 1e-3
-# Avoids a division by zero.
+# This number avoids a division by zero.
 _TINY = 1e-30
-# Largest number of contacts kept ahead, since each takes memory.
+# Largest number of contacts that are kept for later levels; each contact takes memory.
 _MOST_AHEAD = 2
 
 
 @dataclass(frozen=True)
 class Level:
-    """Quantities of a contact that a loading curve stores, in the reduced units of state.ContactState."""
+    """Quantities of a contact that a loading curve stores; fields as in state.ContactState, in reduced units."""
 
     depth: float
     pressure_sum: float
@@ -74,15 +77,18 @@ class Level:
 
     @classmethod
     def of(cls, contact: ContactState) -> "Level":
-        """Return the level of a contact."""
+        """Return the Level of a contact."""
         return cls(contact.reduced_depth, contact.pressure_sum, contact.tangent_sum, contact.count, contact.residual)
 
 
 class ContactsAhead(list):
-    """Contacts already solved beyond the requested contact, the nearest last; few, as each takes memory."""
+    """List of contacts that were solved beyond the current level, in the order of decreasing depth.
+
+    The nearest contact is the last item. The list is short, because each contact takes memory.
+    """
 
     def keep(self, contact: ContactState) -> None:
-        """Add a contact nearer than all others."""
+        """Add a contact that is nearer to the current level than all others in the list."""
         self.append(contact)
         del self[:-_MOST_AHEAD]
 
@@ -90,11 +96,16 @@ class ContactsAhead(list):
 class StepControl:
     """Choose the depths of successive levels for a given relative error of the interpolated depth.
 
-    tolerance : the allowed error, at least FINEST_ACCURACY
+    Arguments:
+
+    tolerance : allowed relative error; smaller values are replaced by FINEST_ACCURACY
     threads : number of threads
 
-    min_ratio : smallest ratio of the depths of successive levels; a triangle of this width is flatter than the accuracy
-    events : up to this contact count every contact event is a level
+    Attributes:
+
+    min_ratio : smallest ratio of the depths of successive levels. In such a narrow interval, the triangle that contains
+        the curve is flatter than the allowed error
+    events : every contact event is a level up to this contact count
     """
 
     def __init__(self, tolerance: float, threads: int = 1) -> None:
@@ -103,7 +114,10 @@ class StepControl:
         self.events = int(np.clip(_EVENTS_PER_ACCURACY / self._accuracy, _FEWEST_EVENTS, _MAX_EVENTS))
 
     def first_ratio(self, levels: list[Level]) -> float:
-        """Return the ratio of the first step after contact events, from the bound over the last quarter of them."""
+        """Return the depth ratio of the first step after contact events.
+
+        The ratio follows from the error bound of an interval that spans the last quarter of the events.
+        """
         first = levels[-1 - len(levels) // 4]
         ratio = levels[-1].depth / first.depth
         if ratio == 1:
@@ -111,32 +125,35 @@ class StepControl:
         return self.next_ratio(ratio, interpolation_bound(first, levels[-1]) / self._accuracy)
 
     def excess(self, before: ContactState, after: ContactState) -> float:
-        """Return the bound on the interpolation error between two contacts, over the allowed bound.
+        """Return the ratio of the error bound between two contacts to the allowed bound.
 
-        before, after : ContactStates
+        The interval between the contacts is accepted if the ratio is at most 1. If the predicted error is small enough,
+        the allowed bound is larger (_RELAXED_BOUND).
         """
         bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
         if not _NEGLIGIBLE_BOUND < bound < _RELAXED_BOUND:
-            return bound  # in any case the step is divided, or the next step is much longer
+            return bound  # a prediction could not change the decision
         is_smooth = _predicted_error(before, after, self._threads) <= _PREDICTED_ERROR * self._accuracy
         return bound / _RELAXED_BOUND if is_smooth else bound
 
     def next_ratio(self, ratio: float, excess: float) -> float:
-        """Return the ratio of the step after a step with this ratio."""
+        """Return the depth ratio of the next step.
+
+        ratio, excess : depth ratio of the last step, and the ratio of its error bound to the allowed bound
+        """
         change = (_AIM / max(excess, _TINY)) ** (1 / _ORDER)
         return np.clip(ratio ** np.clip(change, _LEAST_CHANGE, _LARGEST_CHANGE), self.min_ratio, _MAX_DEPTH_RATIO)
 
 
 def interpolation_bound(before: Level, after: Level) -> float:
-    """Bound the relative error of the depth interpolated between two levels, from the convexity of the curve.
+    """Return a bound on the relative error of the depth interpolated between two levels of a convex curve.
 
-    The bound is the largest distance of the interpolated depth from the sides of the triangle of chord and tangents. It
-    is evaluated at the intersection of the tangents and at equal intervals of the force.
-
-    before, after : Levels
+    The curve lies in the triangle of the chord and the two tangents. The bound is the largest distance in depth from
+    the interpolated curve to the sides of this triangle, divided by the depth. It is evaluated at the intersection of
+    the tangents and at equal intervals of the force.
     """
     if after.count - before.count in (0, 1):
-        return 0.0  # the two tangents are the curve
+        return 0.0  # the curve consists of the two tangents, which interpolation uses then
     rise = after.pressure_sum - before.pressure_sum
     at_meeting = before.tangent_sum * _meeting(before, after) * (after.depth - before.depth) / rise
     share = np.append(_POINTS, min(max(at_meeting, _SMALLEST_SHARE), 1.0))
@@ -151,9 +168,10 @@ def interpolation_bound(before: Level, after: Level) -> float:
 
 
 def division(before: Level, after: Level) -> float:
-    """Return the depth that divides the interval between two levels: the intersection of their tangents.
+    """Return the depth for a new level between two levels: the intersection of their tangents, away from the ends.
 
-    If the stiffness jumps at one depth, it is this depth. Otherwise it is near the middle of the interval.
+    If the stiffness jumps at a single depth, the tangents intersect at this depth. Otherwise they intersect near the
+    middle of the interval.
     """
     return before.depth + (after.depth - before.depth) * np.clip(_meeting(before, after), *_DIVISION)
 
@@ -167,34 +185,41 @@ def _meeting(before: Level, after: Level) -> float:
 
 
 def interpolate(before: Level, after: Level, force: Array) -> Array:
-    """Interpolate depths between two Levels at reduced forces ΣP, as LoadingCurve.at_force does."""
+    """Return depths interpolated between two levels, as LoadingCurve.at_force does.
+
+    force : reduced forces ΣP between the levels
+    """
     forces, depths = (before.pressure_sum, after.pressure_sum), (before.depth, after.depth)
     stiffnesses = before.tangent_sum, after.tangent_sum
     return interpolate_between(forces, depths, stiffnesses, after.count - before.count, force)[0]
 
 
 def _predicted_error(before: ContactState, after: ContactState, threads: int) -> float:
-    """Predict the relative error of interpolation between two contacts from the contact depths of the elements.
+    """Predict the relative error of interpolation between two contacts from the depths where elements touch.
 
-    The gap e of an element outside the contact is convex in the depth: it touches no earlier than at u₀ − e/e_q, with
-    the gap and the tangent gap before. Its pressure is concave: it touches no earlier than at u₁ − P/q, with pressure
-    and tangent after. The larger of these two depths predicts its touch closely. The stiffness that an element adds is
-    taken as proportional to e_q², as for the first element to join, and the sum as the difference of the two tangent
-    sums.
+    1. Predict the depth where each joining element touches. The gap is a convex function of the depth, so the element
+       touches no earlier than at u₀ − e/e_q, with the depth u₀, the gap e and the tangent gap e_q in the contact
+       `before`. The pressure is a concave function of the depth, so the element touches no earlier than at u₁ − P/q,
+       with the depth u₁, the pressure P and the tangent q in the contact `after`. The larger of these two depths is
+       close to the true depth.
+    2. Take the stiffness that each element adds as proportional to e_q², which is correct for the first element that
+       touches. All elements together add the difference of the two tangent sums Σq.
+    3. Integrate the stiffness to the force, and compare the interpolated depth at this force with the true depth.
 
-    Returns infinity if it cannot be predicted.
+    Returns infinity if the error cannot be predicted.
     """
-    if not isinstance(before, GridContact) or not isinstance(after, GridContact):  # either may be solved densely
+    if not isinstance(before, GridContact) or not isinstance(after, GridContact):  # dense contacts have no gaps
         return np.inf
     loops = GridLoops(threads)
     place_after, place = loops.new_places(after.fields, before.fields)
-    if place.size < _PREDICTED_COUNT or not place.all():  # place 0 is outside the grid of the contact before
+    # An element with place 0 lies outside the grid of the contact `before`, so its gap there is unknown.
+    if place.size < _PREDICTED_COUNT or not place.all():
         return np.inf
     fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
     share, width = _POINTS[1::2], after.reduced_depth - before.reduced_depth
     loads = (load[place_after].astype(float) for load in (after.fields.pressure, after.fields.tangent))
-    # Σw, Σw (1 − touch) and, for every share s of the interval, Σw max(s − touch, 0), with touches from 0 to 1 and the
-    # weights w = e_q².
+    # Let w = e_q² be the weight of an element, and t the share of the interval, from 0 to 1, where it touches. The sums
+    # are Σw, Σw (1 − t) and, for every share s of the interval, Σw max(s − t, 0).
     sums = sum(loops.each(kernels.touch_sums, (*fields, width, share), place, *loads))
     added = (after.tangent_sum - before.tangent_sum) / sums[0]
     rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum

@@ -1,15 +1,20 @@
 """Compare loading curves with two exact integrals, which follow from two linear solutions.
 
-Let all elements touch and stay joined to the surface, under tension as well. The pressures are then p/G = u q − s with
-K q = 1 and K s = g₀, with K the displacement per p/G and g₀ the initial gap. By reciprocity F = k_c (u − ⟨g₀⟩_q),
-with k_c the stiffness of the flat punch of the whole outline and ⟨·⟩_q the mean with the weights q. The frictionless
-curve ends on this straight line, and du = dF/k on the way to it. Hence
+First let all elements be joined to the surface, so that they also transmit tension. At the depth u, the pressures p are
+then p/G = u q − s with K q = 1 and K s = g₀. Here G is the shear modulus, g₀ the initial gap, and the matrix K gives
+the displacements due to p/G. By reciprocity the force is F = k_c (u − ⟨g₀⟩_q). Here k_c is the stiffness of a flat
+punch with the outline of the whole indenter, and ⟨·⟩_q is the mean with the weights q.
+
+The loading curve of the frictionless contact, with the stiffness k = dF/du, ends on this straight line. Hence
 
     ∫₀^∞ (1/k − 1/k_c) dF = ⟨g₀⟩_q        ∫₀^∞ (⟨g₀⟩_q + F/k_c − u) dF = ∫ F (1/k − 1/k_c) dF = U
 
-with U the elastic energy of the joined surface at zero mean force. In units of h and 4GhL the integrand is the part of
-the interface in vt/h, g(X) = X/κ − X/κ_c, over ln X and over X. The right-hand sides need no contact problem, so they
-check levels, stiffness and interpolation of a curve together.
+where U is the elastic energy of the joined surface at zero mean force. The left-hand sides are integrals of a computed
+curve. The right-hand sides need no contact problem, so they check levels, stiffness and interpolation of the curve.
+
+In the paper's variables X = F/(4GhL) and κ = k/(4GL), with the rms height h and the diameter L, these are the integrals
+of g(X) = X/κ − X/κ_c over ln X and over X. The function g is the contribution of the interface to vt/h, where v is the
+velocity and t the time.
 """
 
 import sys
@@ -33,43 +38,50 @@ from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter, check_indenter
 
-# Relative difference of chord and tangent below which the curve is straight between two levels.
+# The curve counts as straight between two levels if the tangent of the first level reaches the force of the second
+# level at the depth of the second level, within this relative difference.
 _STRAIGHT = 1e-9
-# Points and weights of the quadrature of the interpolated curve between two levels (Gauss and Legendre).
+# Points and weights of Gauss–Legendre quadrature, for the interpolated curve between two levels.
 _POINTS, _WEIGHTS = (np.polynomial.legendre.leggauss(8) + np.array([[1.0], [0.0]])) / 2
-# Standard deviation of the first quadrature, over ΔF Δ(1/k), if the stiffness has a single jump at a random force.
+# Let the stiffness have a single jump between two levels, at a random force. In units of ΔF Δ(1/k), the error of a
+# trapezoid of the first integral then has this standard deviation.
 _JUMP = 12**-0.5
-# Standard deviation of the second quadrature, over ΔF² Δ(1/k), in this case.
+# In the same case, the error of the second integral has this standard deviation, in units of ΔF² Δ(1/k).
 _JUMP_OF_SECOND = 720**-0.5
-# Tolerance of the contacts over the tolerance of the audit. It leaves a tenth of the latter for errors of the
-# stiffness, whose effect on the first integral grows with the force at complete contact.
+# The tolerance of the contacts is this share of the tolerance of the audit. This leaves a tenth of the tolerance of the
+# audit for errors of the stiffness, whose effect on the first integral grows with the force at complete contact.
 _CONTACT_TOLERANCE = 0.01
-# Least tolerance that contacts can meet.
+# Smallest tolerance that contacts can meet.
 _LEAST_CONTACT_TOLERANCE = 1e-12
-# Divide an interval into at most so many parts in one round.
+# In one round, an interval between levels is divided into at most this number of parts.
 _MOST_PARTS = 3
-# Add levels in at most so many rounds.
+# Largest number of rounds that add levels.
 _MAX_ROUNDS = 12
-# Errors of all intervals must fall to this share within two rounds. They do not if the levels are wrong.
+# The norm of the errors of all intervals must fall at least to this share within two rounds. Otherwise no more levels
+# are added, because the levels themselves must be wrong.
 _LEAST_REDUCTION = 0.9
-# Avoids divisions by 0.
+# This number avoids divisions by 0.
 _TINY = 1e-300
 
 
 @dataclass(frozen=True)
 class CompleteContact(ReadOnlyArrays):
-    """Complete contact of an indenter, and the two integrals of its loading curve, from linear solutions.
+    """Complete contact of an indenter, and exact values of the two integrals of its loading curve.
+
+    All values follow from two linear problems.
 
     Attributes
     ----------
     mean_gap : float
-        First integral ⟨g₀⟩_q, the mean initial gap with the pressures of a flat punch as weights [length].
+        Exact value ⟨g₀⟩_q of the first integral, the mean initial gap weighted with the pressures of a flat punch
+        [length].
     energy : float
-        Second integral U/G, the elastic energy of the joined surface at zero mean force [length³].
+        Exact value U/G of the second integral, where U is the elastic energy at zero mean force if all elements are
+        joined to the surface [length³].
     stiffness : float
-        Stiffness k_c/G of the whole outline as a flat punch [length].
+        Stiffness k_c/G of a flat punch with the outline of the whole indenter [length].
     depth : float
-        Least depth u at which all elements touch [length].
+        Smallest depth u where all elements touch [length].
     length_unit : str
         Unit of the lengths; "1" if it is not known.
     """
@@ -93,11 +105,13 @@ class Integral:
     Attributes
     ----------
     exact : float
-        Exact value, from linear solutions.
+        Exact value, from two linear problems.
     deviations : dict
-        Relative deviations of quadratures over the curve from the exact value, by name.
+        Relative deviation of each quadrature of the curve from the exact value, by the name of the quadrature (see
+        `SumRules`).
     error : float
-        Estimated relative error of the quadrature "by levels" in the first integral, of both in the second integral.
+        Estimated relative error. In the first integral it applies to the quadrature "by levels", in the second integral
+        to both quadratures.
     """
 
     exact: float
@@ -106,26 +120,32 @@ class Integral:
 
     @classmethod
     def compared(cls, exact: float, values: dict[str, float], error: float, scale: float) -> "Integral":
-        """Return the integral with quadratures and an error, which are divided by `scale`."""
+        """Return the comparison of quadratures with the exact value of an integral.
+
+        values : result of each quadrature, by its name
+        error : estimated absolute error
+        scale : value by which all deviations and the error are divided
+        """
         return cls(exact, {name: float(value - exact) / scale for name, value in values.items()}, error / scale)
 
 
 @dataclass(frozen=True)
 class SumRules(ReadOnlyArrays):
-    """Both integrals of a loading curve.
+    """Both integrals of a loading curve, each computed by several quadratures and compared with its exact value.
 
     Attributes
     ----------
     first : Integral
-        Integral ⟨g₀⟩_q [length]. Its quadratures are u − F/k_c at the "last level", ∫ (1/k − 1/k_c) dF "by levels" from
-        forces and stiffnesses alone, and "between levels" with the stiffness of `LoadingCurve.at_force`. The last
-        level is no check of a curve of `indent`, whose depth of complete contact has the same source.
+        Integral ∫ (1/k − 1/k_c) dF = ⟨g₀⟩_q [length]. The quadrature "last level" is u − F/k_c at the last level, "by
+        levels" uses forces and stiffnesses of the levels alone, and "between levels" uses the stiffness that
+        `LoadingCurve.at_force` interpolates. For a curve of `indent`, the "last level" checks nothing: its depth of
+        complete contact comes from the same linear problems as the exact value.
     second : Integral
-        Integral U/G [length³]. Its quadratures are ∫ (⟨g₀⟩_q + F/k_c − u) dF "by levels" from depths and stiffnesses,
-        and "between levels" with the depth of `LoadingCurve.at_force`.
+        Integral ∫ (⟨g₀⟩_q + F/k_c − u) dF = U, as U/G [length³]. The quadrature "by levels" uses depths and
+        stiffnesses of the levels alone, and "between levels" uses the depth that `LoadingCurve.at_force` interpolates.
     errors : array
-        Estimated relative error of both integrals in each interval between levels, shape (levels,); the first interval
-        starts at zero force [1].
+        Estimated relative error of both integrals in each interval between levels, shape (levels,) [1]. The first
+        interval starts at zero force.
     """
 
     first: Integral
@@ -139,13 +159,15 @@ class SumRules(ReadOnlyArrays):
 
     @property
     def largest_deviation(self) -> float:
-        """Return the largest relative deviation of a quadrature from the exact value."""
+        """Return the largest relative deviation of any quadrature of the two integrals from the exact value."""
         return max(abs(value) for rule in (self.first, self.second) for value in rule.deviations.values())
 
 
 @dataclass(frozen=True)
 class Audit(ReadOnlyArrays):
-    """Loading curve to complete contact, with added levels for accurate integrals, and both integrals.
+    """Result of `audit`: a loading curve up to complete contact, and its two integrals.
+
+    Levels were added to the curve until the integrals were accurate enough.
 
     Attributes
     ----------
@@ -156,9 +178,10 @@ class Audit(ReadOnlyArrays):
     curve : LoadingCurve
         Curve with the added levels.
     rules : SumRules
-        Both integrals of this curve.
+        Both integrals of the curve with the added levels.
     interpolation_error : float
-        Largest relative error, at the added levels, of the depth that the curve without them interpolates [1].
+        Largest relative difference, at the added levels, between the computed depth and the depth that the curve
+        without these levels interpolates [1].
     """
 
     tolerance: float
@@ -179,11 +202,11 @@ class Audit(ReadOnlyArrays):
 
     @property
     def agrees(self) -> bool:
-        """Return True if the integrals agree, and the interpolated depth is as accurate as promised."""
+        """Return True if both `integrals_agree` and `is_interpolated` are True."""
         return self.integrals_agree and self.is_interpolated
 
     def __str__(self) -> str:
-        """Return the verdict, and exact value, deviations and estimated error of both integrals."""
+        """Return a text: whether the integrals agree, and exact value, deviations and estimated error of each."""
         verdict = "agree" if self.integrals_agree else "do not agree"
         text = f"Audit over {self.curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
         if not self.is_interpolated:
@@ -200,13 +223,17 @@ class Audit(ReadOnlyArrays):
 def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact:
     """Compute the complete contact of an indenter from two linear problems, without a contact problem.
 
-    With the loads P = p d/(4πG), the side d of an element and the influence coefficients K, the solutions of K q = 1
-    and K s = g₀ give::
+    If all elements are joined to the surface, so that they also transmit tension, the pressures at the depth u are
+    u q − s with K q = 1 and K s = g₀. Here g₀ is the initial gap, K the matrix of influence coefficients, and a
+    pressure p is expressed as the length p d/(4πG), with the side d of an element and the shear modulus G. The
+    solutions give::
 
         ⟨g₀⟩_q = Σs/Σq,   k_c/G = 4π d Σq,   U/G = 2π d (Σ s g₀ − (Σs)²/Σq),   u = max s/q
 
-    The last tension vanishes at the depth u. The problems are solved on the grid by preconditioned conjugate gradients.
-    On a line of n points, springs of stiffness 4G Δx are independent (MDR)::
+    These are the mean initial gap with the weights q, the stiffness and the elastic energy (see `CompleteContact`), and
+    the depth u where the last tension vanishes. The linear problems are solved on the grid by preconditioned conjugate
+    gradients. On a line of n points with the spacing Δx, the surface consists of independent springs of stiffness 4G Δx
+    (MDR), so that::
 
         ⟨g₀⟩_q = mean g₀,   k_c/G = 4 Δx n,   U/G = 2 Δx Σ (g₀ − mean g₀)²,   u = max g₀
 
@@ -215,7 +242,7 @@ def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact
     indenter : Indenter
         Map or line of heights.
     threads : int, optional
-        Number of threads; the result does not depend on it.
+        Number of threads; it does not change the result.
 
     Returns
     -------
@@ -224,7 +251,7 @@ def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact
     Raises
     ------
     ConvergenceError
-        If the linear problems are not solved to 1e-12.
+        If the linear problems cannot be solved to a relative residual of 1e-12.
 
     Examples
     --------
@@ -256,7 +283,7 @@ def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact
 
 
 def _energy(reduced: float, length: float) -> float:
-    """Return the energy `reduced` · length². Raises ValueError if double precision cannot represent it."""
+    """Return the energy reduced · length². Raises ValueError if double precision cannot represent the energy."""
     with np.errstate(over="ignore", under="ignore"):
         energy = float(reduced * np.square(length))
     if not np.isfinite(energy) or 0 < abs(energy) < sys.float_info.min or (energy == 0 and reduced * length != 0):
@@ -269,24 +296,28 @@ def _energy(reduced: float, length: float) -> float:
 def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     """Compute both integrals of a loading curve by quadratures with estimated errors, and compare with exact values.
 
-    The curve is taken as straight before its first level. Between two levels, 1/k jumps down when an element joins. Let
-    ΔF, Δu and Δ(1/k) be the changes between two levels, and m the number of elements that join. If chord and tangent
-    coincide, the curve is straight, and the quadratures of both integrals are exact. Otherwise:
+    The curve is taken as straight before its first level. Whenever an element joins the contact, 1/k jumps down. Let
+    ΔF, Δu and Δ(1/k) be the changes of force, depth and 1/k between two successive levels, and m the number of elements
+    that join the contact between them. If chord and tangent coincide, the curve is straight in this interval, and all
+    quadratures are exact. Otherwise:
 
-    - The first integral "by levels" is a sum of trapezoids T of 1/k. The error of an interval is e₁ = max(|T − Δu|,
-      0.29 ΔF Δ(1/k)/√m), the latter being the standard deviation for m equal jumps at random forces.
+    - The first integral "by levels" is a sum of trapezoids T of 1/k. The error of an interval is
+      e₁ = max(|T − Δu|, 0.29 ΔF Δ(1/k)/√m). The second term is the standard deviation of T if 1/k has m equal jumps at
+      random forces.
     - The second integral "by levels" is a sum of trapezoids of ⟨g₀⟩_q + F/k_c − u, minus the area between chord and
-      curve. By convexity the curve lies in the triangle of chord and tangents. For m equal jumps at random forces, the
-      share (2 + 1/m)/3 of the triangle lies on average between chord and curve: all of it for one jump, 2/3, as for a
-      parabola, for many jumps.
+      curve. The curve is convex, so it lies in the triangle of the chord and the two tangents. For m equal jumps at
+      random forces, the area between chord and curve is on average (2 + 1/m)/3 of the triangle. This is the whole
+      triangle for one jump, and 2/3 of the triangle for many jumps, as for a parabola.
     - "Between levels", both integrals are Gauss quadratures of the curve that LoadingCurve.at_force interpolates.
-    - The error of an interval in the second integral is e₂ = max(0.13 ΔF e₁, difference of both quadratures), with the
-      ratio of the standard deviations for such jumps.
+    - The error of an interval in the second integral is e₂, the larger of 0.13 ΔF e₁ and the difference between the
+      quadratures "by levels" and "between levels". The factor 0.13 is the ratio of the standard deviations of the two
+      integrals for jumps at random forces.
     - Errors of intervals are added as independent errors. The error of the first integral is max(|Σ (T − Δu)|, √Σe₁²).
-      The error of the second is the difference of both quadratures plus 3√Σe₂², so it holds for either quadrature.
+      The error of the second integral is the difference between the quadratures "by levels" and "between levels" plus
+      3√Σe₂², so that it holds for either quadrature.
 
-    curve : loading curve to complete contact
-    complete : complete contact of the indenter of this curve
+    curve : loading curve up to complete contact
+    complete : complete contact of the same indenter
     """
     depth, force = np.append(0.0, curve.depth), np.append(0.0, curve.force)
     stiffness = np.append(curve.force[0] / curve.depth[0], curve.stiffness)
@@ -302,10 +333,12 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     jumps = _JUMP * rise * drop / np.sqrt(joined)
     error = np.where(is_straight, 0.0, np.maximum(np.abs(off), jumps))
 
-    # ⟨g₀⟩_q + F/k_c − u, which is convex and falls to zero.
+    # The integrand ⟨g₀⟩_q + F/k_c − u of the second integral is a convex function of the force and falls to zero.
     remaining = complete.mean_gap + force * least - depth
     triangle = np.maximum((rise * before - sink) * (sink - rise * after), 0.0) / (2 * drop)
-    triangle = np.minimum(triangle, rise**2 * drop / 8)  # 0 if the stiffness decreases by rounding
+    # By geometry the area of the triangle is at most ΔF² Δ(1/k)/8. If rounding makes the stiffness decrease between two
+    # levels, this limit makes the area almost zero.
+    triangle = np.minimum(triangle, rise**2 * drop / 8)
     areas = rise * (remaining[1:] + remaining[:-1]) / 2 - (2 + 1 / joined) / 3 * triangle
     inner = force[1:-1, None] + rise[1:, None] * _POINTS
     inner_depth, inner_stiffness = curve.at_force(inner)
@@ -313,7 +346,7 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     inner_sinks = rise[1:] * ((1 / inner_stiffness - least) @ _WEIGHTS)
     error_of_second = np.maximum(_JUMP_OF_SECOND / _JUMP * rise * error, np.append(0, np.abs(inner_areas - areas[1:])))
 
-    # Errors are relative to the exact values, unless those are 0.
+    # Errors are relative to the exact values. If an exact value is 0, they are relative to values at the last level.
     scale, scale_of_second = complete.mean_gap or depth[-1], complete.energy or force[-1] * depth[-1]
     first = {
         "last level": depth[-1] - force[-1] * least,
@@ -338,12 +371,12 @@ def audit(
     threads: int = 1,
     options: SolverOptions = DEFAULT,
 ) -> Audit:
-    """Compute a loading curve to complete contact, and compare its two integrals with their exact values.
+    """Compute a loading curve up to complete contact, and compare its two integrals with their exact values.
 
     Contacts are solved to a hundredth of the tolerance. Levels are added in the intervals with the largest estimated
-    errors of both integrals, until the errors are within the tolerance. Since k jumps at every contact event, the
-    errors are inversely proportional to the number of levels. On maps of up to 400 elements every event is a level, and
-    the integrals are exact to rounding.
+    errors, until the errors of both integrals are within the tolerance. The errors are inversely proportional to the
+    number of levels, because the stiffness jumps whenever an element touches. On maps of up to 400 elements there is a
+    level for every element that touches, and the integrals are exact within rounding.
 
     Parameters
     ----------
@@ -352,9 +385,9 @@ def audit(
     tolerance : float, optional
         Relative accuracy of both integrals, between 1e-10 and 0.1 [1].
     progress : Progress, optional
-        Function called with the finished share of the rounds of added levels, up to 1.
+        Function that is called before levels are added, with the share of the allowed rounds of additions, up to 1.
     threads : int, optional
-        Number of threads; the result does not depend on it.
+        Number of threads; it does not change the result.
     options : SolverOptions, optional
         Details of the iterations, such as their precision; change them only to measure their effect.
 
@@ -387,9 +420,11 @@ def audit(
     plain = curve = _curve(indenter, until_fraction=1.0, **how)
     rules, norms = integrals(curve, complete), [np.inf, np.inf]
     for number in range(_MAX_ROUNDS):
-        # Unless the curve is exact, the first round adds levels in any case: they check the interpolation.
+        # The first round adds levels even if the error is within the tolerance, unless the curve is exact. These levels
+        # check the interpolation.
         allowed, enough = (tolerance, tolerance) if number else (min(tolerance, rules.error / 2), _STRAIGHT)
-        # If a jump lies at the new level of an interval, its error falls only in the following round.
+        # Compare with the error two rounds before: if the stiffness jumps exactly at the new level in an interval, the
+        # error of this interval falls only in the next round.
         norms.append(float(np.linalg.norm(rules.errors)))
         if rules.error <= enough or norms[-1] > _LEAST_REDUCTION * norms[-3]:
             break
@@ -400,7 +435,7 @@ def audit(
         try:
             curve = _merged(curve, _curve(indenter, depths=depths, **how))
         except ValueError:
-            break  # the added levels contradict the others; the estimated error remains
+            break  # forces do not increase with depth, so levels are too inaccurate; the estimated error stays as it is
         rules = integrals(curve, complete)
     between = curve.force > plain.force[0]
     interpolated = plain.at_force(curve.force[between])[0] / curve.depth[between]
@@ -408,22 +443,26 @@ def audit(
 
 
 def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
-    """Return the curve of `indent` without its warnings, since complete contact is beyond the range of the theory."""
+    """Return the curve of `indent` without AccuracyWarnings, since depths of complete contact are beyond the theory."""
     with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         return indent(indenter, **how)
 
 
 def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Array:
-    """Return the fewest depths that divide intervals between levels into equal parts and reduce the error enough.
+    """Return the fewest depths of new levels that reduce the error of the integrals to the allowed error.
 
-    Dividing an interval into n parts divides its error by n. For independent errors, the number of parts is smallest if
-    n is proportional to the error to the power 2/3. Errors of equal sign add up to more, by the ratio of the estimated
-    error to the independent sum.
+    Intervals between levels are divided into equal parts. Dividing an interval into n parts divides the error of the
+    interval by n. If errors are independent, the total number of parts is smallest for n proportional to the error to
+    the power 2/3. Errors of equal sign add up to more than independent errors. The numbers of parts are therefore
+    multiplied by the ratio of the estimated error to the sum of independent errors.
+
+    rules : both integrals of the curve, with the errors of its intervals
+    allowed : allowed relative error of both integrals
     """
     weight = rules.errors[1:] ** (2 / 3)
     equal_signs = max(rules.error / max(float(np.linalg.norm(rules.errors)), _TINY), 1.0)
     parts = np.clip(np.ceil(weight * np.sqrt(weight.sum()) / allowed * equal_signs), 1, _MOST_PARTS).astype(int)
-    # Levels must not be so close that their differences are lost to rounding.
+    # Do not divide intervals so narrow that rounding would dominate the differences between levels.
     parts[np.diff(curve.depth) < 1e-6 * curve.depth[1:]] = 1
     intervals = zip(curve.depth[:-1], curve.depth[1:], parts, strict=True)
     added = (np.linspace(start, end, number + 1)[1:-1] for start, end, number in intervals)
@@ -431,7 +470,7 @@ def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Arra
 
 
 def _merged(curve: LoadingCurve, added: LoadingCurve) -> LoadingCurve:
-    """Return the LoadingCurve with the levels of both curves."""
+    """Return the LoadingCurve with the levels of two curves of the same indenter."""
     order = np.argsort(np.append(curve.depth, added.depth))
     levels: dict[str, Any] = {
         name: np.append(getattr(curve, name), getattr(added, name))[order]

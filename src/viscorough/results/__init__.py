@@ -1,1 +1,1 @@
-"""Results of computations: loading curves, contacts and motions."""
+"""Results of computations: the classes LoadingCurve, Contact and Motion."""

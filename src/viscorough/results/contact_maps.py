@@ -1,4 +1,4 @@
-"""The result of one contact: maps of pressure, gap and contact, with areas, pressures and patches."""
+"""Define the result of a single contact: maps of pressure, gap and contact, with areas, pressures and patches."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -10,8 +10,9 @@ from viscorough.basics.summaries import span, unit_power, with_unit
 from viscorough.basics.types import Mask
 from viscorough.basics.units import in_metres, result_units, square_metres
 
-# Whole elements exceed the contact at its edge. Mean excess area per change of contact between two neighbouring
-# elements, over the area dx dy of an element.
+# Elements at the edge of the contact are counted as a whole, so the area of the elements in contact is too large. For
+# each pair of neighbouring elements, one in contact and one not, the mean excess is this share of the area of an
+# element.
 EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 
 
@@ -28,13 +29,13 @@ class Patches(ReadOnlyTuple, _Patches):
     labels : array
         Number of the patch of each element, from 1 for the largest patch; 0 for elements without contact.
     areas : array
-        Areas of the patches in this order, shape (patches,) [length²].
+        Areas of the patches, the largest first, shape (patches,) [length²].
     """
 
     __slots__ = ()
 
     def __repr__(self) -> str:
-        """Return the number and areas of the patches, not the map."""
+        """Return a text with the number of the patches and the range of their areas, without the map."""
         areas = f", areas {span(self.areas)}" if len(self.areas) else ""
         return f"Patches: {len(self.areas)} of the contact{areas}"
 
@@ -51,26 +52,26 @@ class Contact(ReadOnlyArrays):
         Pressure p/G, with G the shear modulus of the incompressible half-space, shape (rows, columns) [1]. It is zero
         outside the contact and nan outside the indenter.
     gap : array
-        Gap between the deformed surface and the indenter, nan outside the indenter [length]. Its magnitude in contact,
-        and its overlap elsewhere, are at most `residual` times the depth.
+        Gap between the deformed surface and the indenter, nan outside the indenter [length]. In contact its magnitude
+        is at most `residual` times the depth. Elsewhere it may be negative by at most the same amount.
     contact : array
-        True for elements in contact, whose pressure is above zero.
+        True for elements in contact, which are the elements with a pressure above zero.
     depth : float
         Depth u from first contact [length].
     force : float
-        Force F/G, the sum of the pressures times the area of an element [length²].
+        Force F/G, the sum of p/G times the area of an element [length²].
     stiffness : float
         Tangent stiffness k/G = d(F/G)/du of the elements in contact [length].
     residual : float
-        Largest gap in contact, or overlap outside it, over the depth, rounding included [1].
+        Largest gap in contact or overlap outside the contact, divided by the depth, rounding included [1].
     tolerance : float
-        Requested bound of the residual [1].
+        Requested upper bound of the residual [1].
     spacing, row_spacing : float
         Distances dx and dy between neighbouring columns and rows [length].
     length_unit : str
-        Unit of all lengths; "1" if it is not known.
+        Unit of all lengths; "1" if the unit is not known.
     shear_modulus : float or None
-        Shear modulus G [Pa], or in consistent units if the unit of length is not known; None if it was not given.
+        Shear modulus G [Pa], or in consistent units if the unit of length is not known; None if no modulus was given.
 
     Examples
     --------
@@ -105,7 +106,7 @@ class Contact(ReadOnlyArrays):
             raise ValueError(f"Contact: pressure, gap and contact have the shapes {shapes}; one shape is needed")
 
     def __str__(self) -> str:
-        """Return a summary: elements in contact; depth, force and stiffness; area and pressure."""
+        """Return a summary: number of elements in contact, depth, force, stiffness, contact area and pressure."""
         unit, area = self.length_unit, unit_power(self.length_unit, 2)
         text = (
             f"Contact of {self.contact_count} of {self.elements} elements\n"
@@ -124,14 +125,20 @@ class Contact(ReadOnlyArrays):
 
     @property
     def normal_force(self) -> float | None:
-        """Return the force F [N], in consistent units if the unit of length is not known; None without a modulus."""
+        """Return the force F [N], or None if no modulus was given.
+
+        If the unit of length is not known, F is in the units of the modulus times length².
+        """
         if self.shear_modulus is None:
             return None
         return self.force * self.shear_modulus * square_metres(self.length_unit)
 
     @property
     def normal_stiffness(self) -> float | None:
-        """Return the stiffness k = dF/du [N/m], in consistent units like `normal_force`; None without a modulus."""
+        """Return the tangent stiffness k = dF/du [N/m], or None if no modulus was given.
+
+        If the unit of length is not known, k is in the units of the modulus times length.
+        """
         if self.shear_modulus is None:
             return None
         return self.stiffness * self.shear_modulus * in_metres(self.length_unit)
@@ -158,11 +165,13 @@ class Contact(ReadOnlyArrays):
 
     @property
     def corrected_contact_area(self) -> float:
-        """Return the contact area without the excess of whole elements at its edge [length²].
+        """Return the contact area, corrected for whole elements at the edge of the contact [length²].
 
-        A* = A − ((π − 1 + ln 2)/24) M dx dy, with the contact area A of whole elements, and the number M of changes
-        between contact and no contact along all rows and columns. The edge of the indenter counts no changes. The
-        formula of square elements holds for rectangular ones, too: stretching a map changes neither M nor A/(dx dy).
+        The contact area A of whole elements is too large, since contact covers only a part of an element at its edge.
+        The corrected area is A* = A − ((π − 1 + ln 2)/24) M dx dy, where M is the number of pairs of neighbouring
+        elements, along rows and columns, with contact in only one element of the pair. Both elements must belong to the
+        indenter. The formula for square elements also holds for rectangular elements, because stretching a map changes
+        neither M nor A/(dx dy).
 
         Source: V. A. Yastrebov, G. Anciaux, J.-F. Molinari, Tribology International 114, 161 (2017).
         """
@@ -173,7 +182,7 @@ class Contact(ReadOnlyArrays):
 
     @property
     def mean_pressure(self) -> float:
-        """Return the mean of p/G over the contact [1]."""
+        """Return the mean of p/G in the contact [1]."""
         return self.force / self.contact_area
 
     @property
@@ -182,8 +191,8 @@ class Contact(ReadOnlyArrays):
         return float(np.nanmax(self.pressure))
 
     def patches(self) -> Patches:
-        """Return the Patches of the contact: regions of elements in contact that are connected by their sides."""
-        from scipy import ndimage  # takes long to import
+        """Return the Patches of the contact: regions in contact whose elements are connected by common sides."""
+        from scipy import ndimage  # this import takes long
 
         labels, count = ndimage.label(self.contact)
         sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]

@@ -1,7 +1,7 @@
-"""The loading curve, the common result of all contact computations.
+"""Define the loading curve: force and stiffness of an indenter as functions of its depth in an elastic half-space.
 
-The elastic loading curve determines the solution of the viscous problem (paper, Eqs. 1-3): other forces, viscosities
-and times only rescale it.
+The elastic loading curve also determines the solution of the viscous problem (paper, Eqs. 1-3): for other forces,
+viscosities and times the curve is only rescaled.
 """
 
 from dataclasses import dataclass
@@ -17,13 +17,14 @@ from viscorough.basics.types import Array, Integers, Pair, Scalar
 
 # Allowed relative rounding error of forces and depths.
 _ROUNDING = 1e-12
-# Rounding error of the difference of two depths, over the larger depth.
+# Bound on the rounding error of the difference of two depths, relative to the larger depth.
 _CANCELLATION = 4 * np.finfo(float).eps
-# Halvings of the interval between two levels that find a force to rounding, if their forces differ by up to 1e10.
+# Number of bisections that find the force at a depth between two levels within rounding, even if the forces of the two
+# levels differ by a factor of up to 1e10.
 _HALVINGS = 90
 
 
-# Optional arrays over levels that state the error of the grid.
+# Attributes with the error of the grid: arrays with one value per level, or None.
 _GRID_QUANTITIES = ("grid_error", "force_grid_error", "area_change")
 
 
@@ -31,8 +32,8 @@ _GRID_QUANTITIES = ("grid_error", "force_grid_error", "area_change")
 class LoadingCurve(ReadOnlyArrays):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
-    Arrays are copied and read-only. If G is replaced by the viscosity η and F by ∫F dt, the curve is the solution of
-    the linearly viscous problem (Radok; paper, Sec. III).
+    Arrays are copied and read-only. If the shear modulus G is replaced by a viscosity η, and the force F by ∫F dt, the
+    curve is the solution of the problem of a linearly viscous half-space (Radok; paper, Sec. III).
 
     Attributes
     ----------
@@ -51,29 +52,30 @@ class LoadingCurve(ReadOnlyArrays):
     tolerance : float
         Requested relative accuracy [1].
     operator_applications : int
-        Number of applications of the half-space operator on the grid.
+        Number of times that the half-space operator was applied on the grid; a measure of the computing time.
     residual : array
-        Largest remaining gap in contact, or overlap outside it, over the depth, shape (levels,) [1].
+        Largest remaining gap in contact or overlap outside the contact, divided by the depth, shape (levels,) [1].
     length_unit : str
-        Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
+        Unit of the lengths, as UDUNITS spells it; "1" if the unit is not known.
     grid_error : array
         Estimated relative error of the velocity due to the spacing of the map, at the force of each level, shape
-        (levels,) [1]. This and the four following quantities are None unless they were requested;
-        `viscorough.contact.grid_error` has the formulas.
+        (levels,) [1]. This attribute and the next four attributes are None unless an estimate of the grid error was
+        requested; `viscorough.contact.grid_error` has the formulas.
     force_grid_error : array
-        Estimated relative error of the force due to the spacing, at the depth of each level, counted from the highest
-        point of the map, shape (levels,) [1].
+        Estimated relative error of the force due to the spacing, at the depth of each level, shape (levels,) [1]. The
+        depth is counted from the highest point of the map.
     area_change : array
-        Relative change of the contact area when the spacing of the map is halved, shape (levels,) [1]. The contact area
-        of a rough surface has no limit and therefore no error.
+        Estimated relative change of the contact area when the spacing of the map is halved, shape (levels,) [1]. As the
+        spacing decreases, the contact area of a rough surface approaches no limit, so it has no error.
     mean_grid_error, mean_area_change : float
         Means of `grid_error` and `area_change` over all forces from F/G = hL/25 on, with the rms height h of the map
-        and the diameter L of a disc of its area, or over the last decade if the curve ends before 0.4 hL.
+        and the diameter L of a disc of its area. If the curve ends before 0.4 hL, the means are over the last decade of
+        force.
     sampling : int
-        n for a curve on every n-th point of the map in both directions. Depths are counted from the highest point of
-        the full map.
+        Step n of a curve that was computed on every n-th point of the map in both directions; 1 for all points. Depths
+        are counted from the highest point of the full map.
     choice : str
-        Reason for the sampling and the tolerance, if they were chosen to meet a requested error.
+        Reason for the sampling and the tolerance, if they were chosen to meet a requested error; otherwise "".
 
     Raises
     ------
@@ -134,7 +136,7 @@ class LoadingCurve(ReadOnlyArrays):
             raise ValueError(f"loading curve: {text}; at least 1 and a finite number from 0 on are needed")
 
     def __str__(self) -> str:
-        """Return a summary: method and levels; ranges of depth, force, stiffness and contact fraction; grid error."""
+        """Return a summary: method, number of levels, first and last value of each quantity, and grid error."""
         unit, levels = self.length_unit, self.depth.size
         lines = [
             f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements",
@@ -153,7 +155,7 @@ class LoadingCurve(ReadOnlyArrays):
 
     @property
     def grid_error_text(self) -> str:
-        """Return the error of the grid and its meaning in one line; "" if it was not requested."""
+        """Return a line of text with the error of the grid and its meaning, or "" if this error was not estimated."""
         if self.mean_grid_error is None or self.mean_area_change is None:
             return ""
         grid = "a scan" if self.sampling == 1 else "a sampling"
@@ -164,11 +166,17 @@ class LoadingCurve(ReadOnlyArrays):
 
     @property
     def starts_straight(self) -> bool:
-        """Return True if the tangent of the first level passes through the origin, as for contacts of one height."""
+        """Return True if the tangent at the first level passes through the origin.
+
+        This is the case if all elements in contact at the first level have the same height.
+        """
         return bool(abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0])
 
     def normalised(self, rms: Scalar, diameter: Scalar) -> tuple[Array, Array]:
-        """Return X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3), for rms height h and diameter L, of shape (levels,)."""
+        """Return X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) at all levels, each of shape (levels,).
+
+        rms, diameter : rms height h and diameter L [length], as numbers or texts with a unit
+        """
         unit = self.length_unit
         rms, diameter = units.number(rms, unit, unit, "rms"), units.number(diameter, unit, unit, "diameter")
         if not (rms > 0 and diameter > 0):
@@ -178,13 +186,14 @@ class LoadingCurve(ReadOnlyArrays):
     def at_force(self, force: "ArrayLike") -> tuple[Array, Array]:
         """Interpolate depth u and stiffness k/G at given forces F/G; nan beyond the last level.
 
-        If at most one element joins the contact between two levels, the curve consists of the two tangents, exactly.
-        Otherwise ln u is a cubic Hermite interpolant in ln F, which is exact for a power law. Since F(u) is convex, the
-        interpolant is kept inside the triangle of chord and tangents.
+        If at most one element joins the contact between two levels, the curve between them consists of their two
+        tangents, exactly. Otherwise ln u is interpolated as a function of ln F by a cubic Hermite polynomial, which is
+        exact for a power law. The true curve F(u) is convex and lies in the triangle of the chord and the two tangents,
+        so the interpolated curve is limited to this triangle.
 
-        Before the first level the curve is a straight line through the origin if all elements in contact there have one
-        height, so that the tangent passes through the origin. Otherwise depth and stiffness are nan, but the depth at
-        zero force is zero.
+        Before the first level the curve is a straight line through the origin, if the tangent at the first level passes
+        through the origin (`starts_straight`). Otherwise depth and stiffness are nan, except that the depth is zero at
+        zero force.
 
         Parameters
         ----------
@@ -194,11 +203,11 @@ class LoadingCurve(ReadOnlyArrays):
         Returns
         -------
         depth, stiffness : array
-            u and k/G, both of the shape of `force` [length].
+            Depths u and stiffnesses k/G, both in the shape of `force` [length].
         """
         unit = self.length_unit
         force = units.numbers(force, unit_power(unit, 2), unit, "force")
-        # A force computed back from a level may miss it by rounding.
+        # A force that was computed back from the first or last level may differ from the force there by rounding.
         for end in (self.force[0], self.force[-1]):
             force = np.where(np.abs(force - end) <= _ROUNDING * end, end, force)
         depth, stiffness = np.full(force.shape, np.nan), np.full(force.shape, np.nan)
@@ -216,8 +225,8 @@ class LoadingCurve(ReadOnlyArrays):
     def at_depth(self, depth: "ArrayLike") -> tuple[Array, Array]:
         """Interpolate force F/G and stiffness k/G at given depths u; nan beyond the last level.
 
-        This is the inverse function of `at_force`. Before the first level force and stiffness are nan if `at_force`
-        gives nan, but the force at zero depth is zero.
+        This function is the inverse of `at_force`. Wherever `at_force` gives nan before the first level, force and
+        stiffness are nan here, too, except that the force is zero at zero depth.
 
         Parameters
         ----------
@@ -227,7 +236,7 @@ class LoadingCurve(ReadOnlyArrays):
         Returns
         -------
         force, stiffness : array
-            F/G [length²] and k/G [length], both of the shape of `depth`.
+            Forces F/G [length²] and stiffnesses k/G [length], both in the shape of `depth`.
 
         Examples
         --------
@@ -239,7 +248,7 @@ class LoadingCurve(ReadOnlyArrays):
         0.01
         """
         depth = units.numbers(depth, self.length_unit, self.length_unit, "depth")
-        # A depth computed back from a level may miss it by rounding.
+        # A depth that was computed back from the first or last level may differ from the depth there by rounding.
         for end in (self.depth[0], self.depth[-1]):
             depth = np.where(np.abs(depth - end) <= _ROUNDING * end, end, depth)
         force = np.full(depth.shape, np.nan)
@@ -257,16 +266,21 @@ class LoadingCurve(ReadOnlyArrays):
         return np.where(np.isnan(at_force), np.nan, force), stiffness
 
     def _levels_around(self, after: Integers) -> tuple[Pair, Pair, Pair, Array]:
-        """Return pairs of forces, depths and stiffnesses at two successive levels, and the number of joining elements.
+        """Return forces, depths and stiffnesses at two successive levels, and the number of elements that join between.
 
-        after : indices of the second levels
+        Each of the first three results is a pair: the values at the first and at the second level.
+
+        after : index of the second level, for each point of interpolation
         """
         forces, depths, stiffnesses = ((at[after - 1], at[after]) for at in (self.force, self.depth, self.stiffness))
         return forces, depths, stiffnesses, self.contact_count[after] - self.contact_count[after - 1]
 
 
 def check_curve(caller: str, curve: object) -> None:
-    """Raise TypeError, which starts with the caller, for anything but a LoadingCurve, such as a path or an Indenter."""
+    """Raise TypeError unless `curve` is a LoadingCurve.
+
+    caller : name of the function that the user called; the message starts with it
+    """
     if not isinstance(curve, LoadingCurve):
         text = "a LoadingCurve is needed, as viscorough.indent, reduce or load_curve returns it"
         raise TypeError(f"{caller}: {type(curve).__name__}; {text}")
@@ -275,16 +289,18 @@ def check_curve(caller: str, curve: object) -> None:
 def interpolate_between(
     forces: Pair, depths: Pair, stiffnesses: Pair, joined: Any, force: Array
 ) -> tuple[Array, Array]:
-    """Return depth and tangent stiffness at forces between two levels, as LoadingCurve.at_force.
+    """Return depth and tangent stiffness at forces between two levels, as LoadingCurve.at_force does.
 
-    forces, depths, stiffnesses : pairs of values at the first and at the second level, numbers or arrays of shape (n,)
+    forces, depths, stiffnesses : pairs of the values at the first and at the second level, numbers or arrays of shape
+        (n,)
     joined : number of elements that join the contact between the levels, number or array of shape (n,)
     force : forces F/G between the levels, shape (n,) [length²]
 
     Returns (depth, stiffness), both of shape (n,).
     """
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
-    # Far below the second level its tangent is inaccurate, by rounding. Then it must not be the lower tangent.
+    # Far below the second level, rounding makes the tangent of this level inaccurate. The margin keeps rounding from
+    # putting it below the tangent of the first level.
     left, right = u0 + (force - f0) / k0, u1 - (f1 - force) / k1 + _CANCELLATION * u1
     is_left = left <= right
     tangents = np.clip(np.minimum(left, right), u0, u1)
@@ -292,7 +308,8 @@ def interpolate_between(
     cubic, cubic_stiffness = _hermite_in_logarithms(force, forces, depths, stiffnesses)
     tangent_stiffness = np.where(is_left & (force < f1), k0, k1)
 
-    # Use the tangents if at most one element joined, otherwise the cubic or the side of the triangle that it crosses.
+    # Use the tangents if at most one element joins. Otherwise use the cubic polynomial inside the triangle of chord and
+    # tangents, and elsewhere the side of the triangle that the polynomial has crossed.
     on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
     where = [on_tangents, cubic < chord * (1 - 1e-12)]
     stiffness = np.select(where, [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness)
@@ -300,7 +317,10 @@ def interpolate_between(
 
 
 def _hermite_in_logarithms(force: Array, forces: Pair, depths: Pair, stiffnesses: Pair) -> tuple[Array, Array]:
-    """Return depth and stiffness of the cubic Hermite interpolant of ln u over ln F between two levels."""
+    """Return depth and stiffness from ln u, interpolated as a cubic Hermite polynomial of ln F between two levels.
+
+    The arguments are those of `interpolate_between`. The stiffness is limited to the range between the two levels.
+    """
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
     span = np.log(f1 / f0)
     x = np.log(force / f0) / span

@@ -1,4 +1,4 @@
-"""Motion of an indenter: the result of everything that moves in time."""
+"""Define the motion of an indenter in time, the result of all computations with a load history."""
 
 from dataclasses import dataclass
 
@@ -11,24 +11,26 @@ from viscorough.basics.summaries import si_unit, span, with_unit
 
 @dataclass(frozen=True)
 class Motion(ReadOnlyArrays):
-    """Motion of an indenter under a load; read-only arrays of shape (times,).
+    """Motion of an indenter under a load. All arrays are read-only and have the shape (times,).
 
     Attributes
     ----------
     time : array
-        Times t, in s if the unit of length is known, else in the unit of viscosity × length² / force.
+        Times t, in s if the unit of length is known, otherwise in the unit of viscosity × length² / force.
     depth : array
-        u [length]. Under no force it is not unique: the indenter then rests on the recovering surface.
+        Depth u [length]. At zero force the depth is not unique; the indenter then rests on the surface that recovers.
     force : array
-        F, in N if the unit of length is known.
+        Force F, in N if the unit of length is known.
     velocity : array
-        v = du/dt [length/time], the limit after each time; before it at the last time of a history and before a step.
+        Velocity v = du/dt [length/time]. If the velocity jumps at a time, its limit just after this time is given. At
+        the last time of a history, and at the sample just before a step of the load, its limit just before the time is
+        given.
     contact_fraction : array
         Share of the elements of the indenter that are in contact [1].
     length_unit : str
-        Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
+        Unit of the lengths, as UDUNITS spells it; "1" if the unit is not known.
     receding_from : float
-        Time from which the contact has receded, at first; nan if it only grows.
+        First time from which on the contact recedes; nan if the contact only grows.
 
     Examples
     --------
@@ -50,7 +52,7 @@ class Motion(ReadOnlyArrays):
     receding_from: float = np.nan
 
     def __str__(self) -> str:
-        """The first and last time, depth, force and velocity, and when the contact recedes."""
+        """Return a summary: first and last value of each quantity, and the time from which the contact recedes."""
         unit = self.length_unit
         text = (
             f"Motion at {self.time.size} times\n"

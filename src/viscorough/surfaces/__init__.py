@@ -1,1 +1,1 @@
-"""Rigid indenters: their type, and generation and preparation of their heights."""
+"""Rigid indenters: the class Indenter, generation of rough surfaces, and preparation of measured heights."""

@@ -1,4 +1,4 @@
-"""Rigid indenters: height maps and lines, with the spacing of their points."""
+"""Define the class Indenter: a height map, or the heights along a line, with the spacing of the points."""
 
 import math
 import sys
@@ -21,35 +21,37 @@ from viscorough.basics.arrays import (
 from viscorough.basics.summaries import with_unit
 from viscorough.basics.types import Array
 
-# Largest ratio of the sides of an element.
+# Largest ratio of the longer to the shorter side of an element.
 LARGEST_ASPECT = 5
-# Double precision cannot represent all whole numbers above this one.
+# Up to this number, double precision represents all whole numbers exactly.
 _LARGEST_WHOLE = 2**53
 
 
 @dataclass(frozen=True)
 class Indenter(ReadOnlyArrays):
-    """Rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
+    """Rigid indenter: heights at the points of a rectangular grid, or of a line with equal spacing.
 
     Parameters
     ----------
     heights : array
-        Map of shape (rows, columns), nan outside the indenter, or line of shape (points,) [length]. Larger is higher,
-        and the highest point touches first. The array is copied and read-only. Masked entries become nan. Single
+        Map of shape (rows, columns), nan outside the indenter, or line of shape (points,) [length]. The point with the
+        largest height touches first. The array is copied, and the copy is read-only. Masked entries become nan. Single
         precision is kept; all other numbers become double precision.
     spacing : float
-        Distance dx between neighbouring columns of a map, or points of a line [length]; or the pair (dx, dy).
+        Distance dx between neighbouring columns of a map, or between neighbouring points of a line [length]. It may
+        also be a pair (dx, dy).
     row_spacing : float
         Distance dy between neighbouring rows of a map, from a fifth of dx to five times dx; by default dx [length].
     length_unit : str
-        Unit of heights and spacings, as UDUNITS spells it ("um"); "1" if it is not known.
+        Unit of heights and spacings, as UDUNITS spells it ("um"); "1" if the unit is not known.
 
     Raises
     ------
     ValueError
-        For heights that are not real numbers in one or two dimensions, are whole numbers beyond 2**53, are infinite,
-        differ by more than double precision can represent, are all nan, or are nan on a line; for spacings that are
-        not positive, differ by more than a factor of five, or differ on a line; and for a unit that is not a text.
+        For heights that are not real numbers in one or two dimensions, contain whole numbers beyond 2**53, are
+        infinite, differ by more than double precision can represent, are all nan, or contain nan on a line; for
+        spacings that are not positive, differ by more than a factor of five, or differ on a line; and for a unit that
+        is not a text.
 
     Examples
     --------
@@ -62,7 +64,7 @@ class Indenter(ReadOnlyArrays):
 
     heights: np.ndarray
     spacing: float
-    row_spacing: float = None  # type: ignore[assignment]  # a number in every Indenter: by default the spacing
+    row_spacing: float = None  # type: ignore[assignment]  # __post_init__ replaces None by the spacing
     length_unit: str = "1"
 
     def __post_init__(self) -> None:
@@ -83,12 +85,12 @@ class Indenter(ReadOnlyArrays):
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
         if heights.ndim not in (1, 2):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
-        whole = np.ma.asanyarray(self.heights)  # masked entries are ignored
+        whole = np.ma.asanyarray(self.heights)  # methods of masked arrays ignore masked entries
         if whole.dtype.kind in "iu" and whole.count() and max(-int(whole.min()), int(whole.max())) > _LARGEST_WHOLE:
             raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
-        # Single or double precision, in rows and in the byte order of this machine.
+        # Store heights in single or double precision, row by row, and in the byte order of this machine.
         precision = np.float32 if heights.dtype == np.float32 else np.float64
-        with np.errstate(over="ignore"):  # numbers that are too large become infinite
+        with np.errstate(over="ignore"):  # numbers that are too large become infinite, which is checked below
             heights = np.ascontiguousarray(heights, dtype=precision)
         heights.flags.writeable = False
         if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
@@ -107,7 +109,7 @@ class Indenter(ReadOnlyArrays):
         object.__setattr__(self, "row_spacing", row_spacing)
 
     def __str__(self) -> str:
-        """Return a summary: kind and numbers of points; spacings; difference of the heights."""
+        """Return a summary: map or line, numbers of points and elements, spacings, and difference of the heights."""
         points, unit = " x ".join(map(str, self.heights.shape)), self.length_unit
         difference = np.nanmax(self.heights) - np.nanmin(self.heights)
         text = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements\n"
@@ -117,7 +119,7 @@ class Indenter(ReadOnlyArrays):
         return f"{text}highest over lowest point {with_unit(difference, unit)}"
 
     def to(self, unit: str) -> "Indenter":
-        """Convert lengths to another unit, such as "m". Raises ValueError if the unit of the indenter is not known."""
+        """Return the indenter with lengths in another unit, such as "m". Raises ValueError if its unit is not known."""
         if self.length_unit == units.UNKNOWN:
             raise ValueError(f"indenter: its unit of length is not known, so that it cannot be converted to {unit}")
         unit = units.length_unit(unit)
@@ -126,12 +128,12 @@ class Indenter(ReadOnlyArrays):
 
     @property
     def aspect(self) -> float:
-        """Return the aspect dy/dx of an element; 1 for squares."""
+        """Return the ratio dy/dx of the sides of an element; 1 for squares."""
         return self.row_spacing / self.spacing
 
     @property
     def element_side(self) -> float:
-        """Return the side d = √(dx dy) of a square with the area of an element [length]."""
+        """Return the side d = √(dx dy) of the square that has the area of an element [length]."""
         return self.spacing * math.sqrt(self.aspect)
 
     @property
@@ -141,25 +143,28 @@ class Indenter(ReadOnlyArrays):
 
     @property
     def rms_slope(self) -> float:
-        """Return the rms slope, √⟨(∇h)²⟩ from differences of neighbours [1]; 0 for a single element."""
+        """Return the rms slope √⟨(∇h)²⟩ of the heights h from differences of neighbours; 0 for a single element [1]."""
         slopes = [0.0]
         with np.errstate(over="ignore", under="ignore"):  # a slope that overflows is infinite
             for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):
                 slope = np.abs(np.diff(self.heights.astype(float), axis=axis)) / spacing
                 largest = np.fmax.reduce(slope, axis=None, initial=0.0)
-                # Slopes are divided by the largest before squaring: the square of a slope below 1e-162 would be 0.
+                # Divide slopes by the largest slope before squaring: the square of a slope below 1e-162 would be 0.
                 relative = slope / largest if 0 < largest < np.inf else np.ones(1)
                 slopes.append(largest * np.sqrt(np.nanmean(relative**2)))
         return float(np.hypot.reduce(slopes))
 
     @property
     def initial_gap(self) -> Array:
-        """Return the depth of each element below the highest element, shape of the heights [length]."""
+        """Return the depth of each element below the highest element, in the shape of the heights [length]."""
         return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
 
 
 def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, float]:
-    """Convert both spacings to (dx, dy) in the unit of length."""
+    """Check the spacings, and return (dx, dy) in the unit of length.
+
+    spacing, row_spacing, length_unit : arguments of Indenter
+    """
     if unit_attribute(spacing):
         spacing = units.numbers(spacing, length_unit, length_unit, "indenter spacing")
     if unit_attribute(row_spacing):
@@ -170,7 +175,7 @@ def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, 
     row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
     if min(spacing, row_spacing) < sys.float_info.min:
         raise ValueError(f"indenter spacing: {spacing:g} is too small to represent; a smaller unit of length is needed")
-    largest = LARGEST_ASPECT * (1 + 1e-9)  # computed spacings may exceed it by rounding
+    largest = LARGEST_ASPECT * (1 + 1e-9)  # rounding of computed spacings may slightly change their ratio
     if not 1 / largest <= row_spacing / spacing <= largest:
         raise ValueError(
             f"indenter spacing: {spacing:g} between columns and {row_spacing:g} between rows differ by more than "
@@ -180,9 +185,10 @@ def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, 
 
 
 def check_indenter(caller: str, indenter: object, dimensions: int | None = None) -> None:
-    """Raise TypeError, which starts with the caller, for anything but an Indenter, such as an array of heights.
+    """Raise TypeError unless `indenter` is an Indenter, and ValueError if its heights have the wrong dimensions.
 
-    dimensions : of the heights, 2 for a map, 1 for a line, None for either; ValueError is raised for others
+    caller : name of the function that the user called; messages start with it
+    dimensions : allowed number of dimensions of the heights: 2 for a map, 1 for a line, None for either
     """
     if not isinstance(indenter, Indenter):
         text = "an Indenter is needed, as viscorough.Indenter(heights, spacing) or viscorough.read_heights makes it"

@@ -1,12 +1,15 @@
 """Compute the random waves of a self-affine line from a counter-based random generator.
 
-Wave k gets two 32-bit random numbers from the counter k alone (Philox2x32 with ten rounds, J. K. Salmon et al.,
-Parallel random numbers: as easy as 1, 2, 3, 2011). They depend neither on the order nor on the number of waves computed
-at a time. They determine a phase φ and a number U in (0, 1), and the complex Gaussian coefficient (Box and Muller)
+Two 32-bit random numbers for wave k are computed from the counter k and the key of the realization alone (Philox2x32
+with ten rounds, J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, 2011). They depend neither on the
+order in which waves are computed nor on the number of waves computed at a time. The first random number gives the phase
+φ, the second a number U in (0, 1). The complex Gaussian coefficient of the wave is then (Box and Muller)
     X_k = A_k √(-2 ln U) exp(iφ)
-with the modulus A_k of the spectrum. With fixed amplitudes the coefficient is A_k exp(iφ).
-`waves` is this formula in double precision. The compiled functions compute it in single precision for lines of an even
-number of points, with polynomials for logarithm, sine and cosine, because the compiler can vectorize those.
+with the amplitude A_k of the spectrum. With fixed amplitudes the coefficient is A_k exp(iφ).
+
+The function `waves` evaluates this formula in double precision. The compiled functions evaluate it in single precision
+for lines with an even number of points. They use polynomials for logarithm, sine and cosine, because the compiler can
+vectorize polynomials.
 """
 
 import numpy as np
@@ -14,16 +17,18 @@ import numpy as np
 from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array, Complex, Integers
 
-# Largest counter of the generator.
+# Largest number of waves: the counter of the random generator has 32 bits.
 MOST_WAVES = 2**32 - 1
-# Waves computed at a time, so that their arrays stay in the fastest cache.
+# Number of waves computed at a time, so small that their arrays stay in the fastest cache.
 _BLOCK = 1024
-# Numba computes in exactly these types.
+# Constants are converted to these types, so that numba does not compute in wider types.
 _U64, _U32, _I32, _F32 = np.uint64, np.uint32, np.int32, np.float32
 
+# Number of rounds, multiplier and key increment (Weyl constant) of Philox2x32, and mask of the lower 32 bits.
 _ROUNDS, _MULTIPLIER, _WEYL, _LOW = 10, _U64(0xD256D193), _U64(0x9E3779B9), _U64(0xFFFFFFFF)
-# Polynomials of S. Moshier's Cephes library for single precision, relative errors of 1e-7: (ln(1+z) - z + z²/2) / z³,
-# (sin x - x) / x³ and (cos x - 1) / x² for |x| <= π/4.
+# Coefficients, highest power first, of polynomials in single precision with relative errors of 1e-7, from S. Moshier's
+# Cephes library: _LOG in z for (ln(1+z) - z + z²/2) / z³, _SINE in x² for (sin x - x) / x³ and _COSINE in x² for
+# (cos x - 1) / x², both for |x| <= π/4.
 _LOG = tuple(
     _F32(c)
     for c in (
@@ -42,22 +47,22 @@ _SINE = tuple(_F32(c) for c in (-1.9515295891e-4, 8.3321608736e-3, -1.6666654611
 _COSINE = tuple(_F32(c) for c in (2.443315711809948e-5, -1.388731625493765e-3, 4.166664568298827e-2, -0.5))
 _LN2, _ONE, _HALF, _TWO, _BITS = _F32(np.log(2)), _F32(1), _F32(0.5), _F32(2), _F32(32)
 _EIGHTH_TURN = _F32(np.pi / 4 * 2.0**-31)
-# Bits of √(1/2) in single precision, and number of bits of a mantissa.
+# Bit pattern of √(1/2) in single precision, as a whole number, and number of bits in a mantissa.
 _ROOT_HALF, _MANTISSA = _I32(0x3F3504F3), _I32(23)
 
 
 def key_of(seed_sequence: np.random.SeedSequence) -> Integers:
-    """Return the key of the random numbers: two 32-bit numbers."""
+    """Return the key of the random generator for a seed: two 32-bit numbers."""
     return seed_sequence.generate_state(2, np.uint32).astype(np.uint64)
 
 
 def waves(first: int, key: Integers, amplitude: Array, *, fixed: bool) -> Complex:
     """Return the coefficients X_k of the waves k = first, first + 1, ... in double precision, shape of `amplitude`.
 
-    first : number of the first wave, at least 0
+    first : number k of the first wave, at least 0
     key : key of the realization, from `key_of`
-    amplitude : moduli A_k of the waves
-    fixed : True if the moduli of X_k are exactly A_k, False if they are random
+    amplitude : amplitudes A_k of the waves in the spectrum
+    fixed : True for coefficients with exactly the moduli A_k, False for random moduli
     """
     direction, size = np.empty((2, len(amplitude)), np.uint32)
     random_words(first, key, direction, size)
@@ -69,7 +74,8 @@ def waves(first: int, key: Integers, amplitude: Array, *, fixed: bool) -> Comple
 def random_words(first, key, low, high):
     """Fill `low` and `high` with the random numbers of the counters first, first + 1, ... (Philox2x32-10).
 
-    key : key of the generator, and upper half of its counter
+    key : key[0] is the key of the generator, and key[1] the upper half of its 64-bit counter
+    low, high : arrays of equal shape for the lower and the upper 32 bits of the random numbers
     """
     for i in range(low.size):
         left, right, round_key = _U64(first + i), key[1], key[0]
@@ -83,26 +89,30 @@ def random_words(first, key, low, high):
 
 
 def shortest_wave(points: int, key: Integers, amplitude: float, *, fixed: bool) -> float:
-    """Return the real coefficient of wave n/2 of a line of an even number n of points.
+    """Return the real coefficient of the shortest wave, k = n/2, of a line with an even number n of points.
 
-    This wave equals its mirror image, so it is a cosine. Its mean power is the same as with a random phase.
+    This wave has two points per period. Its values at the points are those of a cosine, so its coefficient is real. The
+    factor √2 gives it the same mean power as a complex coefficient would have.
 
-    amplitude : modulus of the wave
+    points : number n of points
+    key, fixed : arguments of `waves`
+    amplitude : amplitude of the wave in the spectrum
     """
     wave = waves(points // 2, key, np.array([amplitude]), fixed=fixed)[0]
     return np.copysign(abs(wave), wave.real) if fixed else np.sqrt(2) * wave.real
 
 
 def fill_packed_spectrum(spectrum: Complex, key: Integers, amplitude: Array, *, fixed: bool) -> float:
-    """Fill `spectrum` with the spectrum of a line of pairs of points; return the mean square of the heights.
+    """Fill `spectrum` with the spectrum of a line whose points are combined in pairs; return the mean square height.
 
-    spectrum : Z, shape (m,), complex, single precision, for a line of n = 2m points
-    key, fixed : arguments of `waves`
-    amplitude : moduli A_k of the waves k = 0, 1, ..., m in single precision; there is no wave k = 0
-
-    The complex transform of Z of length m, with positive exponents and without a factor, is y_2j + i y_2j+1 for the
-    real line y of the waves X_k:
+    Let y be the real heights of a line with the waves X_k at its n = 2m points. They are combined to the m complex
+    numbers y_2j + i y_2j+1. The spectrum Z of these numbers is
         Z_k = X_k + X*_(m-k) + i exp(iπk/m) (X_k - X*_(m-k)).
+    The complex Fourier transform of Z, with positive exponents and without a factor, gives the pairs of heights.
+
+    spectrum : array for Z, shape (m,), complex, single precision
+    key, fixed : arguments of `waves`
+    amplitude : amplitudes A_k of the waves k = 0, 1, ..., m in single precision; A_0 is ignored: there is no wave k = 0
     """
     half = len(spectrum)
     shortest = shortest_wave(2 * half, key, amplitude[half], fixed=fixed)
@@ -117,14 +127,18 @@ def fill_packed_spectrum(spectrum: Complex, key: Integers, amplitude: Array, *, 
 
 @njit
 def _fill_pairs(spectrum, key, amplitude, fixed):
-    """Fill Z_k and Z_(m-k) for 0 < k < m/2 block by block; return the sum of the squares of the moduli."""
+    """Fill Z_k and Z_(m-k) for 0 < k < m/2, block by block; return the sum of |X_k|² of these waves.
+
+    See `fill_packed_spectrum` for Z, X, m and the arguments.
+    """
     half, square = spectrum.size, 0.0
-    turn = _U64(2.0**63 / half)  # half a turn over m
+    # The angle π/m, as a whole number; 2^64 is a full turn.
+    turn = _U64(2.0**63 / half)
     longer, shorter = np.empty((2, _BLOCK), np.float32), np.empty((2, _BLOCK), np.float32)
     rotation = np.empty((2, _BLOCK), np.float32)
     for start in range(1, (half + 1) // 2, _BLOCK):
         size = min(_BLOCK, (half + 1) // 2 - start)
-        mirrored = half - start - size + 1  # the first of the waves m - k
+        mirrored = half - start - size + 1  # smallest number of the waves m - k for the waves k of this block
         square += _draw(start, key, amplitude[start : start + size], fixed, longer)
         square += _draw(mirrored, key, amplitude[mirrored : mirrored + size], fixed, shorter)
         _unit_vectors(start, turn, rotation)
@@ -136,7 +150,11 @@ def _fill_pairs(spectrum, key, amplitude, fixed):
 
 @njit(inner=True)
 def _draw(first, key, amplitude, fixed, parts):
-    """Compute the parts of X_k for k = first, first + 1, ...; return the sum of the squares of the moduli."""
+    """Compute the coefficients X_k of the waves k = first, first + 1, ...; return the sum of |X_k|².
+
+    first, key, amplitude, fixed : arguments of `waves`
+    parts : array for the real parts, parts[0], and the imaginary parts, parts[1]
+    """
     direction, size = np.empty(amplitude.size, np.uint32), np.empty(amplitude.size, np.uint32)
     random_words(first, key, direction, size)
     if fixed:
@@ -148,14 +166,21 @@ def _draw(first, key, amplitude, fixed, parts):
 
 @njit(fastmath=True)
 def _moduli(size, amplitude, modulus):
-    """Compute the moduli A √(-2 ln U) with U = (size + 1/2) / 2^32."""
+    """Compute random moduli A √(-2 ln U), with U = (size + 1/2) / 2^32 from 32-bit random numbers `size`.
+
+    amplitude, modulus : amplitudes A, and array for the moduli
+    """
     for i in range(size.size):
         modulus[i] = amplitude[i] * np.sqrt(_TWO * _minus_log(size[i]))
 
 
 @njit(inner=True, fastmath=True)
 def _polar(direction, modulus, parts):
-    """Compute the parts of numbers of this modulus and direction; return the sum of the squared moduli."""
+    """Compute complex numbers from their moduli and directions; return the sum of the squared moduli.
+
+    direction : angles as 32-bit whole numbers; 2^32 is a full turn
+    parts : array for the real parts, parts[0], and the imaginary parts, parts[1]
+    """
     square = _F32(0)
     for i in range(direction.size):
         cosine, sine = _cos_sin(direction[i])
@@ -166,19 +191,27 @@ def _polar(direction, modulus, parts):
 
 @njit(inner=True, fastmath=True)
 def _unit_vectors(first, turn, parts):
-    """Compute the real and imaginary parts of exp(2πi (first + i) turn / 2^64)."""
+    """Compute exp(2πi (first + j) turn / 2^64) for j = 0, 1, ..., parts.shape[1] - 1.
+
+    parts : array for the real parts, parts[0], and the imaginary parts, parts[1]
+    """
     for i in range(parts.shape[1]):
         parts[0, i], parts[1, i] = _cos_sin(_U32(_U64(first + i) * turn >> _U64(32)))
 
 
 @njit(inner=True, fastmath=True)
 def _pack(longer, shorter, rotation, size):
-    """Overwrite the parts of X_k and of X_(m-k), the latter in reverse order, by the parts of Z_k and Z_(m-k).
+    """Replace the coefficients X_k and X_(m-k) by Z_k and Z_(m-k), in place (see `fill_packed_spectrum`).
 
-    With S = X_k + X*_(m-k) and W = i exp(iπk/m) (X_k - X*_(m-k)): Z_k = S + W and Z_(m-k) = (S - W)*.
+    With S = X_k + X*_(m-k) and W = i exp(iπk/m) (X_k - X*_(m-k)), the results are Z_k = S + W and Z_(m-k) = (S - W)*.
+
+    longer : real and imaginary parts of X_k, in the order of increasing k, shape (2, at least `size`)
+    shorter : real and imaginary parts of X_(m-k), in the order of decreasing k
+    rotation : real and imaginary parts of exp(iπk/m)
+    size : number of waves k
     """
     for i in range(size):
-        j = _U64(size - 1 - i)  # unsigned: no check for negative indices, so that the loop is vectorized
+        j = _U64(size - 1 - i)  # unsigned indices need no check for negative values, so the loop can be vectorized
         sum_real, sum_imag = longer[0, i] + shorter[0, j], longer[1, i] - shorter[1, j]
         real, imag = longer[0, i] - shorter[0, j], longer[1, i] + shorter[1, j]
         turned_real = -rotation[1, i] * real - rotation[0, i] * imag
@@ -195,9 +228,12 @@ def _store(parts, numbers):
 
 @njit
 def twiddle(spectrum, factor):
-    """Multiply spectrum[j, k] in place by factor exp(2πi jk/m), with m the size of the spectrum.
+    """Multiply the complex number [j, k] of a spectrum in place by factor · exp(2πi jk/m).
 
-    spectrum : complex, single precision, as pairs of real numbers; shape (rows, 2 columns)
+    Here m is the number of complex numbers in the spectrum.
+
+    spectrum : complex numbers stored as pairs of real numbers, single precision; shape (rows, 2 columns)
+    factor : real number
     """
     rows, columns = spectrum.shape[0], spectrum.shape[1] // 2
     rotation = np.empty((2, columns), np.float32)
@@ -208,7 +244,11 @@ def twiddle(spectrum, factor):
 
 @njit(inner=True, fastmath=True)
 def _rotate(pairs, rotation, factor):
-    """Multiply complex numbers, stored as pairs of real numbers, by other complex numbers."""
+    """Multiply complex numbers in place by factor · rotation.
+
+    pairs : complex numbers stored as pairs of real numbers, shape (2 columns,)
+    rotation : complex numbers of modulus 1, real parts in rotation[0], imaginary parts in rotation[1]
+    """
     for i in range(rotation.shape[1]):
         j, k = _U64(2 * i), _U64(2 * i + 1)
         cosine, sine = factor * rotation[0, i], factor * rotation[1, i]
@@ -218,7 +258,10 @@ def _rotate(pairs, rotation, factor):
 
 @njit(inner=True, fastmath=True)
 def _cos_sin(direction):
-    """Return cosine and sine of the angle direction / 2^32 of a turn, from an angle within an eighth of a turn."""
+    """Return cosine and sine of an angle, for direction = 2^32 · angle / 2π.
+
+    The angle is reduced to the quadrant and an angle x between -π/4 and π/4, for polynomials of sin x and cos x.
+    """
     quadrant = _U32(_U32(direction + _U32(1 << 29)) >> _U32(30))
     x = _F32(_I32(_U32(direction << _U32(2)))) * _EIGHTH_TURN
     square = x * x
@@ -233,9 +276,9 @@ def _cos_sin(direction):
 
 @njit(inner=True, fastmath=True)
 def _minus_log(size):
-    """Return -ln((size + 1/2) / 2^32) from the exponent and the mantissa of size + 1/2."""
+    """Return -ln((size + 1/2) / 2^32), computed from the exponent and the mantissa of size + 1/2."""
     bits = np.float32(_F32(size) + _HALF).view(np.int32)
-    exponent = (bits - _ROOT_HALF) >> _MANTISSA  # with mantissas from √(1/2) to √2
+    exponent = (bits - _ROOT_HALF) >> _MANTISSA  # chosen so that the mantissa lies between √(1/2) and √2
     z = np.int32(bits - (exponent << _MANTISSA)).view(np.float32) - _ONE
     cubic = _LOG[0]
     for c in _LOG[1:]:

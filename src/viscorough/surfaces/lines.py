@@ -1,11 +1,12 @@
 """Generate realizations of self-affine lines; quantities that do not depend on the realization are computed once.
 
-Heights are the Fourier transform of random waves (`line_waves`). For an even number n of points in single precision,
-the heights are a complex transform of half the length, m = n/2, over pairs of points. The transform has four steps
-(D. H. Bailey, FFTs in external or hierarchical memory, 1990): with m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂,
-    z_j = Σ_k₂ exp(2πi j₂k₂/N₂) exp(2πi j₁k₂/m) Σ_k₁ exp(2πi j₁k₁/N₁) Z_k,
-so that every transform fits in the cache. Pairs are then stored in the order of (j₁, j₂), which is irrelevant to the
-method of dimensionality reduction. All other lines are computed by an ordinary real transform.
+Heights are the Fourier transform of random waves (see `line_waves`). For an even number n of points in single
+precision, neighbouring points are combined to m = n/2 complex numbers z_j, j = 0, 1, ..., m - 1. Their spectrum is Z_k.
+The transform from Z to z consists of short transforms, which fit in the cache (four-step method; D. H. Bailey, FFTs in
+external or hierarchical memory, 1990). With m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂ it is
+    z_j = Σ_k₂ exp(2πi j₂k₂/N₂) exp(2πi j₁k₂/m) Σ_k₁ exp(2πi j₁k₁/N₁) Z_k.
+The result is an array [j₁, j₂], so the points are not stored in their order along the line. This order is irrelevant to
+the method of dimensionality reduction. All other lines are computed by an ordinary real transform.
 """
 
 import math
@@ -21,23 +22,26 @@ from viscorough.basics.arrays import positive, whole_number
 from viscorough.basics.types import Array, Integers, Seed
 from viscorough.surfaces import line_waves, spectrum
 
-# Factor between the rms height and the limits of the floating-point type.
+# The rms height must differ at least by this factor from the smallest and from the largest number of the floating-point
+# type.
 _ROOM = 1000
-# Waves computed at a time in double precision.
+# Number of waves computed at a time in double precision.
 _BLOCK = 16384
-# Memory that must be available, in multiples of the heights of a line, since the Fourier transform copies them. The
-# second number is for numbers of points with large prime factors (tests/viscorough/basics/test_memory.py).
+# Memory that must be available, in multiples of the memory for the heights of a line, because the Fourier transform
+# copies the heights. The second value holds if the number of points has large prime factors
+# (tests/viscorough/basics/test_memory.py).
 _COPIES, _MOST_COPIES = 2.6, 17
 
 
 class SelfAffineLines:
-    """Generator of periodic self-affine lines with one spectrum.
+    """Generator of periodic self-affine lines, all with the same spectrum.
 
-    Raises the errors of `surfaces.self_affine_line`.
+    hurst, points, rms, length, dtype : arguments of `self_affine.self_affine_line`
+    waves : further arguments of `self_affine_line`, by name: roll_off_wavelength, roll_off_level and amplitudes
 
-    hurst, points, rms, length, dtype : arguments of `surfaces.self_affine_line`
-    waves : its arguments roll_off_wavelength, roll_off_level and amplitudes
-    spacing : distance between neighbouring points, length/points [length]
+    The attribute `spacing` is the distance between neighbouring points, length/points [length].
+
+    Raises the errors of `self_affine_line`.
     """
 
     def __init__(
@@ -71,20 +75,24 @@ class SelfAffineLines:
         if self._in_pairs:
             self._amplitude = self._moduli(0, points // 2 + 1)
             pairs = points // 2
-            rows = next(d for d in range(math.isqrt(pairs), 0, -1) if pairs % d == 0)  # the divisor nearest to √pairs
+            # The number of rows is the largest divisor of `pairs` up to √pairs.
+            rows = next(d for d in range(math.isqrt(pairs), 0, -1) if pairs % d == 0)
             self._packed = np.empty((rows, pairs // rows), np.complex64)
 
     def heights(self, seed: Seed) -> Array:
-        """Return the heights of the realization of a seed, in order, shape (points,), read-only [length]."""
+        """Return the heights along the line for a seed, read-only, shape (points,) [length]."""
         heights = self.heights_in_any_order(seed)
-        if self._in_pairs:  # y_2j + i y_2j+1 at [j₁, j₂]
+        if self._in_pairs:  # pair j of neighbouring points is stored as a complex number at [j₁, j₂] (see the module)
             ordered = heights.view(np.complex64).reshape(self._packed.shape).T.copy()
-            ordered.flags.writeable = False  # so that an Indenter does not copy them
+            ordered.flags.writeable = False  # an Indenter does not copy read-only heights
             heights = ordered.reshape(-1).view(np.float32)
         return heights
 
     def heights_in_any_order(self, seed: Seed) -> Array:
-        """Return the same heights in unspecified order, read-only; the next call of a method overwrites them."""
+        """Return the heights for a seed in unspecified order, read-only, shape (points,) [length].
+
+        The next call of this method or of `heights` may overwrite the returned array.
+        """
         key = line_waves.key_of(spectrum.seed_sequence(seed))
         if not self._in_pairs:
             return self._by_real_transform(key)
@@ -100,7 +108,8 @@ class SelfAffineLines:
     def _by_real_transform(self, key: Integers) -> Array:
         points = self._points
         memory_ = np.empty(2 * (points // 2 + 1), self._dtype)
-        coefficients = memory_.view(np.result_type(self._dtype, np.complex64))  # of the waves k = 0, 1, ...
+        # Complex coefficients of the waves k = 0, 1, ..., in the same memory.
+        coefficients = memory_.view(np.result_type(self._dtype, np.complex64))
         mean_square = 0.0
         for start in range(1, len(coefficients), _BLOCK):
             block = coefficients[start : start + _BLOCK]
@@ -111,7 +120,7 @@ class SelfAffineLines:
             shortest = line_waves.shortest_wave(points, key, amplitude[-1], fixed=self._fixed)
             mean_square += shortest**2 - 2 * abs(waves[-1]) ** 2
             coefficients[-1] = shortest
-        # The heights overwrite their spectrum: the mean, then real and imaginary parts of wave after wave.
+        # The heights overwrite their spectrum. It consists of the mean (0), then real and imaginary part of each wave.
         heights = memory_[1 : points + 1]
         heights[0] = 0
         heights *= spectrum.scale_factor(self._rms, mean_square)
@@ -120,5 +129,8 @@ class SelfAffineLines:
         return heights
 
     def _moduli(self, first: int, count: int, dtype: DTypeLike = np.float32) -> Array:
-        """Return the moduli of the waves first, first + 1, ...; the modulus of wave 0 has no meaning."""
+        """Return the amplitudes of `count` waves with the numbers first, first + 1, ...
+
+        The amplitude of wave 0 has no meaning.
+        """
         return spectrum.amplitude(np.arange(first, first + count, dtype=dtype), self._exponent, *self._roll_off)

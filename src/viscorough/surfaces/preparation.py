@@ -1,6 +1,7 @@
-"""Prepare measured maps of heights for contact: missing values, cropping, sign, tilt or form, holes.
+"""Prepare measured maps of heights for contact computations.
 
-`doubts` describes defects of unprepared maps, which would make the results of a contact wrong without an error.
+`prepare` marks missing values, crops the map, changes the sign, removes tilt or form, and fills holes. `doubts`
+describes defects of a map that is not prepared. The solver would accept such a map, but its results would be wrong.
 """
 
 from collections.abc import Iterator, Sequence
@@ -12,22 +13,25 @@ from viscorough.basics.arrays import real_numbers, shown, whole_number
 from viscorough.basics.types import Array, Mask
 from viscorough.surfaces.indenter import Indenter, check_indenter
 
+# Allowed values of the arguments `detrend` and `fill` of `prepare`.
 DETREND = ("none", "mean", "plane", "sphere")
 FILL = ("none", "harmonic")
-# Rise of the fitted plane over the rms height about it, from which on a map is called tilted.
+# A map is called tilted if the fitted plane rises by more than this multiple of the rms height about the plane.
 _NOTABLE_TILT = 6
-# Distance of a suspicious value from all other values, over their range. It is 1 for a common mark.
+# A value is suspicious if its distance from all other values is more than this multiple of the range of the others. For
+# a common mark of missing values the multiple is 1.
 _FAR = 10
-# Common marks of missing values.
+# Values that instruments and programs often write for missing heights.
 _MARKS = (9999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
-# Height of a spike above all its neighbours, over the usual difference of neighbours.
+# A point is called a spike if it is higher than all its neighbours by more than this multiple of the usual difference
+# between neighbours.
 _SPIKE = 20
-# Largest slope of a fitted sphere within the map.
+# Largest ratio of the distance of the corners of the map from its middle to the radius of a fitted sphere.
 _LARGEST_SLOPE = 0.99
-# Largest number of iterations of the fit of a sphere.
+# Largest number of iterations in the fit of a sphere.
 _MAX_ITERATIONS = 20
 
-# ((first column, end), (first row, end))
+# A part of a map, as ((first column, end), (first row, end)).
 Crop = Sequence[Sequence[int]]
 
 
@@ -40,26 +44,29 @@ def prepare(
     detrend: str = "none",
     fill: str = "none",
 ) -> Indenter:
-    """Prepare a map of heights: missing values, crop, sign, form and holes, in this order.
+    """Prepare a measured map of heights for contact computations.
 
-    Each step is optional. A sphere of curvature k is a + bx + cy + k r²/(1 + √(1 − k²r²)), with r the distance from the
-    middle of the map.
+    The steps are, in this order: replace marks of missing values by nan, crop the map, change the sign of the heights,
+    subtract a form, and fill holes. Each step is optional.
 
     Parameters
     ----------
     indenter : Indenter
         Map of heights.
     nodata : Sequence[float], optional
-        Value, or several values, of points that were not measured; these points become nan.
+        One or several values that mark missing heights in the map. Points with these values become nan.
     crop : pairs of int, optional
-        ((first column, end), (first row, end)), numbers of points from 0; ends are not included.
+        Part of the map to keep, as ((first column, end), (first row, end)). Columns and rows are counted from 0, and
+        the ends are not included.
     flip : bool, optional
-        Change the sign, for maps of depths instead of heights.
+        True to change the sign, for maps of depths instead of heights.
     detrend : str, optional
-        "mean", "plane" or "sphere": subtract this form, fitted by least squares to all points that are not nan. A
-        sphere includes a plane.
+        Form to subtract: "mean", "plane", "sphere", or "none". The form is fitted by least squares to all points that
+        are not nan. "sphere" is a sphere of curvature k on a plane, a + bx + cy + k r²/(1 + √(1 − k²r²)), with the
+        coordinates x and y and the distance r from the middle of the map.
     fill : str, optional
-        "harmonic": fill enclosed nan regions by the Laplace equation with the heights around them.
+        "harmonic" to fill every region of nan that is enclosed by heights. The new heights solve the Laplace equation,
+        with the heights around the region as boundary values.
 
     Returns
     -------
@@ -68,7 +75,8 @@ def prepare(
     Raises
     ------
     ValueError
-        For a line, an unknown option, a crop beyond the map, and if no sphere fits.
+        For a line instead of a map, an unknown option, a crop beyond the map, and if no height is left or no sphere
+        fits.
 
     Examples
     --------
@@ -109,11 +117,11 @@ def prepare(
 
 
 def doubts(indenter: Indenter) -> list[str]:
-    """Describe tilt, enclosed nan regions, suspicious values and spikes of a map, in one line each."""
+    """Describe the defects of a map: suspicious values, tilt, spikes and enclosed regions of nan, each in one line."""
     if indenter.heights.ndim != 2 or min(indenter.heights.shape) < 3:
         return []
     heights = indenter.heights
-    # Suspicious values cause tilt and spikes, so these are not described as well.
+    # Suspicious values cause tilt and spikes. If there are any, tilt and spikes are therefore not described.
     texts = [*_suspicious_values(heights)] or [*_tilt(indenter), *_spikes(heights)]
     return [*texts, *_holes(heights)]
 
@@ -122,13 +130,18 @@ def doubts(indenter: Indenter) -> list[str]:
 
 
 def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
-    """Return the form (mean, plane or sphere) at the points of a map, fitted by least squares.
+    """Return the heights of a form that is fitted to a map by least squares, at the points of the map.
 
-    A sphere is fitted by the Gauss-Newton method. All lengths are divided by the distance of the corners from the
-    middle, `reach` times the larger spacing.
+    A sphere is fitted by the Gauss-Newton method. In this fit, all lengths are divided by the distance of the corners
+    from the middle of the map.
+
+    dx, dy : spacings of the map
+    form : "mean", "plane" or "sphere"
     """
     (rows, columns), measured, largest = heights.shape, ~np.isnan(heights), max(dx, dy)
-    dx, dy = dx / largest, dy / largest  # the size of the map could overflow
+    # Divide by the larger spacing first, so that the size of the map cannot overflow. From here on, `reach` is the
+    # distance of the corners from the middle of the map, in units of the larger spacing.
+    dx, dy = dx / largest, dy / largest
     reach = np.hypot(dx * columns, dy * rows) / 2
     x = dx * (np.arange(columns) - (columns - 1) / 2) / reach
     y = dy * (np.arange(rows)[:, None] - (rows - 1) / 2) / reach
@@ -140,7 +153,7 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
     curvature, squared = 0.0, x**2 + y**2
     for _ in range(_MAX_ITERATIONS):
         root = np.sqrt(1 - curvature**2 * squared)
-        slope = squared / (root * (1 + root))  # of the sag with respect to the curvature
+        slope = squared / (root * (1 + root))  # derivative of the sag with respect to the curvature
         functions = np.concatenate([plane, [slope]])[:, measured]
         tangent = _sag(curvature, squared) - curvature * slope
         values, last = _factors(functions, target - tangent[measured]), curvature
@@ -155,17 +168,26 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
 
 
 def _factors(functions: Array, target: Array) -> Array:
-    """Return the factors of functions, shape (functions, points), whose weighted sum is closest to the target."""
+    """Return the factor of each function, so that the weighted sum of the functions is closest to the target.
+
+    functions : values of the functions, shape (functions, points)
+    target : values to fit by least squares, shape (points,)
+    """
     return np.linalg.lstsq(functions @ functions.T, functions @ target, rcond=1e-13)[0]
 
 
 def _sag(curvature: float, squared: Array) -> Array:
-    """Return the height of a sphere above its lowest point (k > 0), k r²/(1 + √(1 − k²r²))."""
+    """Return k r²/(1 + √(1 − k²r²)), the height of a sphere of curvature k > 0 above its lowest point.
+
+    For k < 0 it is the height above the highest point, which is negative.
+
+    squared : r², squared distance from the middle
+    """
     return curvature * squared / (1 + np.sqrt(1 - curvature**2 * squared))
 
 
 def _tilt(indenter: Indenter) -> Iterator[str]:
-    """Yield a text if the map is tilted by much more than its roughness explains."""
+    """Yield a text if the tilt of the map is much larger than its roughness."""
     heights, measured = indenter.heights, ~np.isnan(indenter.heights)
     plane = _fitted(heights, indenter.spacing, indenter.row_spacing, "plane")[measured]
     rise, rms = np.ptp(plane), np.sqrt(np.mean((heights[measured] - plane) ** 2))
@@ -227,7 +249,7 @@ def _spikes(heights: Array) -> Iterator[str]:
 
 
 def _enclosed(heights: Array) -> tuple[Mask, int]:
-    """Return a mask of all nan regions that do not reach the edge, and their number."""
+    """Return a mask of all regions of nan that do not reach the edge of the map, and the number of these regions."""
     from scipy import ndimage
 
     missing = np.isnan(heights)
@@ -249,9 +271,10 @@ def _holes(heights: Array) -> Iterator[str]:
 
 
 def _filled(heights: Array, aspect: float) -> Array:
-    """Fill enclosed holes by the five-point Laplace equation: each point is a weighted mean of its four neighbours.
+    """Return the heights with enclosed regions of nan filled according to the five-point Laplace equation.
 
-    The weights are 1/dx² along x and 1/dy² along y.
+    The height of each filled point is the weighted mean of its four neighbours. The weights are 1/dx² along x and 1/dy²
+    along y.
 
     aspect : dy/dx
     """

@@ -1,9 +1,10 @@
 """Generate self-affine discs, squares and lines with random heights.
 
-The power spectral density is the paper's (Sec. III): C2D(q) ∝ q^(-2(H+1)) for a surface, and from C1D = π q C2D,
-which keeps the rms height, C1D(q) ∝ q^(-(2H+1)) for a line (Eq. 13). Spectra are isotropic, have no zero mode and reach
-from the period of the surface down to the Nyquist wavelength of two spacings. They need no prefactor, because every
-realization is scaled to the requested rms height.
+The power spectral densities follow the paper (Sec. III). For a surface with the Hurst exponent H, the density at the
+wavenumber q is C2D(q) ∝ q^(-2(H+1)). A line has the density C1D = π q C2D, so that its rms height is the same. Hence
+C1D(q) ∝ q^(-(2H+1)) (Eq. 13). Spectra are isotropic and have no zero mode. Wavelengths range from the period of the
+surface down to two spacings, the Nyquist wavelength. The spectra need no prefactor, because every realization is scaled
+to the requested rms height.
 """
 
 from typing import Any
@@ -18,7 +19,7 @@ from viscorough.surfaces import spectrum
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.lines import SelfAffineLines
 
-# Memory that must be available for a square, three times the size of its arrays.
+# Memory in bytes that must be available for each point of a square: three times the memory of the arrays.
 _BYTES_PER_POINT = 100
 
 
@@ -37,7 +38,7 @@ def self_affine_disc(
     length_unit: str = "1",
     seed: Seed,
 ) -> Indenter:
-    """Generate a disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
+    """Generate a disc with random heights, cut from a periodic self-affine square.
 
     Parameters
     ----------
@@ -50,21 +51,23 @@ def self_affine_disc(
     diameter : float, optional
         Diameter L [length]; the spacing is L/n.
     period : float, optional
-        Period of the square in diameters, at least 1, rounded to whole spacings. With 1 the disc spans the period, with
-        2 it is cut from a surface that repeats after two diameters.
+        Period of the square as a multiple of the diameter, at least 1, rounded to whole spacings. For 1, the square is
+        as wide as the disc. For 2, the disc is cut from a surface that repeats after two diameters.
     corners : bool, optional
-        True to include waves in the corners of the Fourier square, beyond the Nyquist circle q = π/spacing.
+        True to include waves in the corners of the square of wave vectors, whose wavenumber exceeds the Nyquist
+        wavenumber q = π/spacing.
     roll_off_wavelength : float, optional
-        Longest wavelength of the power law, in diameters; by default all waves follow the power law.
+        Longest wavelength of the power law, as a multiple of the diameter; by default all waves follow the power law.
     roll_off_level : float, optional
-        Spectral density of longer waves, relative to the density at this wavelength (0: no longer waves, 1: plateau).
+        Spectral density of waves longer than the roll-off wavelength, relative to the density at the roll-off
+        wavelength. 0: there are no longer waves; 1: the density is constant.
     amplitudes : str, optional
-        "random" for complex Gaussian amplitudes, so that the heights are a Gaussian process; "fixed" for the square
-        root of the spectrum, so that only the phases are random.
+        "random" for complex Gaussian amplitudes, so that the heights are a Gaussian process. "fixed" for amplitudes
+        equal to the square root of the spectrum, so that only the phases are random.
     rms_over : str, optional
-        "disc" or "square": set of points whose standard deviation is h.
+        Set of points whose heights have the standard deviation h: the "disc" or the whole "square".
     length_unit : str, optional
-        Unit of rms and diameter, such as "um"; by default it is not known.
+        Unit of rms and diameter, such as "um". By default the unit is not known.
     seed : int or SeedSequence
         Seed of the random numbers. The same seed gives the same realization.
 
@@ -76,7 +79,7 @@ def self_affine_disc(
     Raises
     ------
     ValueError
-        For values outside these ranges.
+        For values out of range.
 
     Examples
     --------
@@ -101,10 +104,10 @@ def self_affine_disc(
 def square_of_disc(
     hurst: float, elements_across: int, *, period: float = 1.0, roll_off_wavelength: float | None = None, **options: Any
 ) -> Array:
-    """Return the heights of the periodic square that contains a disc, shape (points, points).
+    """Return the heights of the periodic square that a disc is cut from, shape (points, points).
 
     hurst, elements_across, period, roll_off_wavelength : arguments of `self_affine_disc`
-    options : further arguments of `self_affine_square`
+    options : further arguments of `self_affine_square`, by name
     """
     if roll_off_wavelength is not None:
         roll_off_wavelength = positive("roll_off_wavelength", roll_off_wavelength) * elements_across
@@ -124,16 +127,17 @@ def self_affine_square(
 ) -> Array:
     """Generate the heights of a periodic self-affine square, shape (points, points), with mean 0.
 
-    White noise is filtered, since its spectrum has the symmetry of real heights, also for waves that equal their mirror
-    images.
+    The heights are white noise whose waves are multiplied by the amplitudes of the spectrum. Since white noise is real,
+    its waves have the symmetry that real heights require.
 
     points : number of points per period, at least 2
-    normalised : True for an rms height of 1 in every realization. False for the same spectrum in every realization; the
-        mean square height is then 1 on average over all realizations
+    normalised : True to scale every realization to an rms height of 1. False to scale all realizations by the same
+        factor, so that the mean square height is 1 on average over all realizations
     hurst, corners, seed : arguments of `self_affine_disc`
-    waves : its arguments roll_off_wavelength (here in points), roll_off_level and amplitudes
+    waves : further arguments of `self_affine_disc`, by name: roll_off_wavelength (here as a number of spacings),
+        roll_off_level and amplitudes
 
-    Raises ValueError for values outside the allowed ranges.
+    Raises ValueError for values out of range.
     """
     points = whole_number("points", points, at_least=2)
     memory.require(_BYTES_PER_POINT * points**2, f"a surface of {points} x {points} points")
@@ -145,7 +149,7 @@ def self_affine_square(
     amplitude[0, 0] = 0
     if not corners:
         amplitude[wavenumber > points / 2] = 0
-    random = np.random.Generator(np.random.SFC64(spectrum.seed_sequence(seed)))  # the fastest of numpy's generators
+    random = np.random.Generator(np.random.SFC64(spectrum.seed_sequence(seed)))  # SFC64 is numpy's fastest generator
     noise = fft.r2c(random.standard_normal((points, points)))
     if fixed:
         noise /= np.abs(noise)
@@ -157,10 +161,13 @@ def self_affine_square(
 
 
 def _expected_mean_square(amplitude: Array, points: int, *, fixed: bool) -> float:
-    """Return the mean square height of filtered white noise on average over all realizations (Parseval's theorem).
+    """Return the mean square height of a square, averaged over all realizations, from Parseval's theorem.
 
-    amplitude : modulus of the filter at the waves of a real Fourier transform. Each wave represents its mirror image,
-        too, except in the first column and, for an even number of points, in the last column
+    amplitude : factors of the waves of white noise, in the layout of a real Fourier transform. Each entry also stands
+        for the wave with the opposite wave vector, except in the first column and, for an even number of points, in the
+        last column
+    points : number of points per period
+    fixed : True if the waves of the noise have the modulus 1, False if the noise at each point has the variance 1
     """
     square = amplitude**2
     once = square[:, 0].sum() + (square[:, -1].sum() if points % 2 == 0 else 0.0)
@@ -168,9 +175,10 @@ def _expected_mean_square(amplitude: Array, points: int, *, fixed: bool) -> floa
 
 
 def cut_disc(square: Array, elements_across: int) -> Array:
-    """Cut a disc from the corner [:n, :n] of a map of heights, with n = `elements_across`.
+    """Cut a disc with n = `elements_across` elements across from the corner [:n, :n] of a map of heights.
 
-    An element belongs to the disc if x² + y² <= ((n-1)/2)², with x and y from the centre of the disc in spacings.
+    An element belongs to the disc if x² + y² <= ((n-1)/2)², where x and y are its coordinates from the centre of the
+    disc, in units of the spacing.
 
     Parameters
     ----------
@@ -216,7 +224,9 @@ def self_affine_line(
     seed: Seed,
     dtype: FloatType = np.float32,
 ) -> Indenter:
-    """Generate a periodic self-affine line, C1D ∝ q^(-(2H+1)), for the method of dimensionality reduction (MDR).
+    """Generate a periodic self-affine line for the method of dimensionality reduction (MDR).
+
+    The power spectral density at the wavenumber q is C1D ∝ q^(-(2H+1)).
 
     Parameters
     ----------
@@ -229,17 +239,19 @@ def self_affine_line(
     length : float, optional
         Length L of the line, which is also its period [length]; the spacing is L/points.
     roll_off_wavelength : float, optional
-        Longest wavelength of the power law, in units of L; by default all waves follow the power law.
+        Longest wavelength of the power law, as a multiple of L; by default all waves follow the power law.
     roll_off_level : float, optional
-        Spectral density of longer waves, relative to the density at this wavelength (0: no longer waves, 1: plateau).
+        Spectral density of waves longer than the roll-off wavelength, relative to the density at the roll-off
+        wavelength. 0: there are no longer waves; 1: the density is constant.
     amplitudes : str, optional
-        "random" for complex Gaussian amplitudes, "fixed" for the square root of the spectrum.
+        "random" for complex Gaussian amplitudes, "fixed" for amplitudes equal to the square root of the spectrum.
     length_unit : str, optional
-        Unit of rms and length, such as "um"; by default it is not known.
+        Unit of rms and length, such as "um". By default the unit is not known.
     seed : int or SeedSequence
         Seed of the random numbers. The same seed gives the same realization.
     dtype : numpy dtype or name, optional
-        Floating-point type, float32 or float64; the realization is the same up to rounding.
+        Floating-point type of the heights, float32 or float64. For the same seed, both have the same heights except for
+        rounding.
 
     Returns
     -------
@@ -249,7 +261,7 @@ def self_affine_line(
     Raises
     ------
     ValueError
-        For values outside these ranges.
+        For values out of range.
 
     Examples
     --------

@@ -10,13 +10,15 @@ from viscorough.basics.types import Array, Seed
 
 
 def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) -> Array:
-    """Return the moduli of waves: k^-exponent, and √level longest^-exponent for k < longest.
+    """Return the amplitude of waves with k periods per period of the surface, without a prefactor.
 
-    wavenumber : wavenumbers k per period
-    longest : wavenumber per period of the roll-off, 0 without a roll-off
-    level : spectral density of longer waves, relative to the spectral density at the roll-off
+    The amplitude is k^-exponent for k >= k₀, and √level · k₀^-exponent for k < k₀, where k₀ is the wavenumber of the
+    roll-off. For k = 0 it is finite, so the caller must set it to zero.
 
-    The zero mode gets a finite value, which the caller must remove.
+    wavenumber : numbers k
+    exponent : half the exponent of the power spectral density
+    longest : k₀, or 0 without a roll-off
+    level : spectral density of waves with k < k₀, relative to the spectral density at k₀
     """
     modulus = np.maximum(wavenumber, max(1, longest))
     np.power(modulus, -exponent, out=modulus)
@@ -28,11 +30,12 @@ def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) 
 def wave_options(
     *, period: float, roll_off_wavelength: float | None = None, roll_off_level: float = 0.0, amplitudes: str = "random"
 ) -> tuple[float, float, bool]:
-    """Check the options of `surfaces.self_affine_disc` for its waves.
+    """Check the arguments of `self_affine.self_affine_disc` that describe waves, and convert them for `amplitude`.
 
-    period : period in the unit of the wavelength
+    period : period of the surface, in the unit of `roll_off_wavelength`
 
-    Returns (wavenumber of the roll-off per period, 0 without a roll-off; its level; True if only phases are random).
+    Returns (longest, level, fixed). The first two are arguments of `amplitude`; `fixed` is True if only phases are
+    random.
     Raises ValueError for values out of range.
     """
     if amplitudes not in ("random", "fixed"):
@@ -41,17 +44,18 @@ def wave_options(
 
 
 def _roll_off(wavelength: float | None, level: float, period: float) -> tuple[float, float]:
-    """Return wavenumber per period and level of the roll-off; the wavenumber is 0 without a roll-off.
+    """Return the ratio of the period to the wavelength of the roll-off (0 without a roll-off), and the checked level.
 
-    wavelength, period : wavelength of the roll-off (None without one) and period, in one unit of length
+    wavelength : wavelength of the roll-off, or None without a roll-off
     level : spectral density of longer waves, relative to the spectral density at the roll-off
+    period : period of the surface, in the same unit as the wavelength
     """
     level = real_number("roll_off_level", level)
     if level < 0:
         raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
     if wavelength is None:
         return 0.0, level
-    rounding = 1 - 1e-12  # so that waves of exactly this length belong to the power law
+    rounding = 1 - 1e-12  # waves of exactly the roll-off wavelength then belong to the power law in spite of rounding
     return rounding * period / positive(_name_of_wavelength(), wavelength), level
 
 
@@ -60,14 +64,14 @@ def _name_of_wavelength() -> str:
 
 
 def scale_factor(rms: float, mean_square: Any) -> float:
-    """Return the scale factor to the requested rms height."""
+    """Return the factor that scales heights of a given mean square to the requested rms height."""
     if mean_square == 0:
         raise ValueError(f"{_name_of_wavelength()}: must leave at least one wave of two spacings or more")
     return rms / np.sqrt(mean_square)
 
 
 def seed_sequence(seed: Seed) -> np.random.SeedSequence:
-    """Return the SeedSequence of one or several whole numbers; a SeedSequence is returned unchanged."""
+    """Return the SeedSequence for a seed: a whole number, several whole numbers, or a SeedSequence itself."""
     if isinstance(seed, np.random.SeedSequence):
         return seed
     parts = seed if isinstance(seed, list | tuple) and seed else [seed]

@@ -4,7 +4,7 @@ Each point of a line with spacing Δx is a spring of stiffness 4G Δx, with the 
 point is its depth below the highest point. At the depth u of the indenter the springs carry the force F with
 F/G = 4 Δx Σ(u - g)₊. On a fluid of viscosity η the springs become dashpots of damping 4η Δx, and ∫F dt/η takes the
 place of F/G (paper, Sec. V). No equation has to be solved or integrated in time: the loading curve follows from the
-sorted gaps. Instead of sorting, it suffices to count and add the gaps in narrow bins.
+sorted gaps. Instead of sorting the gaps, it suffices to divide them into narrow bins, and to count and add them there.
 """
 
 from typing import Any
@@ -38,8 +38,8 @@ _BLOCK = 512
 def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | None = None) -> LoadingCurve:
     """Compute the loading curve of a line by the method of dimensionality reduction (MDR).
 
-    The initial gaps g, the depths of the points below the highest point, are sorted into narrow bins. The levels of the
-    curve are at the edges of those bins that contain a gap. Force and stiffness at a level are::
+    The initial gap g of a point is its depth below the highest point. The gaps are divided into narrow bins, and the
+    levels of the curve are at the edges of those bins that contain a gap. Force and stiffness at a level are::
 
         F/G = 4 Δx Σ(u - g)₊,   k/G = 4 Δx (number of g < u)
 
@@ -280,7 +280,8 @@ def _random_line(power: Array, points: int, seed: Seed) -> Array:
     """
     amplitude = np.sqrt(power / 2)
     if points % 2 == 0:
-        # Every other wave also stands for its complex conjugate. The shortest wave equals its complex conjugate.
+        # The coefficient of a longer wave stands for itself and its complex conjugate. The coefficient of the shortest
+        # wave is real and stands only for itself.
         amplitude[-1] *= np.sqrt(2)
     phase = np.random.default_rng(seed_sequence(seed)).uniform(0, 2 * np.pi, amplitude.size)
     spectrum = amplitude * (np.exp(1j * phase) if points % 2 else np.append(np.exp(1j * phase[:-1]), 1.0))
@@ -289,7 +290,7 @@ def _random_line(power: Array, points: int, seed: Seed) -> Array:
 
 
 def _binned_gaps(heights: Array) -> tuple[Array, Integers, Array]:
-    """Sort initial gaps into bins; return the edges of the bins, and number and sum of the gaps in every bin.
+    """Divide initial gaps into bins; return the edges of the bins, and number and sum of the gaps in every bin.
 
     Bin r contains the gaps g with edges[r] <= g < edges[r + 1]; bin 0 contains all g < edges[1]. All floating-point
     numbers in a bin have the same leading bits (exponent and first bits of the mantissa), and these bits give the

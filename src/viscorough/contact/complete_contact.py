@@ -1,10 +1,11 @@
-"""Find the depth of complete contact, when all elements touch, from two linear problems.
+"""Find the depth of complete contact, where all elements touch, from two linear problems.
 
 First let all elements be joined to the surface, so that they also transmit tension. Their pressures are then
 
     P = u q − s,    K q = 1,    K s = g
 
-Here u is the depth, g the initial gap of an element, and K the matrix of influence coefficients (see contact.state).
+Here P is a pressure expressed as a length, u the depth, g the initial gap of an element, and K the matrix of influence
+coefficients (see contact.state).
 At the depth u = max(s/q) the last tension vanishes. From this depth on, the frictionless contact is therefore complete,
 and its loading curve is straight: ΣP = Σq (u − ⟨g⟩_q), where ⟨g⟩_q = Σs/Σq is the mean of g with the weights q.
 """
@@ -54,7 +55,7 @@ class JoinedSurface(NamedTuple):
     def first_complete_contact(self, units: Units) -> DenseContact:
         """Return the contact at the smallest depth at which contact is complete."""
         depth, stiffness = self.depth, float(self.tangent.sum())
-        # Rounding can make the pressure of the last element to touch negative.
+        # Rounding can make the pressure of the element that touches last negative.
         pressure = np.maximum(depth * self.tangent - self.load, 0.0)
         # The largest residual of an element does not exceed the norm of all residuals.
         size = depth * self.tangent.size**0.5 + float(np.linalg.norm(self.initial_gap))
@@ -100,7 +101,7 @@ def joined_surface(
         return halfspace.apply().ravel()[slot]
 
     def precondition(gap: Array) -> Array:
-        # The smallest gaps must not underflow in single precision.
+        # Divide by the largest value, so that small values do not underflow in single precision.
         scale = np.abs(gap).max() or 1.0
         field[place] = gap / scale
         return scale * preconditioner.apply(field)[place].astype(float)

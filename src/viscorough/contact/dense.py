@@ -97,7 +97,7 @@ def solve(
     removes elements under tension and adds elements that overlap the surface. Gaps are convex functions of the depth,
     so an element can join the contact only if it overlaps the surface for the predicted pressures P + Δu q, with the
     depth step Δu. The first set that is tried consists of the elements in contact at the smaller depth, and of the
-    elements that overlap, except those that touch late in the step (see `LATE`).
+    elements that overlap, except those that touch late in the step (see options.LATE).
 
     contact : contact at a smaller depth
     candidates : number of elements with an initial gap below `depth`

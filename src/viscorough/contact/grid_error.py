@@ -1,10 +1,10 @@
 """Estimate the error due to the spacing of a map, from its loading curve and the curve of every second point.
 
 A map contains no roughness between its points. How much a curve changes when the spacing doubles is used to estimate
-how much it would change if the spacing were halved again and again. In a fluid of viscosity η the velocity is
-v = F/(η k/G) at the force F, with the stiffness k and the shear modulus G, so velocities are compared by stiffnesses.
-The estimates are as follows; the index 2 denotes the curve of every second point, and ⟨·⟩ the mean over half a decade
-of force to either side, uniform in ln F:
+how much it would change if the spacing were halved again and again. In a fluid of viscosity η the velocity at the force
+F is v = F/(η k/G), with the stiffness k and the shear modulus G. At equal forces, the ratio of two velocities therefore
+follows from the stiffnesses. The errors at a level of the curve are estimated as follows. The index 2 denotes the curve
+of every second point, and ⟨·⟩ the mean over all forces within half a decade of the level, uniform in ln F:
 
     error of the velocity:          s √⟨ln²(v/v₂)⟩     v and v₂ at equal force; s = SAFETY_FACTOR
     error of the force:             r √⟨(1 − F₂/F)²⟩   F and F₂ at equal depth; r = FORCE_SAFETY_FACTOR
@@ -25,16 +25,17 @@ from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
 # The difference between the velocities of the two curves is multiplied by this factor. On most surfaces the difference
-# alone exceeds the true error; with this factor it does so on nine surfaces of ten (benchmarks/grid_errors.py).
+# alone exceeds the true error; the product exceeds it on nine surfaces of ten (benchmarks/grid_errors.py).
 SAFETY_FACTOR = 1.3
 # The difference between the forces at equal depth is multiplied by this factor. If the spacing is halved repeatedly,
 # the force changes in the same direction each time, above all on surfaces of small Hurst exponent. The changes of the
 # force therefore add up to more than the changes of the velocity.
 FORCE_SAFETY_FACTOR = 3.0
-# Number of points per decade of force at which two curves are compared. Many are needed, since the stiffnesses jump at
-# contact events.
+# Two curves are compared at this number of points per decade of force. Many points are needed, because the stiffnesses
+# jump whenever an element touches.
 _POINTS_PER_DECADE = 50
-# Differences are averaged over forces whose ln F differs by at most this much: half a decade to either side.
+# The error at a level is a mean over all forces whose ln F differs from ln F of the level by at most this number, which
+# is half a decade.
 _HALF_WINDOW = 0.5 * np.log(10)
 # Smallest normalised force X = F/(4GhL) for means over a whole curve. A smaller force is carried by a few summits,
 # which coarse grids cannot represent.
@@ -44,7 +45,7 @@ _LEAST_RANGE = 0.1
 
 
 def every_nth_point(indenter: Indenter, step: int) -> Indenter:
-    """Return the map of every n-th point of every n-th row, with n = `step` times the spacings.
+    """Return the map of every n-th point of every n-th row, for n = `step`; its spacings are n times as large.
 
     Raises ValueError if all points of the coarser map are nan, or if it has fewer than two rows or columns.
     """
@@ -122,7 +123,7 @@ def _forces(points: Array, curve: LoadingCurve) -> Array:
 
 
 def _means(points: Array, values: Array, low: Any, high: Any) -> Any:
-    """Return the mean of a piecewise linear function from `low` to `high`, or its value there if low = high.
+    """Return the mean of a piecewise linear function from `low` to `high`; for low = high, the value of the function.
 
     points, values : function values at the points, between which the function is linear
     low, high : ends of the interval, within the range of the points; numbers or arrays of equal shape

@@ -6,8 +6,8 @@ The curve is straight between events, so interpolation is exact. Later, levels a
 (step_control).
 
 A curve that reaches complete contact ends at the depth of complete contact, which is computed from two linear problems
-(complete_contact). It cannot be found by increasing the depth: an element that overlaps the surface by less than the
-tolerance need not join the contact, so the last elements might never join.
+(complete_contact). This depth cannot be found by following the curve: an element that overlaps the surface by less than
+the tolerance need not join the contact, so the last elements might never join.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _APPROACH_SHARE = 0.7
 # The long steps become shorter close to `start_fraction`. They end at the latest when the ratio of successive depths
 # falls to this value.
 _APPROACH_MIN_RATIO = 1.02
-# A curve that ends at a contact fraction up to this one does not need the depth of complete contact.
+# Curves that end at or below this contact fraction do not need the depth of complete contact.
 _FAR_FROM_COMPLETE = 0.95
 # Tolerance of a curve if the user gives none.
 _DEFAULT_TOLERANCE = 1e-3
@@ -390,7 +390,7 @@ class _LoadingPath:
         if contact.pressure_sum >= self._until_pressure_sum or contact is self._complete:
             return False
         if contact.count < every or isinstance(contact, DenseContact):
-            return contact.count < self._until_count  # a dense solution is exact
+            return contact.count < self._until_count  # a dense solution is exact, and so is its contact count
         # All elements are in contact on the grid. There, elements may join slightly too early, because their gaps are
         # computed to the tolerance, so contact need not be complete yet.
         return self._until_count > every - 1 and not self._solver.is_flat
@@ -429,13 +429,13 @@ class _LoadingPath:
         ratio, most = _APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
         while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
             contact = self._advance_to(self._contact.reduced_depth * ratio)
-            # A contact beyond the start count is kept for later. It is not the next level, because levels near the
-            # start count must be close together.
+            # A contact beyond `start_count` is kept for later. It is not the next level, because levels near
+            # `start_count` must be close together.
             if contact.count >= start_count or contact.pressure_sum > self._until_pressure_sum:
                 self._ahead.keep(contact)
             else:
                 self._add(contact)
-            if self._ahead:  # go half of the way, in ln u, to the nearest contact beyond the start count
+            if self._ahead:  # the next step goes half of the way, in ln u, to the nearest contact that was kept
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 
     def _follow_events(self) -> None:

@@ -25,8 +25,8 @@ from viscorough.contact.state import ContactState
 from viscorough.results.contact_maps import Contact
 from viscorough.surfaces.indenter import Indenter
 
-# Finding the contact at a force takes about this share of the time until the force is reached for the first time. The
-# rest is for contacts close to the force.
+# In the search for the contact at a force, contacts of smaller forces take about this share of the time. The rest of
+# the time is for contacts close to the force.
 _SHARE_OF_APPROACH = 0.6
 
 
@@ -133,8 +133,8 @@ def contact_at(
     indenter : Indenter
         Indenter with two-dimensional heights.
     force : array_like, optional
-        Force F/G, where G is the shear modulus [length²]. If a modulus is given, force F [N], or a text with a unit
-        like "5 mN". Several forces must increase. Either depth or force must be given.
+        Force F/G, where G is the shear modulus [length²]. If a modulus is given, `force` is F [N] instead, or a text
+        with a unit like "5 mN". Several forces must increase. Either depth or force must be given.
     depth : array_like, optional
         Depth u from first contact [length], or a text with a unit like "20 nm". Several depths must increase.
     shear_modulus : float or str, optional
@@ -208,7 +208,10 @@ def contact_at(
 
 
 def _states_at_depths(solver: ContactSolver, depths: Array, progress: Progress) -> Iterator[ContactState]:
-    """Solve the contacts at depths [length], each from the one before; pressures are rescaled to add up to ΣP."""
+    """Solve the contacts at depths [length], each from the one before.
+
+    The pressures are rescaled, so that they add up exactly to the force.
+    """
     last: ContactState = solver.unloaded_state()
     for number, depth in enumerate(depths, 1):
         last = solver.advance(last, depth)

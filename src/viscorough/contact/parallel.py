@@ -18,7 +18,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from viscorough.basics.arrays import is_whole, shown
 
-# Largest number of array entries in a block. A map of 257 x 257 elements fits into one block, so threads cost no time.
+# Largest number of array entries in a block. A map of 257 x 257 elements fits into one block, so it needs no threads.
 BLOCK = 1 << 17
 # Largest number of threads that a user can request.
 MOST_THREADS = 1024
@@ -74,7 +74,7 @@ def run_blocks(
 
 
 def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
-    """Return an array of zeros that starts at the beginning of a line of the cache; loops access such arrays faster."""
+    """Return an array of zeros that starts at the beginning of a cache line; loops access such arrays faster."""
     size = int(np.prod(shape)) * np.dtype(dtype).itemsize
     memory = np.zeros(size + _CACHE_LINE, np.uint8)
     start = -memory.ctypes.data % _CACHE_LINE

@@ -47,7 +47,7 @@ _LARGEST_BOX = 0.8
 # A box is enlarged to allow for a larger depth only as long as its area grows at most by this factor.
 _GROWTH_OF_BOX = 1.3
 # Contact only grows with depth. Within the accuracy of the solution, though, an element may leave the contact. It is an
-# error if the gap of this element exceeds the tolerance times the depth by more than this factor.
+# error if the gap of this element is larger than this multiple of the tolerance times the depth.
 _LOST_CONTACT = 3
 # Largest reduced depth. The largest number of single precision is more than a thousand times as large.
 _LARGEST_DEPTH = 1e25
@@ -58,7 +58,7 @@ _JOINED_SHARE = 1e-4
 # A gap counts as open if it exceeds the residual by this factor, which is a margin for rounding.
 _OPEN_GAP = 1.1
 # The last contact is transferred to a new grid, to start the iteration there, only if the new depth is less than this
-# multiple of its depth.
+# multiple of the last depth.
 _LARGEST_RATIO_OF_START = 2.0
 
 
@@ -68,10 +68,10 @@ class ContactSolver:
     Arguments, of which the first four are also attributes:
 
     indenter : Indenter with two-dimensional heights
-    tolerance : largest allowed ratio to the depth of the gap |e| in contact or the overlap outside the contact
+    tolerance : largest allowed gap |e| in contact, or overlap outside the contact, divided by the depth
     options : SolverOptions
     threads : number of threads for contacts on the grid
-    largest_depth : largest depth that will be requested; grids contain no elements that touch only beyond it [length]
+    largest_depth : largest depth that will be requested [length]. Grids need not allow for larger depths
     whole : True if the whole map may come into contact. Memory is then checked for the whole map at once, otherwise for
         each new box around the elements that can touch
 
@@ -144,8 +144,8 @@ class ContactSolver:
         elements outside the box of the grid, namely the depth minus their smallest initial gap, relative to the depth.
 
         contact : the contact solved last
-        depth, pressure_sum : u and ΣP of the returned contact, reduced. For a contact that was solved by dense linear
-            algebra they must be its own depth and sum
+        depth, pressure_sum : u and ΣP of the returned contact, reduced. If `contact` was solved by dense linear
+            algebra, these must be the depth and the sum of `contact`
         """
         if not isinstance(contact, GridContact) or self._grid is None:
             return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
@@ -308,7 +308,8 @@ class ContactSolver:
     def _checked(self, before: ContactState, after: ContactState) -> ContactState:
         """Return the contact after a step. Raises ConvergenceError unless it is valid.
 
-        A valid contact has no tension and a residual within the tolerance, and no element lost contact in the step.
+        A valid contact has no tension and a residual within the tolerance. No element lost contact in the step by more
+        than the accuracy explains (_LOST_CONTACT).
         """
         pressure = after.fields.pressure if isinstance(after, GridContact) else after.member_loads().pressure
         if after.residual > self.tolerance or self._loops.lowest(pressure) < 0:

@@ -29,10 +29,12 @@ from viscorough.contact.state import ContactState, DenseContact, Elements, Membe
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.surfaces.indenter import Indenter
 
-# While the force has not been exceeded, a depth is at most this multiple of the previous depth, if few elements touch.
+# While few elements touch, and all solved contacts are below the force, the next depth is at most this multiple of the
+# last depth.
 _MAX_DEPTH_RATIO = 4.0
-# The depth for a force may turn out larger than the guessed depth. At most it is the guess times the ratio of the guess
-# to the last depth, raised to this power. The box of the grid contains only elements that can touch up to this limit.
+# The depth for a force may turn out larger than the guessed depth. The largest depth allowed is the guess times the
+# following factor: the ratio of the guess to the last depth, raised to this power. The box of the grid contains only
+# elements that can touch up to the largest depth.
 _UNCERTAINTY = 0.2
 # Contact events are computed up to this number of elements in contact.
 _EVENTS = 200
@@ -139,7 +141,7 @@ class _BlockDepth(NamedTuple):
 
 
 class ForceSearch:
-    """Search for the contacts of one ContactSolver at increasing forces; works in reduced units.
+    """Search for contacts at increasing forces, at depths that a ContactSolver solves; works in reduced units.
 
     The contacts solved so far bracket the force. `_below` is the contact with the largest force up to the requested
     force, at first the contact without load. `_above` contains contacts with larger forces.
@@ -206,9 +208,9 @@ class ForceSearch:
             self._above.keep(contact)
 
     def _exact_contact(self, target: float, attempt: int) -> ContactState | None:
-        """Return the exact contact at a force, or None if there is no exact solution.
+        """Return the contact at a force if it can be computed exactly, otherwise None.
 
-        The contact is exact on the straight start of the loading curve and between contact events.
+        It is exact on the straight start of the loading curve, and between contact events.
 
         target : reduced ΣP of the force
         attempt : number of depths solved before in the search for this force
@@ -224,10 +226,10 @@ class ForceSearch:
         return self._follow_events(target)
 
     def _estimate(self, target: float) -> _Guess | None:
-        """Guess the contact at a force from the contact of the map of blocks. Return None if no estimate is made.
+        """Guess the contact at a force from the contact of the map of blocks; return None if this would not help.
 
-        The map of blocks is nowhere lower than the map itself, so it carries the same force at a smaller depth. This
-        depth therefore is a lower bound.
+        The map of blocks consists of the highest element of every block of elements. It is nowhere lower than the map
+        itself, so it carries the same force at a smaller depth, which is a lower bound.
 
         target : reduced ΣP of the force
         """
@@ -331,7 +333,7 @@ class ForceSearch:
         other : second contact, for an estimate of the change of the stiffness with depth
         """
         distance = abs(target - contact.pressure_sum) / contact.tangent_sum
-        if isinstance(contact, DenseContact):  # settling a dense contact does not change its pressures
+        if isinstance(contact, DenseContact):  # `settled` cannot extrapolate a dense contact to another depth
             return distance <= ROUNDING * contact.reduced_depth
         width = max(abs(contact.reduced_depth - other.reduced_depth), _TINY)
         change = abs(contact.tangent_sum - other.tangent_sum) / width * distance

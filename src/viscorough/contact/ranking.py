@@ -45,7 +45,7 @@ class Ranking:
 
     Attributes:
 
-    elements : Elements with the elements ranked so far; each method that ranks elements replaces this object
+    elements : Elements object with all elements ranked so far. Each method that ranks more elements replaces it
     highest : largest height
     is_flat : True if all elements have the same height
     """
@@ -105,7 +105,7 @@ class Ranking:
             if ranked > self._options.rank_all_share * elements.count and ranked < elements.count:
                 place, gap = self._between(elements.ranked_depth, depth := np.inf)
                 ranked = elements.count
-            # Increase the depth until an element below the largest height is ranked, too.
+            # Increase the depth until an element that is lower than the highest elements is ranked, too.
             if ranked == elements.count or max(gap.max(initial=0), elements.initial_gap.max(initial=0)) > 0:
                 break
             depth = max(4 * depth, _SMALLEST_DEPTH)

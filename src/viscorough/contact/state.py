@@ -75,7 +75,7 @@ class ElementGrid:
 
 @dataclass(frozen=True)
 class Elements:
-    """Elements of an indenter in the order of increasing initial gap; their index in this order is called rank.
+    """Elements of an indenter in the order of increasing initial gap; the index of an element is called its rank.
 
     Only the elements with the smallest initial gaps are ranked, as far as a contact needs them. Arrays have the shape
     (ranked elements,).
@@ -228,7 +228,7 @@ class ContactState(ABC):
     count : number of elements in contact
     pressure_sum, tangent_sum : reduced ΣP, and Σq. Both sums are corrected for the remaining residuals, so that for the
         given contact set their errors are of second order in the residuals
-    residual : ratio to the depth of the largest |e| in contact or overlap outside the contact, rounding included
+    residual : largest |e| in contact or overlap outside the contact, rounding included, divided by the depth
     """
 
     units: Units
@@ -287,7 +287,7 @@ class GridContact(ContactState):
     fields: GridFields = field(kw_only=True)
 
     def member_loads(self) -> MemberLoads:
-        """Gather the loads of the elements in contact from the fields; they are not stored."""
+        """Return the loads of the elements in contact, gathered from the fields at every call."""
         return self.fields.member_loads()
 
 

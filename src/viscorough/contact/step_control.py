@@ -41,9 +41,9 @@ _LEAST_CHANGE = 0.3
 _LARGEST_CHANGE = 2.0
 # An interval is divided at a depth between these shares of its width.
 _DIVISION = 0.15, 0.85
-# The bound is evaluated where the force has grown by these shares of its growth in the interval.
+# Forces where the bound is evaluated, as shares of the force interval between two levels.
 _POINTS = np.linspace(0, 1, 18)[1:-1]
-# Between these points, the bound may be larger by this factor than at the points.
+# The bound is multiplied by this factor, because it may be larger between the points where it is evaluated.
 _BETWEEN_POINTS = 1.15
 # If the predicted error is small enough, an interval is accepted even if its bound is this multiple of the allowed one.
 _RELAXED_BOUND = 3.3
@@ -51,13 +51,13 @@ _RELAXED_BOUND = 3.3
 _PREDICTED_ERROR = 0.5
 # The error is predicted only if at least this number of elements joins the contact in the interval.
 _PREDICTED_COUNT = 10
-# The prediction is used only if it gives the growth of the force within these factors.
+# The prediction is used only if the ratio of the computed to the predicted growth of the force is within these limits.
 _AGREEMENT = 0.8, 1.25
 # If the bound is below this share of the allowed error, the next step is made as much longer as allowed, and the error
 # need not be predicted.
 _NEGLIGIBLE_BOUND = 0.15
-# The bound is evaluated only where the force has grown by at least this share of its growth in the interval. Otherwise
-# the logarithm of the force could overflow.
+# Smallest share of the force interval between two levels where the bound is evaluated. At a smaller share the logarithm
+# of the force could overflow.
 _SMALLEST_SHARE = 1e-3
 # This number avoids a division by zero.
 _TINY = 1e-30

@@ -1,4 +1,4 @@
-"""Compare loading curves with two exact integrals, which follow from two linear solutions.
+"""Compare two integrals of a loading curve with their exact values, which follow from two linear problems.
 
 First let all elements be joined to the surface, so that they also transmit tension. At the depth u, the pressures p are
 then p/G = u q − s with K q = 1 and K s = g₀. Here G is the shear modulus, g₀ the initial gap, and the matrix K gives

@@ -27,7 +27,8 @@ class Patches(ReadOnlyTuple, _Patches):
     Attributes
     ----------
     labels : array
-        Number of the patch of each element, from 1 for the largest patch; 0 for elements without contact.
+        For each element, the number of the patch that contains it: 1 for the largest patch, 2 for the second largest,
+        and so on; 0 for elements without contact.
     areas : array
         Areas of the patches, the largest first, shape (patches,) [length²].
     """

@@ -225,8 +225,8 @@ class LoadingCurve(ReadOnlyArrays):
     def at_depth(self, depth: "ArrayLike") -> tuple[Array, Array]:
         """Interpolate force F/G and stiffness k/G at given depths u; nan beyond the last level.
 
-        This function is the inverse of `at_force`. Wherever `at_force` gives nan before the first level, force and
-        stiffness are nan here, too, except that the force is zero at zero depth.
+        This function is the inverse of `at_force`. If `at_force` gives nan before the first level, force and stiffness
+        are also nan before the first level, except that the force is zero at zero depth.
 
         Parameters
         ----------
@@ -266,7 +266,7 @@ class LoadingCurve(ReadOnlyArrays):
         return np.where(np.isnan(at_force), np.nan, force), stiffness
 
     def _levels_around(self, after: Integers) -> tuple[Pair, Pair, Pair, Array]:
-        """Return forces, depths and stiffnesses at two successive levels, and the number of elements that join between.
+        """Return forces, depths and stiffnesses at two successive levels, and the number of elements that join.
 
         Each of the first three results is a pair: the values at the first and at the second level.
 

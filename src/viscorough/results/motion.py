@@ -30,7 +30,7 @@ class Motion(ReadOnlyArrays):
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if the unit is not known.
     receding_from : float
-        First time from which on the contact recedes; nan if the contact only grows.
+        Time when the contact begins to recede for the first time; nan if the contact only grows.
 
     Examples
     --------

@@ -26,7 +26,7 @@ _MARKS = (9999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38
 # A point is called a spike if it is higher than all its neighbours by more than this multiple of the usual difference
 # between neighbours.
 _SPIKE = 20
-# Largest ratio of the distance of the corners of the map from its middle to the radius of a fitted sphere.
+# The distance of the corners of the map from its middle must be less than this share of the radius of a fitted sphere.
 _LARGEST_SLOPE = 0.99
 # Largest number of iterations in the fit of a sphere.
 _MAX_ITERATIONS = 20
@@ -199,11 +199,14 @@ def _tilt(indenter: Indenter) -> Iterator[str]:
         yield f"{text}; {argument('detrend', 'plane')} removes it"
 
 
-# ---- values that mark missing points, spikes
+# ---- suspicious values and spikes
 
 
 def _suspicious_values(heights: Array) -> Iterator[str]:
-    """Yield texts about extreme values that are repeated and far from all other values."""
+    """Yield a text for the lowest and for the highest value if it is far from all other values.
+
+    The value must also be repeated, or be a common mark of missing values.
+    """
     for extreme in (np.fmin, np.fmax):
         value = float(extreme.reduce(heights, axis=None))
         is_value = heights == value

@@ -53,7 +53,10 @@ class JoinedSurface(NamedTuple):
         return float(self.load.sum() / self.tangent.sum())
 
     def first_complete_contact(self, units: Units) -> DenseContact:
-        """Return the contact at the smallest depth at which contact is complete."""
+        """Return the contact at the depth where it becomes complete, with pressures P and tangents q.
+
+        units : Units of the reduced quantities
+        """
         depth, stiffness = self.depth, float(self.tangent.sum())
         # Rounding can make the pressure of the element that touches last negative.
         pressure = np.maximum(depth * self.tangent - self.load, 0.0)

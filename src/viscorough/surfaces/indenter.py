@@ -119,7 +119,10 @@ class Indenter(ReadOnlyArrays):
         return f"{text}highest over lowest point {with_unit(difference, unit)}"
 
     def to(self, unit: str) -> "Indenter":
-        """Return the indenter with lengths in another unit, such as "m". Raises ValueError if its unit is not known."""
+        """Return the indenter with lengths in another unit, such as "m".
+
+        Raises ValueError if the present unit of length is not known.
+        """
         if self.length_unit == units.UNKNOWN:
             raise ValueError(f"indenter: its unit of length is not known, so that it cannot be converted to {unit}")
         unit = units.length_unit(unit)

@@ -75,7 +75,7 @@ def random_words(first, key, low, high):
     """Fill `low` and `high` with the random numbers of the counters first, first + 1, ... (Philox2x32-10).
 
     key : key[0] is the key of the generator, and key[1] the upper half of its 64-bit counter
-    low, high : arrays of equal shape for the lower and the upper 32 bits of the random numbers
+    low, high : arrays of equal shape, for the first and for the second random number of each counter
     """
     for i in range(low.size):
         left, right, round_key = _U64(first + i), key[1], key[0]

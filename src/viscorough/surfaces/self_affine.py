@@ -60,7 +60,7 @@ def self_affine_disc(
         Longest wavelength of the power law, as a multiple of the diameter; by default all waves follow the power law.
     roll_off_level : float, optional
         Spectral density of waves longer than the roll-off wavelength, relative to the density at the roll-off
-        wavelength. 0: there are no longer waves; 1: the density is constant.
+        wavelength. 0: there are no longer waves; 1: all longer waves have this density.
     amplitudes : str, optional
         "random" for complex Gaussian amplitudes, so that the heights are a Gaussian process. "fixed" for amplitudes
         equal to the square root of the spectrum, so that only the phases are random.
@@ -242,7 +242,7 @@ def self_affine_line(
         Longest wavelength of the power law, as a multiple of L; by default all waves follow the power law.
     roll_off_level : float, optional
         Spectral density of waves longer than the roll-off wavelength, relative to the density at the roll-off
-        wavelength. 0: there are no longer waves; 1: the density is constant.
+        wavelength. 0: there are no longer waves; 1: all longer waves have this density.
     amplitudes : str, optional
         "random" for complex Gaussian amplitudes, "fixed" for amplitudes equal to the square root of the spectrum.
     length_unit : str, optional

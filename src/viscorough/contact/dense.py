@@ -81,7 +81,10 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
 
 
 def solve_highest_element(elements: Elements, depth: float) -> DenseContact:
-    """Return the contact of the highest element alone, at a reduced depth so small that no other element touches."""
+    """Return the contact of the highest element alone, at a depth so small that no other element touches.
+
+    depth : reduced depth (see contact.state)
+    """
     factor = 1 / np.sqrt(elements.influence[0, 0])
     # Multiply twice by the factor, as the Cholesky solution does, so that rounding is the same.
     pressure, tangent = (right * factor * factor for right in (np.array([depth]), np.ones(1)))
@@ -113,7 +116,8 @@ def solve(
     table = elements.influence, elements.row, elements.column
     deflection, rate = _deflections(*table, *loads, others)
     gap = deflection - contact.reduced_depth + elements.initial_gap[others]
-    # An element whose gap or pressure is zero within rounding stays in or out of contact, as it was.
+    # An element in contact stays in contact if its pressure is zero within rounding. An element outside the contact
+    # stays outside if its gap is zero within rounding.
     overlap = -ROUNDING * depth
     is_early = gap + depth_step * (1 - LATE * depth_step / depth) * (rate - 1) < overlap
     members = np.sort(np.append(loads.members, others[is_early]))
@@ -174,7 +178,7 @@ def follow_events(
 
 
 def _without(elements: Integers, members: Integers) -> Integers:
-    """Return the elements that are not among the members."""
+    """Return the numbers in `elements` that are not in `members`, in the same order."""
     stays = np.ones(max(elements.max(initial=-1), members.max(initial=-1)) + 1, bool)
     stays[members] = False
     return elements[stays[elements]]

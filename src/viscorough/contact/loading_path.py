@@ -1,6 +1,8 @@
 """Compute the elastic loading curve of a rigid indenter by boundary elements, level by level at increasing depths.
 
-The loading curve determines the solution of the viscous problem for every force history (viscorough.viscous.kinetics).
+A level is a computed point of the curve; the curve is interpolated between the levels. The loading curve determines the
+solution of the viscous problem for every force history (viscorough.viscous.kinetics).
+
 While few elements are in contact, there is a level at every contact event, the depth at which the next element touches.
 The curve is straight between events, so interpolation is exact. Later, levels are placed as the interpolation requires
 (step_control).
@@ -359,7 +361,9 @@ def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -
 
 
 class _LoadingPath:
-    """Levels of a loading curve, from first contact up to a contact fraction or force; works in reduced units.
+    """Levels of a loading curve, from first contact up to a contact fraction or force.
+
+    The class works in the reduced units of contact.state.
 
     solver : ContactSolver of the indenter
     until_fraction : largest contact fraction of the curve

@@ -39,10 +39,11 @@ from viscorough.contact.state import (
 )
 from viscorough.surfaces.indenter import Indenter
 
-# A new box contains all elements that can touch up to this multiple of the requested depth. With a smaller margin more
-# boxes are needed, and each new box costs two applications of the operator.
+# Contacts are solved in a box, the part of the grid around the elements that can touch. A new box contains all elements
+# that can touch up to this multiple of the requested depth. With a smaller margin more boxes are needed, and each new
+# box costs two applications of the half-space operator.
 _BOX_DEPTH_MARGIN = 2.0
-# Use the whole grid if the box would cover more than this share of the grid.
+# The whole grid is used if the box around the elements that can touch would cover more than this share of the grid.
 _LARGEST_BOX = 0.8
 # A box is enlarged to allow for a larger depth only as long as its area grows at most by this factor.
 _GROWTH_OF_BOX = 1.3

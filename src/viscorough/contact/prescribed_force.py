@@ -141,7 +141,9 @@ class _BlockDepth(NamedTuple):
 
 
 class ForceSearch:
-    """Search for contacts at increasing forces, at depths that a ContactSolver solves; works in reduced units.
+    """Search for contacts at increasing forces, at depths that a ContactSolver solves.
+
+    The class works in the reduced units of contact.state.
 
     The contacts solved so far bracket the force. `_below` is the contact with the largest force up to the requested
     force, at first the contact without load. `_above` contains contacts with larger forces.

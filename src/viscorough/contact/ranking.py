@@ -95,7 +95,10 @@ class Ranking:
         self.rank_up_to(float(np.partition(gap, rank)[rank]) if gap.size else np.inf)
 
     def rank_up_to(self, depth: float) -> None:
-        """Rank all elements whose initial gap does not exceed a reduced depth, and possibly more elements."""
+        """Rank all elements whose initial gap does not exceed a depth, and possibly more elements.
+
+        depth : reduced depth, in units of the largest initial gap
+        """
         elements = self.elements
         if depth <= elements.ranked_depth:
             return
@@ -119,7 +122,10 @@ class Ranking:
         )
 
     def require(self, depth: float, *, up_to: float) -> None:
-        """Rank all elements up to the reduced depth `up_to`, if not all elements up to `depth` are ranked already."""
+        """Rank all elements up to the depth `up_to`, if not all elements up to `depth` are ranked already.
+
+        Both depths are reduced, in units of the largest initial gap.
+        """
         if depth > self.elements.ranked_depth:
             self.rank_up_to(up_to)
 

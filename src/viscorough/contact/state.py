@@ -221,7 +221,7 @@ class TargetForce(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactState(ABC):
-    """Contact at one depth: base class of a contact solved by dense linear algebra and a contact solved on a grid.
+    """Contact at one depth: base class of DenseContact and GridContact (see the module for symbols and reduced units).
 
     units : Units of the reduced quantities
     reduced_depth : u, reduced

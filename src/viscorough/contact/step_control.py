@@ -1,5 +1,6 @@
 """Choose the depths of the levels of a loading curve: few levels, yet close enough for accurate interpolation.
 
+A level is a computed point of the curve; the curve is interpolated between the levels.
 The curve is convex, so between two levels it lies in the triangle formed by the chord and the two tangents. This gives
 an upper bound on the error of the interpolated depth in every interval, for every surface. On rough surfaces the error
 is far smaller than the bound. A bound of about three times the allowed error is therefore accepted, if the error is
@@ -31,33 +32,33 @@ _EVENTS_PER_ACCURACY = 0.4
 _FEWEST_EVENTS = 40
 # Contact events are levels up to at most this contact count.
 _MAX_EVENTS = 400
-# The next step is chosen so that its bound is expected to be this share of the allowed bound.
+# The next step is chosen so that its error bound is expected to be this share of the allowed bound.
 _AIM = 0.8
-# The bound grows as this power of the logarithm of the depth ratio of a step.
+# The error bound of a step grows as this power of the logarithm of the ratio of the depths at its ends.
 _ORDER = 2
-# From a step to the next, the logarithm of the depth ratio is multiplied by at least this factor.
+# From one step to the next, the logarithm of the depth ratio is multiplied by at least this factor.
 _LEAST_CHANGE = 0.3
-# From a step to the next, the logarithm of the depth ratio is multiplied by at most this factor.
+# From one step to the next, the logarithm of the depth ratio is multiplied by at most this factor.
 _LARGEST_CHANGE = 2.0
 # An interval is divided at a depth between these shares of its width.
 _DIVISION = 0.15, 0.85
-# Forces where the bound is evaluated, as shares of the force interval between two levels.
+# Forces where the error bound is evaluated, as shares of the force interval between two levels.
 _POINTS = np.linspace(0, 1, 18)[1:-1]
-# The bound is multiplied by this factor, because it may be larger between the points where it is evaluated.
+# The error bound is multiplied by this factor, because it may be larger between the points where it is evaluated.
 _BETWEEN_POINTS = 1.15
-# If the predicted error is small enough, an interval is accepted even if its bound is this multiple of the allowed one.
+# If the predicted error is small enough, an interval is accepted up to this multiple of the allowed error bound.
 _RELAXED_BOUND = 3.3
-# The predicted error is small enough if it is at most this share of the allowed error.
+# A predicted error of at most this share of the allowed error is small enough to accept a larger error bound.
 _PREDICTED_ERROR = 0.5
 # The error is predicted only if at least this number of elements joins the contact in the interval.
 _PREDICTED_COUNT = 10
 # The prediction is used only if the ratio of the computed to the predicted growth of the force is within these limits.
 _AGREEMENT = 0.8, 1.25
-# If the bound is below this share of the allowed error, the next step is made as much longer as allowed, and the error
-# need not be predicted.
+# If the error bound is below this share of the allowed error, the next step is made as much longer as allowed, and the
+# error need not be predicted.
 _NEGLIGIBLE_BOUND = 0.15
-# Smallest share of the force interval between two levels where the bound is evaluated. At a smaller share the logarithm
-# of the force could overflow.
+# Smallest share of the force interval between two levels where the error bound is evaluated. At a smaller share the
+# logarithm of the force could overflow.
 _SMALLEST_SHARE = 1e-3
 # This number avoids a division by zero.
 _TINY = 1e-30

@@ -1,21 +1,21 @@
-"""Penetration of self-affine rough rigid indenters into a linearly viscous half-space.
+"""Compute the penetration of self-affine rough rigid indenters into a linearly viscous half-space.
 
-All public names can be imported from here; exact solutions are in `viscorough.reference`. Each name is defined in the
-module of its subject, which is imported when the name is first used.
+All public names can be imported from here; exact solutions are in `viscorough.reference`. Each name is defined in
+another module of the package, which is imported when the name is first used.
 """
 
 import re
 from importlib import import_module
 from pathlib import Path
 
-# The stub, which serves tools that read types, lists the module of every public name.
+# The stub file __init__.pyi lists each public name with its module. Type checkers read it, too.
 _STUB = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
 _MODULE_OF = {name: module for module, name in re.findall(r"^from viscorough\.(\S+) import (\w+)", _STUB, re.MULTILINE)}
 __all__ = [*_MODULE_OF, "reference"]
 
 
 def __getattr__(name: str) -> object:
-    """Import on first use, so that the command line answers a typing error without loading the solvers."""
+    """Import a public name at its first use: the command line reports a typing error without loading the solvers."""
     if name == "__version__":
         from importlib.metadata import version
 

@@ -1,4 +1,4 @@
-"""The public names and their modules, for tools that read types and for `__init__.py`, which imports on first use."""
+"""Public names and their modules, read by type checkers and by `__init__.py`, which imports a name at its first use."""
 
 from viscorough import reference as reference
 from viscorough.basics.errors import AccuracyWarning as AccuracyWarning

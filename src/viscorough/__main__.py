@@ -1,4 +1,4 @@
-"""Run the command `viscorough`, also as `python -m viscorough`, after the set-up that must precede all imports."""
+"""Run the command line, also as `python -m viscorough`. Before the slow imports, let Ctrl-C end the process quietly."""
 
 import signal
 

@@ -1,1 +1,1 @@
-"""Arrays, types, units, elastic constants, errors and messages, and the set-up of compiled code."""
+"""Basic modules for all other packages: arrays, types, units, elastic constants, errors, messages, compilation."""

@@ -1,7 +1,7 @@
-"""Spell the names of arguments in messages: in Python as arguments, on the command line as options.
+"""Spell names in messages as the user knows them: as arguments in Python, as options on the command line.
 
-A function of the library and a command can read the same input, and share their messages. Each message names arguments
-by `argument`, which spells them as the caller gave them.
+A function of the library and a command of the command line can refuse the same input with the same message. Each
+message therefore spells the name by `argument`: lateral_unit in Python, --lateral-unit on the command line.
 """
 
 import contextlib
@@ -13,7 +13,7 @@ _AS_OPTIONS = ContextVar("_AS_OPTIONS", default=False)
 
 @contextlib.contextmanager
 def spelled_as_options() -> Iterator[None]:
-    """Let messages name options of the command line within this context."""
+    """Spell arguments as options of the command line in all messages that are made within this context."""
     token = _AS_OPTIONS.set(True)
     try:
         yield
@@ -22,14 +22,15 @@ def spelled_as_options() -> Iterator[None]:
 
 
 def spelled(option: str, argument: str) -> str:
-    """Return the first text on the command line, and the second text in Python."""
+    """Return `option` on the command line (within `spelled_as_options`), and `argument` in Python."""
     return option if _AS_OPTIONS.get() else argument
 
 
 def argument(name: str, value: object = None, *, of: str = "") -> str:
-    """Return an argument, and its value unless that is None, as the user gives it.
+    """Return the spelling of an argument, with its value unless the value is None.
 
-    of : function with this argument; only in Python, since the command line names its command anyway
+    of : name of the function that has the argument. It is added in Python only: messages of the command line start with
+        the name of the command
 
     Examples
     --------
@@ -46,5 +47,5 @@ def argument(name: str, value: object = None, *, of: str = "") -> str:
 
 
 def caller(function: str) -> str:
-    """Return "function: " in Python, and nothing on the command line, which names its command anyway."""
+    """Return "function: " in Python, and "" on the command line, where messages start with the name of the command."""
     return spelled("", f"{function}: ")

@@ -1,8 +1,8 @@
-"""Check numbers and arrays in arguments, keep them in objects, and handle samples over time.
+"""Check numbers and arrays in arguments, store arrays read-only in objects, and evaluate samples over time.
 
-Every public function takes plain numbers through `real_number`, `real_numbers` or `whole_number`, and numbers that may
-have a unit through viscorough.basics.units, which converts them first. Arrays that an object keeps are copies that
-cannot be changed; their masked entries are nan.
+Every public function checks its plain numbers with `real_number`, `real_numbers` or `whole_number`. Numbers that may
+have a unit are first converted by viscorough.basics.units. Objects store arrays as copies that cannot be changed, in
+which masked entries are nan. `name` is always the name of the checked argument, with which the error message starts.
 """
 
 import contextlib
@@ -18,19 +18,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscorough.basics.types import Array, Mask, Numbers
 
-# Types without units: a test of the type is faster than a look-up of attributes.
+# Values of these types have no unit. Comparing the type is faster than looking for an attribute `units`.
 _PLAIN = {float, int, bool, str, complex, type(None), np.float64, np.ndarray}
-# Words for types of arrays that are not real numbers.
+# Words for messages about arrays that hold no real numbers, by the attribute `kind` of the numpy.dtype.
 _KINDS = {"b": "truth values", "c": "complex numbers", "U": "texts", "S": "texts", "m": "times", "M": "dates"}
-# Types that Python counts as whole numbers although they are none.
+# Truth values and durations pass as whole numbers in Python (numbers.Integral), although they are none.
 _NO_NUMBERS = (bool, np.timedelta64)
 _BEYOND = "a number beyond double precision; a number that double precision holds is needed"
 
 
 def read_only(values: Any) -> NDArray[Any]:
-    """Return the values as an array that cannot be changed: a copy, unless already immutable.
+    """Return the values as an array that cannot be changed: a copy, unless the given array is immutable already.
 
-    Masked entries of numpy's masked arrays, also of a list of them, become nan.
+    Masked entries of a masked array of numpy, or of masked arrays in a list, become nan.
     """
     if isinstance(values, list | tuple) and any(map(np.ma.isMaskedArray, values)):
         values = np.ma.array(values)
@@ -44,7 +44,10 @@ def read_only(values: Any) -> NDArray[Any]:
 
 
 def unit_attribute(value: Any) -> str:
-    """Return the unit of a quantity of pint or of a similar library (attribute `units` or `unit`); "" for others."""
+    """Return the unit of a quantity of pint or a similar library (attribute `units` or `unit`); "" for plain values.
+
+    For a list or an array of objects, return the first unit among its entries.
+    """
     if type(value) is np.ndarray and value.dtype.kind == "O":
         value = list(value.flat)
     if isinstance(value, list | tuple):
@@ -57,7 +60,7 @@ def unit_attribute(value: Any) -> str:
 
 @contextlib.contextmanager
 def named(name: str) -> Iterator[None]:
-    """Turn errors of making an array into a ValueError that starts with the name."""
+    """Turn an error that numpy raises while it makes an array into a ValueError that starts with the name."""
     try:
         yield
     except ValueError:
@@ -91,8 +94,10 @@ def real_numbers(name: str, values: Any) -> Array:
 
 
 def real_number(name: str, value: Any) -> float:
-    """Return the value as a finite float. Raises ValueError like `real_numbers`, and for several values, nan and
-    inf."""
+    """Return the value as a finite float.
+
+    Raises ValueError like `real_numbers`, and also for an array of values, for nan and for infinity.
+    """
     value = _float(name, value)
     if not math.isfinite(value):
         raise ValueError(f"{name}: {value}; a finite number is needed")
@@ -100,7 +105,7 @@ def real_number(name: str, value: Any) -> float:
 
 
 def positive(name: str, value: float) -> float:
-    """Return the value as a float. Raises ValueError with the name unless it is finite and above 0."""
+    """Return the value as a float. Raises ValueError, which starts with the name, unless 0 < value < infinity."""
     try:
         number = float(real_numbers(name, value))
     except (TypeError, ValueError):
@@ -121,8 +126,9 @@ def _float(name: str, value: Any) -> float:
 
 
 def float_or_array(name: str, values: Any) -> Numbers:
-    """Return real numbers for a formula: a float or an array; a Series of pandas or a similar object stays unchanged.
+    """Return numbers for use in a formula: a float for a single number, otherwise an array.
 
+    A Series of pandas, or a similar object with labels, is returned unchanged if its numbers are in double precision.
     Raises ValueError like `real_numbers`.
     """
     numbers = real_numbers(name, values)
@@ -133,7 +139,10 @@ def float_or_array(name: str, values: Any) -> Numbers:
 
 
 def whole_number(name: str, value: Any, at_least: int, at_most: float = 2**63 - 1) -> int:
-    """Return the value as an int. Raises ValueError, which starts with the name, unless it is an int in this range."""
+    """Return the value as an int.
+
+    Raises ValueError, which starts with the name, unless the value is a whole number from `at_least` to `at_most`.
+    """
     if not is_whole(value) or value < at_least:
         raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {shown(value)}")
     if value > at_most:
@@ -142,12 +151,12 @@ def whole_number(name: str, value: Any, at_least: int, at_most: float = 2**63 - 
 
 
 def is_whole(value: Any) -> bool:
-    """Return True for whole numbers of any type; truth values and durations are not numbers."""
+    """Return True for a whole number of any integer type; truth values and durations (timedelta64) do not count."""
     return isinstance(value, Integral) and not isinstance(value, _NO_NUMBERS)
 
 
 def fraction(name: str, value: Any) -> float:
-    """Return the value as a float. Raises ValueError, which starts with the name, unless it is in (0, 1]."""
+    """Return the value as a float. Raises ValueError, which starts with the name, unless 0 < value ≤ 1."""
     number = real_number(name, value)
     if not 0 < number <= 1:
         raise ValueError(f"{name} must lie in (0, 1], not {number!r}")
@@ -155,29 +164,30 @@ def fraction(name: str, value: Any) -> float:
 
 
 def shown(value: Any) -> str:
-    """Return a value for a message: its repr on one line, at most 60 characters of it."""
+    """Return the repr of a value for a message, on one line and cut off after 60 characters."""
     try:
         return " ".join(repr(value).split())[:60]
-    except ValueError:  # Python writes no whole number of more than 4300 digits
+    except ValueError:  # Python refuses to write a whole number of more than 4300 digits
         return type(value).__name__
 
 
 class ReadOnlyArrays:
-    """Base of frozen dataclasses: array fields become read-only and are compared as a whole.
+    """Base class of frozen dataclasses whose arrays are read-only and are compared as a whole.
 
-    Fields declared as arrays, floats or ints take real numbers only (ValueError). Arrays stay read-only in copies and
-    through pickling. If a class has a text (`__str__`), notebooks show this text instead of all numbers of the arrays.
+    Fields that are declared as arrays of numbers, floats or ints accept real numbers only; other values raise
+    ValueError. Arrays stay read-only in copies and after pickling. If a class defines a text (`__str__`), notebooks
+    show this text instead of all numbers of the arrays.
     """
 
-    # Without this, numpy compares an array with such an object entry by entry.
+    # Without this attribute, `array == object` would compare the object with each entry of a numpy array.
     __array_ufunc__ = None
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        # Otherwise dataclasses compare tuples, which cannot contain arrays.
-        cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # a dataclass would make its own
+        # The comparison that a dataclass generates compares tuples of the fields, which fails for arrays.
+        cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # prevents the generated __eq__
         if "__str__" in vars(cls) and "__repr__" not in vars(cls):
-            cls.__repr__ = cls.__str__  # type: ignore[method-assign]  # for the same reason
+            cls.__repr__ = cls.__str__  # type: ignore[method-assign]  # prevents the generated __repr__
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -202,20 +212,23 @@ class ReadOnlyArrays:
 
 @functools.cache
 def _types_of_fields(made: Any) -> dict[str, Any]:
-    """Return the types of the fields of a dataclass, also where annotations are texts."""
+    """Return {field: type} of a dataclass, also if its annotations are texts (from __future__ import annotations)."""
     types = get_type_hints(made)
     return {field.name: types[field.name] for field in dataclasses.fields(made)}
 
 
 def _kept_numbers(name: str, values: Any) -> NDArray[Any]:
-    """Return a read-only array. Whole numbers and single precision keep their type, others become double precision."""
+    """Return the values as a read-only array.
+
+    Whole numbers and numbers in single precision keep their type. All other numbers are converted to double precision.
+    """
     numbers = real_numbers(name, values)
     array = read_only(values)
     return array if array.dtype.kind in "iu" or array.dtype == np.float32 else numbers
 
 
 def _truth_values(name: str, values: Any) -> Mask:
-    """Return the values as a read-only array of truth values."""
+    """Return the values as a read-only array of truth values. Raises ValueError if they are of another type."""
     array = read_only(values)
     if array.dtype != bool:
         raise ValueError(f"{name}: {array.dtype}; truth values are needed")
@@ -223,34 +236,38 @@ def _truth_values(name: str, values: Any) -> Mask:
 
 
 class ReadOnlyTuple(tuple[Any, ...]):
-    """Base of named tuples of arrays: arrays become read-only, also in copies, and are compared as a whole.
+    """Base class of named tuples whose arrays are read-only, also in copies, and are compared as a whole.
 
-    A result inherits from this class first and then from a NamedTuple of its fields.
+    A derived class names this class first among its bases, and then a NamedTuple that declares the fields.
     """
 
     __slots__ = ()
     __array_ufunc__ = None
 
     def __new__(cls, *arrays: Any, **named: Any) -> Any:
-        made = super().__new__(cls, *arrays, **named)  # of the named tuple
+        made = super().__new__(cls, *arrays, **named)  # calls __new__ of the NamedTuple, the second base
         return tuple.__new__(cls, [read_only(array) for array in made])
 
     def __eq__(self, other: object) -> bool:
         return type(other) is type(self) and all(map(_are_equal, self, cast(Any, other)))
 
-    def __ne__(self, other: object) -> bool:  # otherwise a tuple's own
+    def __ne__(self, other: object) -> bool:  # replaces the __ne__ that tuple defines
         return not self == other
 
 
 def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:
     """Return the values as a row of floats. Raises ValueError, which starts with the name, unless they increase.
 
-    steps : quantity that steps at a time given twice, for the message; None if no value may be given twice
+    above_zero : True if the first value must be above 0
+    steps : None if no value may be given twice; otherwise values are times, and a time given twice marks a step of
+        this quantity, which the message names
     """
     values = real_numbers(name, values)
     if values.ndim == 1 and values.size and np.isfinite(values).all():
         rises = np.diff(values)
-        apart = rises if steps is None else rises[1:] + rises[:-1]  # rise from one of the two values before
+        # Differences that must be above 0: from each value to the next, or, where steps are allowed, to the next but
+        # one, so that no time is given three times.
+        apart = rises if steps is None else rises[1:] + rises[:-1]
         if (rises >= 0).all() and (apart > 0).all() and (values[0] > 0 or not above_zero):
             return values
     allowed = f"one row of finite numbers{' above 0' if above_zero else ''}, each larger than the one before"
@@ -258,9 +275,9 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
 
 
 def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "") -> Array:
-    """Return a load at the times, as floats. Raises ValueError unless each time has a finite value of at least 0.
+    """Return the samples of a load as floats. Raises ValueError unless each time has a finite sample of at least 0.
 
-    reason : why it must be, for the message
+    reason : end of the message, which explains why the load must be at least 0
     """
     values = real_numbers(name, values)
     if values.shape != times.shape:
@@ -272,11 +289,11 @@ def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "")
 
 
 def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
-    """Return jumps of a load just before its samples, and its slopes from each sample to the next.
+    """Return the jump of a load just before each sample, and its slope from each sample to the next.
 
-    times, load : shape (samples,); a repeated time is a jump; the load is 0 before the first sample
+    times, load : samples, shape (samples,). The load jumps where a time is repeated, and is 0 before the first sample
 
-    Returns arrays of shapes (samples,) and (samples − 1,).
+    Returns the jumps, shape (samples,), and the slopes, shape (samples − 1,); the slope is 0 at a jump.
     """
     lengths, increments = np.diff(times), np.diff(load)
     slopes = np.divide(increments, lengths, out=np.zeros_like(increments), where=lengths > 0)
@@ -284,9 +301,12 @@ def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
 
 
 def integral(times: Array, values: Array, until: Any) -> Array:
-    """Integrate a function that is linear between samples and 0 before them, exactly, up to times of any shape.
+    """Return the exact integral of a sampled function up to each time of `until`.
 
-    times, values : samples, shape (samples,)
+    The function is 0 before the first sample, linear between samples, and constant after the last sample.
+
+    times, values : samples of the function, shape (samples,)
+    until : upper limits of the integral, of any shape; the result has this shape
     """
     at_samples = np.append(0.0, np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(times)))
     slopes = np.append(jumps_and_slopes(times, values)[1], 0.0)
@@ -296,7 +316,10 @@ def integral(times: Array, values: Array, until: Any) -> Array:
 
 
 def _holds_truth_value(values: Any) -> bool:
-    """Return True if a truth value is in a list, or in an array of objects; numpy would count it as 0 or 1."""
+    """Return True for a truth value, and for a list or an array of objects that contains a truth value.
+
+    numpy would convert a truth value among numbers to 0 or 1.
+    """
     if type(values) is np.ndarray and values.dtype.kind == "O":
         values = list(values.flat)
     if isinstance(values, list | tuple):

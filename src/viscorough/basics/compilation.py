@@ -1,8 +1,9 @@
-"""Cache compiled functions on disk; incomplete cache files are no error, and interrupts wait for the compiler.
+"""Compile functions with numba, cache their code on disk, and defer interrupts while the compiler runs.
 
-Compiled code is kept in the user's cache folder (~/.cache/viscorough), or in NUMBA_CACHE_DIR. Where a file cannot be
-loaded, the function is compiled again. Where nothing can be kept on disk, functions are compiled in every process, and
-one line says so. Only these functions are affected, not numba itself or functions of other packages.
+Compiled code is kept in the user's cache folder (~/.cache/viscorough), or in the folder that NUMBA_CACHE_DIR names. If
+a file of the cache is damaged, its function is compiled again. If no file can be written, every process compiles the
+functions again, and one line of the log states this. The cache serves only functions that are decorated with `njit` of
+this module; numba itself and the functions of other packages are not changed.
 """
 
 import contextlib
@@ -32,16 +33,16 @@ from viscorough.basics.interrupts import uninterrupted
 
 @functools.cache  # once per process
 def _announce_compilation() -> None:
-    """Announce on a terminal or in a notebook why the first computation takes longer."""
+    """Announce, on a terminal or in a notebook, that the first computation waits for the compiler."""
     if "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty()):
         print("viscorough: compiling once, which takes about 10 s", file=sys.stderr, flush=True)
 
 
 class _Cache(caching.NullCache):
-    """Compiled code of one function on disk: a file for each set of types of its arguments.
+    """Cache of the compiled code of one function on disk, with one file for each combination of argument types.
 
-    The name of a file has a digest of all that determines the code. Hence all copies of the same source share the
-    files, and a change of a function, or of one that it calls, is never missed.
+    The name of a file contains a digest of everything that determines the code. All copies of the same source therefore
+    share the files. If the function, or a function that it calls, is changed, the name of the file changes as well.
     """
 
     def __init__(self, compiled: Any) -> None:
@@ -54,7 +55,7 @@ class _Cache(caching.NullCache):
 
     @functools.cached_property
     def _digest(self) -> str:
-        # At the first call, when the functions that this one calls exist.
+        # The digest is computed at the first call of the function: all functions that it calls are defined by then.
         content = sys.version_info[:2], numba.__version__, _content(self._compiled, ())
         return sha256(repr(content).encode()).hexdigest()
 
@@ -68,13 +69,13 @@ class _Cache(caching.NullCache):
         file = self._file(sig, target_context.codegen().magic_tuple())
         try:
             stored = file.read_bytes()
-        except OSError:  # mostly because it does not exist
+        except OSError:  # usually because the file does not exist yet
             _announce_compilation()
             return None
         try:
             with uninterrupted():
                 return CompileResult._rebuild(target_context, *pickle.loads(stored))
-        except Exception as error:  # reading a file that a power failure cut off can fail in any way
+        except Exception as error:  # a file that a power failure cut off can raise an error of any type
             text = "compiled code of %s in %s is damaged (%s): it is compiled again"
             logging.warning(text, self._compiled.py_func.__name__, file.parent, error)
             with contextlib.suppress(OSError):
@@ -82,7 +83,7 @@ class _Cache(caching.NullCache):
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        if data.lifted or data.library.has_dynamic_globals:  # has addresses of this process
+        if data.lifted or data.library.has_dynamic_globals:  # the code contains addresses of this process
             return
         file = self._file(sig, data.codegen.magic_tuple())
         temporary = file.with_name(f"{file.name}.{uuid.uuid4().hex}")
@@ -98,9 +99,11 @@ class _Cache(caching.NullCache):
 
 
 def _content(value: Any, callers: tuple[Any, ...]) -> Any:
-    """Return all that determines the compiled code of a function, or the part of a value in it, as nested tuples.
+    """Return everything that determines the compiled code of a function, as nested tuples.
 
-    callers : functions that call this one and are already described
+    value : function that `njit` decorates, or a value that such a function uses, such as an array or a module
+    callers : functions that are being described and lead to `value` by their calls. A recursive call of one of these
+        functions is described by its name only
     """
     if isinstance(value, Dispatcher):
         function = value.py_func
@@ -115,7 +118,7 @@ def _content(value: Any, callers: tuple[Any, ...]) -> Any:
         return value.dtype.str, value.shape, value.tobytes()
     if isinstance(value, types.ModuleType):
         return value.__name__
-    if callable(value):  # the class of a named tuple has fields
+    if callable(value):  # for example the class of a named tuple, which has _fields
         return getattr(value, "__module__", ""), getattr(value, "__qualname__", ""), getattr(value, "_fields", ())
     return type(value).__name__, repr(value)
 
@@ -142,13 +145,14 @@ def _warn_cache_disabled() -> None:
 def njit(
     function: Callable[..., Any] | None = None, *, inner: bool = False, fastmath: bool = False
 ) -> Callable[..., Any]:
-    """Compile a function for the types of its arguments, and cache it on disk. Use as a decorator.
+    """Decorate a function so that numba compiles it for the types of its arguments and caches the code on disk.
 
     All functions release the interpreter's lock, and divide by zero without an error, as numpy does. They share these
     options because numba compiles its own functions (zeros, for example) once for each set of options.
 
-    inner : True if only other compiled functions call it. Its code becomes part of theirs, so it is neither cached nor
-        callable from Python, which saves half of the compile time of a short function
+    inner : True if only other compiled functions call this function. Its code then becomes part of the code of its
+        callers. The function is neither cached nor callable from Python, which saves half of the compile time of a
+        short function
     fastmath : True if the compiler may reorder sums and assume that numbers are finite
     """
     if function is None:
@@ -163,14 +167,15 @@ def njit(
         def refuse(*arguments: Any, **options: Any) -> Any:
             raise TypeError(f"{function.__name__} can only be called by other compiled functions")
 
-        # Without a wrapper, a call from Python would crash: keep numba from finding the compiled code.
+        # An inner function has no wrapper, so a call from Python would crash. Numba therefore must not find its
+        # compiled code; a call from Python then reaches `refuse`.
         compiled._compile_for_args, compiled._insert = refuse, lambda *arguments, **options: None
     else:
         compiled._cache = _Cache(compiled)
     compile_types = uninterrupted()(compiled.compile)
 
     def compile_once(argument_types: Any) -> Any:
-        # A literal number in a call needs no separate variant of the function.
+        # Treat a literal number in a call like a variable, so that numba compiles no variant for each value.
         with _no_garbage_collection():
             return compile_types(tuple(map(unliteral, argument_types)))
 
@@ -180,8 +185,8 @@ def njit(
 
 @contextlib.contextmanager
 def _no_garbage_collection() -> Iterator[None]:
-    """Pause the search for unreachable objects, which takes a tenth of the time that the compiler takes."""
-    if not gc.isenabled():  # in a function that another one calls
+    """Pause Python's garbage collection in this context, where it would take a tenth of the compile time."""
+    if not gc.isenabled():  # paused already, while the compiler compiles a caller of this function
         yield
         return
     gc.disable()

@@ -1,13 +1,13 @@
-"""Elastic constants: from Young's modulus E and Poisson ratio ν to the shear modulus that the solvers use.
+"""Convert Young's modulus E and Poisson ratio ν to the shear modulus G that the solvers use.
 
 Contact without friction depends on E/(1 − ν²) alone. A half-space is therefore as stiff as an incompressible
 half-space with the shear modulus
 
-    G = E/(1 − ν²)/4,    E/3 if ν = 1/2.
+    G = E/(1 − ν²)/4, which is E/3 if ν = 1/2.
 
-In a linear viscoelastic medium with a constant Poisson ratio this holds for Young's modulus at every time. A contact
-responds as on an incompressible medium, whose moduli and viscosities are the medium's moduli E/(2(1 + ν)) and
-viscosities in shear, divided by 2(1 − ν).
+In a linear viscoelastic medium with a constant Poisson ratio, this relation holds at every time. The contact responds
+as on an incompressible medium. The shear moduli and shear viscosities of the incompressible medium are the shear moduli
+E/(2(1 + ν)) and shear viscosities of the given medium, divided by 2(1 − ν).
 """
 
 import math
@@ -16,8 +16,10 @@ from typing import Any
 from viscorough.basics import units
 from viscorough.basics.argument_names import spelled
 
-INCOMPRESSIBLE = 0.5  # Poisson ratio
-UNIT_SQUARE_DEFLECTION = 4 * math.log(1 + math.sqrt(2))  # K₀₀ = πE*u/(pd), u at the centre of a loaded square
+INCOMPRESSIBLE = 0.5  # Poisson ratio of an incompressible medium
+# K₀₀ = πE*u/(pd), where u is the deflection at the centre of a square of side d under the uniform pressure p, and
+# E* = E/(1 − ν²).
+UNIT_SQUARE_DEFLECTION = 4 * math.log(1 + math.sqrt(2))
 
 
 def shear_modulus_of(
@@ -26,9 +28,9 @@ def shear_modulus_of(
     """Return G of the incompressible half-space that is as stiff as the given half-space; None without a modulus.
 
     shear_modulus, young_modulus : G or E in Pa, or with a unit; in consistent units if the unit of length is not known
-    poisson : ν, with Young's modulus only; default: 0.5
+    poisson : Poisson ratio ν, allowed only together with Young's modulus; default: 0.5
 
-    Raises ValueError, which names the argument, for other numbers, and for arguments that exclude each other.
+    Raises ValueError, which names the argument, for numbers out of range, and for arguments that exclude each other.
     """
     from viscorough.basics.arrays import (
         positive,  # numpy takes long to import, and reading the options does not need it
@@ -49,7 +51,10 @@ def shear_modulus_of(
 
 
 def poisson_ratio(name: str, value: Any) -> float:
-    """Return ν as a float, 0.5 for None. Raises ValueError, which starts with the name, unless −1 < ν ≤ 0.5."""
+    """Return a Poisson ratio ν as a float; 0.5 for None.
+
+    Raises ValueError, which starts with the name, unless −1 < ν ≤ 0.5.
+    """
     from viscorough.basics.arrays import real_number
 
     ratio = INCOMPRESSIBLE if value is None else real_number(name, value)
@@ -59,19 +64,24 @@ def poisson_ratio(name: str, value: Any) -> float:
 
 
 def young_over_shear(poisson: float) -> float:
-    """Return the factor 4(1 − ν²), from the modulus in shear of the incompressible medium to Young's modulus."""
+    """Return 4(1 − ν²), the ratio of Young's modulus to the shear modulus of the equivalent incompressible medium."""
     return 4 * (1 - poisson**2)
 
 
 def shear_over_incompressible(poisson: float) -> float:
-    """Return the factor 2(1 − ν), from the incompressible medium to the moduli and viscosities in shear."""
+    """Return 2(1 − ν), the ratio of a medium's shear modulus to the modulus of the equivalent incompressible medium.
+
+    The ratio of the shear viscosities is the same. A contact responds in the same way on both media.
+    """
     return 2 * (1 - poisson)
 
 
 def one_element_stiffness(elements_across: int) -> float:
-    """Return κ while one square element is in contact (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ.
+    """Return the dimensionless stiffness κ = π/(K₀₀ n) while one square element is in contact (region a).
 
-    A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
+    n is the number of elements across the diameter L of the indenter. A square of side d = L/n under the uniform
+    pressure p sinks by u = pd K₀₀/(πE*) at its centre. In region (a), vt/h = X/κ; `viscorough.reference` defines X
+    and κ.
 
     Examples
     --------

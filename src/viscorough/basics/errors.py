@@ -24,7 +24,7 @@ class AccuracyWarning(UserWarning):
     """
 
 
-# Errors that are reported in one line. Any other error is a fault of viscorough.
+# The command line reports errors of these types in one line. An error of any other type is a fault of viscorough.
 REPORTED = (ValueError, OSError, MemoryError, Warning, ConvergenceError)
 
 

@@ -9,9 +9,9 @@ from typing import Any
 
 @contextlib.contextmanager
 def on_interrupt(handler: Callable[..., Any] | signal.Handlers) -> Iterator[None]:
-    """Let an interrupt within this context call handler(signal number, frame).
+    """Call handler(signal number, frame) when an interrupt (Ctrl-C) arrives within this context.
 
-    Outside the main thread nothing changes, since interrupts never reach other threads.
+    In other threads than the main thread this context has no effect, since interrupts never reach them.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -25,10 +25,10 @@ def on_interrupt(handler: Callable[..., Any] | signal.Handlers) -> Iterator[None
 
 @contextlib.contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Defer interrupts within this context to its end.
+    """Defer interrupts (Ctrl-C) that arrive within this context to its end.
 
-    During the callbacks of LLVM into Python an interrupt would be lost or crash the process. A compiled function that
-    was interrupted crashes when it returns its results.
+    An interrupt during a callback of the compiler LLVM into Python would be lost or crash the process. An interrupt
+    during a compiled function would crash the process when the function returns its results.
     """
     arrived = []
     try:

@@ -4,7 +4,10 @@ import psutil
 
 
 def require(needed: float, purpose: str) -> None:
-    """Raise MemoryError, which names both numbers, unless `needed` bytes are available for a purpose."""
+    """Raise MemoryError, which states the needed and the available memory, unless `needed` bytes are available.
+
+    purpose : name of the object that needs the memory, with which the message starts
+    """
     available = psutil.virtual_memory().available
     if needed > available:
         raise MemoryError(f"{purpose} takes {needed:.3g} bytes of memory, {available:.3g} bytes are available")

@@ -10,12 +10,15 @@ def span(values: Any, unit: str = "1") -> str:
 
 
 def with_unit(value: float, unit: str = "1", digits: int = 4) -> str:
-    """Return a number with so many digits, and its unit unless it is "1"."""
+    """Return a number as text with `digits` significant digits, followed by its unit unless the unit is "1"."""
     return f"{float(value):.{digits}g}{'' if unit == '1' else f' {unit}'}"
 
 
 def unit_power(unit: str, exponent: int) -> str:
-    """Return a power of a unit of length, as UDUNITS spells it: m2, but (1e-6 m)2; "1" for "1"."""
+    """Return a power of a unit of length in the spelling of UDUNITS, such as m2 or (1e-6 m)2.
+
+    Return "1" if the unit is "1" or the exponent is 0.
+    """
     if unit == "1" or exponent == 0:
         return "1"
     if exponent == 1:
@@ -24,5 +27,5 @@ def unit_power(unit: str, exponent: int) -> str:
 
 
 def si_unit(unit: str, length_unit: str) -> str:
-    """Return an SI unit such as "s"; "1" if the unit of length is "1", so that all units are those of the user."""
+    """Return an SI unit such as "s"; "1" if the unit of length is "1": the user has then chosen all units."""
     return "1" if length_unit == "1" else unit

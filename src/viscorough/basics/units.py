@@ -1,8 +1,8 @@
 """Read and convert units as users and files write them: "um", "1e-6 m", "µm", "micron", "Pa s", "N s m-2".
 
-Results spell units like UDUNITS, the units library of the CF conventions: a number after a unit is its power. Pint
-converts units. It takes a second to import, so it is imported only for units outside a short table. The unit "1" means
-that the unit of length is not known.
+Results spell units like UDUNITS, the units library of the CF conventions: a number after a unit is its exponent, as in
+m2. The library pint converts units. Its import takes a second, so a short table serves for the common units. The unit
+"1" means that the unit of length is not known.
 """
 
 import contextlib
@@ -16,21 +16,21 @@ from viscorough.basics import summaries
 from viscorough.basics.argument_names import argument, spelled
 
 UNKNOWN = "1"
-# Units of length that are read without pint, in the spelling of files and results. Users may write µ for u.
+# Units of length that are converted without pint: {spelling in files and results: metres}. Users may write µ for u.
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-# Patterns are compiled at first use, so that the command line starts faster.
+# These patterns are compiled at their first use, so that the command line starts faster.
 _ALLOWED = r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}"
 _POWER = r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])"
 _LONG_POWER = r"(\*\*|\^)(?!\s*[+-]?\d(?![\d.eE]|\s*(\*\*|\^)))"
 _POINTS = r"(?i:px|pix|pixels?|pts?|points?|dots?|samples?|punkte?|bildpunkte?)"
-# Names of lengths of printers in pint, which usually mean the points of a picture.
+# Ends of the names of printers' units of length in pint. Files of heights use these names for the points of a picture.
 _PRINTED = ("pixel", "point", "pica", "didot", "cicero")
 _QUANTITY = r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.+?)\s*"
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """Number with a unit; the unit of a plain number is empty."""
+    """Number with a unit; the unit is "" for a plain number."""
 
     number: float
     unit: str = ""
@@ -71,7 +71,8 @@ def with_unit(value: Any) -> Any:
 def number(value: Any, unit: str, length_unit: str, name: str) -> float:
     """Convert a plain number, a Quantity, a quantity of pint, or a text such as "5 mN" to a finite number in `unit`.
 
-    length_unit : unit of length of the indenter; if it is "1", numbers are in consistent units without a conversion
+    length_unit : unit of length of the indenter; if it is "1" (not known), numbers are in consistent units and are not
+        converted
 
     Raises ValueError, which starts with the name, for other values, and for a number with a unit if the unit of length
     is not known.
@@ -82,9 +83,9 @@ def number(value: Any, unit: str, length_unit: str, name: str) -> float:
 
 
 def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
-    """Convert values, which may have units like in `number`, to an array of real numbers in `unit`.
+    """Convert values to an array of real numbers in `unit`. Values may have units, as in `number`.
 
-    values : number, array or array of pint, or a list whose entries may have different units
+    values : a value that `number` accepts, an array, an array of pint, or a list whose entries may have different units
     """
     from viscorough.basics.arrays import read_only, real_numbers, unit_attribute
 
@@ -112,12 +113,12 @@ def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
 
 
 def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: str, name: str) -> Any:
-    """Convert one force or several to F/G [length²], an array of their shape.
+    """Convert a force or several forces F to F/G [length²], an array of the same shape.
 
-    shear_modulus : G [Pa] for forces F [N], both in consistent units if the unit of length is not known; None if the
-        forces are F/G already
+    shear_modulus : G [Pa]; forces are then in N. Both are in consistent units if the unit of length is not known. None
+        if the given forces are F/G already
 
-    Raises ValueError, which starts with the name, like `numbers`, and for a force with a unit without G.
+    Raises ValueError, which starts with the name, like `numbers`, and for a force with a unit if G is not given.
     """
     from viscorough.basics.arrays import unit_attribute
 
@@ -136,7 +137,7 @@ def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: s
 
 
 def square_metres(length_unit: str) -> float:
-    """Return the square of a unit of length in m²; 1 if it is not known, since all units are then consistent.
+    """Return the square of a unit of length in m²; 1 if the unit is not known, since all units are then consistent.
 
     A modulus in Pa times this area is a force in N per squared unit of length.
     """
@@ -144,14 +145,15 @@ def square_metres(length_unit: str) -> float:
 
 
 def in_metres(length_unit: str) -> float:
-    """Return a unit of length in m; 1 if it is not known, since all units are then consistent."""
+    """Return a unit of length in m; 1 if the unit is not known, since all units are then consistent."""
     return 1.0 if length_unit == UNKNOWN else metres(length_unit)
 
 
 class ResultUnit(NamedTuple):
-    """Unit of a quantity for readers: its name, and the factor that converts a number of the solver to it.
+    """Unit in which users read a quantity: its name, and the factor that converts a number of the solver to this unit.
 
-    Numbers of the solver are lengths in the unit of the heights, areas in this unit squared, and F/G, k/G and p/G.
+    The solver computes lengths in the unit of the heights, areas in the square of this unit, and the ratios F/G, k/G
+    and p/G of force, stiffness and pressure to the shear modulus.
     """
 
     name: str
@@ -163,11 +165,11 @@ class ResultUnit(NamedTuple):
 
 
 def result_units(length_unit: str, shear_modulus: float | None) -> dict[str, ResultUnit]:
-    """Return the units of "length", "area", "force", "stiffness" and "pressure" for readers.
+    """Return the units in which users read results: {"length", "area", "force", "stiffness", "pressure": ResultUnit}.
 
-    Lengths are in um and areas in um2. Forces are in N, stiffnesses in N/m and pressures in MPa if the shear modulus is
-    given [Pa]; otherwise they are F/G in um2, k/G in um and p/G in 1. If the unit of length is not known, all numbers
-    are in consistent units, which are called "1".
+    Lengths are in um and areas in um2. If the shear modulus [Pa] is given, forces are in N, stiffnesses in N/m and
+    pressures in MPa; otherwise they are F/G in um2, k/G in um and p/G without a unit ("1"). If the unit of length is
+    not known, all numbers are in consistent units, which are called "1".
     """
     if length_unit == UNKNOWN:
         moduli = 1.0 if shear_modulus is None else shear_modulus
@@ -247,9 +249,9 @@ def _registry() -> Any:
 
 @functools.cache
 def _parsed(text: str) -> Any:
-    """Convert a unit to a quantity of pint: number and unit. Raises ValueError for other texts.
+    """Convert the text of a unit, such as "1e-6 m", to a quantity of pint. Raises ValueError for other texts.
 
-    Powers of more than one digit and powers of powers are refused, since pint could compute them without end.
+    Exponents of more than one digit and powers of powers are refused, since pint could take forever to compute them.
     """
     needed = "a unit such as um, nm, N or Pa s is needed"
     spelled = re.sub(_POWER, lambda match: f"{match[1] or ')'}**{match[2] or match[3]}", text)

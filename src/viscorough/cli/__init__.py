@@ -1,9 +1,13 @@
-"""The command line: the command `viscorough`, with a module for each of its subcommands.
+"""Define the command `viscorough`; each of its subcommands has a module in this package.
 
-For a user's mistake the command line writes one line on stderr, "viscorough COMMAND: the error, its place, the allowed
-values", returns exit code 2, and leaves no output file. Exit code 1 means that a solver did not converge, 3 that a
-table of several files is complete but some of them failed, and 0 that the output file is complete, also if the closing
-line could not be written to stdout. If warnings are errors (PYTHONWARNINGS=error), a warning is treated like a mistake.
+The exit codes are
+
+- 0: the output file is complete, even if the closing line could not be written to standard output,
+- 1: a solver did not converge,
+- 2: the user made a mistake. Standard error then shows one line, "viscorough COMMAND: the error, its place, the allowed
+  values", and no output file is left. A warning counts as a mistake if warnings are errors (PYTHONWARNINGS=error),
+- 3: a table of several files of heights is complete, but some of the files failed.
+
 Modules that take long to import are imported only by the commands that need them, so help and messages come quickly.
 """
 
@@ -21,7 +25,7 @@ from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.interrupts import on_interrupt
 from viscorough.cli import messages
 
-# Environment variable, named by click, with which the shell asks for completions.
+# Name, fixed by click, of the environment variable that the shell sets when it asks for completions.
 _COMPLETE = "_VISCOROUGH_COMPLETE"
 
 
@@ -53,7 +57,7 @@ for _name in ("indent", "contact", "kinetics", "creep", "march", "reduce", "gene
 def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int:
     """Run the command line and return its exit code.
 
-    arguments : list of texts; default: those of the process
+    arguments : texts that follow the name of the program; default: sys.argv[1:]
     commands : the click.Group to run
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
@@ -63,7 +67,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
     messages.escape_unencodable_characters()
     try:
         with (
-            on_interrupt(SIG_DFL),  # ends the process at once, also where libraries do not return to Python
+            on_interrupt(SIG_DFL),  # Ctrl-C ends the process at once, also while a library does not return to Python
             warnings.catch_warnings(record=True) as caught,
             spelled_as_options(),
             commands.make_context("viscorough", arguments, obj=caught) as context,
@@ -73,7 +77,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
             messages.complain(command, f"warning: {text}")
     except click.exceptions.Exit as done:
         return done.exit_code
-    except BrokenPipeError:  # the reader of standard output has ended, such as head in viscorough --help | head
+    except BrokenPipeError:  # the program that reads standard output has ended, as head in viscorough --help | head
         return 0
     except KeyboardInterrupt:
         return 130

@@ -1,4 +1,4 @@
-"""`viscorough contact`: compute fields or tables of contacts of maps of heights, at given forces or depths."""
+"""`viscorough contact`: compute contacts at given forces or depths, as fields for one map or as a table for many."""
 
 import functools
 from collections.abc import Sequence
@@ -39,22 +39,24 @@ def contact(
 
     HEIGHTS, spacing and units are as for viscorough indent; no loading curve is computed. Without a modulus,
     forces are F/G, in the unit of length squared. With --shear-modulus, or --young and --poisson, forces are in N and
-    moduli in Pa if the unit of length is known, otherwise all are in consistent units of your choice. A number may then
-    have a unit, for example "5 mN".
+    moduli in Pa if the unit of length is known; they may also have a unit, for example "5 mN". If the unit of length
+    is not known, all numbers are in consistent units of your choice.
 
     If FILE ends in .nc, it holds the fields of one file of heights. It has the dimensions y and x, and level if
     several forces or depths are given; the maps pressure = p/G (nan outside the indenter), gap, contact (0 or 1) and
     heights; and the numbers depth, force = F/G, stiffness = k/G, contact_fraction, contact_area,
-    corrected_contact_area (without the excess of whole elements at its edge), mean_pressure, largest_pressure, residual
-    and patches (the number of contact patches), with their areas in patch_area; with a modulus also normal_force F,
-    normal_stiffness k, normal_pressure p, mean_normal_pressure and largest_normal_pressure. G is the shear modulus of
-    the incompressible half-space with the same E/(1 - nu^2) = 4 G.
+    corrected_contact_area (less the excess that elements at the edge of the contact add), mean_pressure,
+    largest_pressure, residual and patches (the number of contact patches), whose areas are in patch_area. With a
+    modulus it also has normal_force F, normal_stiffness k, normal_pressure p, mean_normal_pressure and
+    largest_normal_pressure. G is the shear modulus of the incompressible half-space with the same
+    E/(1 - nu^2) = 4 G.
 
-    If FILE ends in .csv, it is a table of one or more files of heights, with these numbers in one row for each file and
-    load: lengths in um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With
-    --grid-error it has the estimated errors due to the spacing of the map, as viscorough indent, which takes several
-    times as long. A file that cannot be evaluated has a row with the reason in the column error; the other files are
-    evaluated, and the exit code is 3. The same command again skips files that are unchanged, also after an interrupt.
+    If FILE ends in .csv, it is a table of one or more files of heights. The numbers listed above are in one row for
+    each file and load: lengths in um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures
+    in MPa. With --grid-error the table also has the estimated errors due to the spacing of the map, as for viscorough
+    indent; this takes several times as long. A file that cannot be evaluated has a row with the reason in the column
+    error; the other files are evaluated, and the exit code is 3. If you run the same command again, also after an
+    interrupt, unchanged files are not evaluated again.
 
     \b
     Example, a map in micrometres under F/G of 2 and of 3 um2, and a folder of scans:
@@ -63,7 +65,7 @@ def contact(
             -o table.csv
     """
     options.require((force is None) != (depth is None), "one of --force and --depth is needed")
-    options.elasticity(length_unit="m", **constants)  # raises an error for options that exclude each other
+    options.elasticity(length_unit="m", **constants)  # raises an error if these options exclude each other
     how: dict[str, Any] = {"force": force, "depth": depth, "tolerance": tolerance}
     if output.suffix.lower() == ".csv":
         how["grid_error"] = grid_error

@@ -46,19 +46,20 @@ def creep(
 ) -> None:
     """Find the medium of a half-space from a measured indentation by the indenter with the loading curve in CURVE.nc.
 
-    RECORD.csv has two columns: times, and depths under a given force, or forces at the depth of --depth-history. A
-    heading may state units, such as t [s],u [um]; otherwise numbers are in s, N and the unit of length of the curve.
-    Loads may hold and unload: creep, relaxation, and force curves are records. A measured depth determines the creep
-    compliance J(t), a measured force the relaxation modulus.
+    RECORD.csv has two columns: times, and measured depths or, with --depth-history, measured forces. A heading may
+    state units, such as t [s],u [um]; otherwise numbers are in s, N and the unit of length of the curve. The load may
+    be held or removed: a record is, for example, a creep test, a relaxation test, or a force curve. A measured depth
+    determines the creep compliance J(t), a measured force the relaxation modulus.
 
     MEDIUM.yaml is a medium for viscorough kinetics. A creep table is written to MEDIUM.csv, with the columns time,
-    compliance, low and high: J and its interval of 95 % from the scatter of the record. If the force was measured, low
-    and high belong to the further column relaxation_modulus. Short or very precise records do not
-    determine the scatter; low and high are then missing, unless --scatter states it.
+    compliance, low and high: J and its interval of 95 %, which follows from the scatter of the record. If the force was
+    measured, there is also a column relaxation_modulus, and low and high are the interval of this modulus. A short or
+    very precise record does not determine its scatter; low and high are then missing, unless --scatter is given.
 
-    An error of the zero of the depth changes the medium. The closing line states the change, unless --fit-offset finds
-    the error. A warning is given if a Prony series or a springpot misses the record by more than the scatter. A depth
-    that recedes by more than the scatter while the force does not decrease, or that leaves the curve, is refused.
+    An error of the zero of the depth leads to a wrong medium. The closing line states by how much J may change, unless
+    --fit-offset determines the error. A warning is given if a Prony series or a springpot misses the record by more
+    than the scatter. A record is refused if its depth exceeds the largest depth of the curve, or if its depth decreases
+    by more than the scatter while the force does not decrease.
 
     \b
     Examples:

@@ -37,19 +37,21 @@ def estimate(
 ) -> None:
     """Estimate depth and velocity of a self-affine indenter without a simulation, from the calibrated law.
 
-    The law, vt/h = X + g(X) with X = Ft/(4 viscosity h L), was calibrated with boundary elements on discs of 257
-    elements across; while few spots touch, it is close to a power law, X^beta/zeta. In a medium with the creep
-    compliance J(t), X is F J(t)/(4 h L). Depth and velocity are arithmetic means of many surfaces. Between the columns
-    "from" and "to" lie 95 % of single surfaces; the last line states the interval of the mean.
+    The law for the velocity v at the time t is vt/h = X + g(X) with X = Ft/(4 viscosity h L). It was calibrated with
+    boundary elements on discs of 257 elements across; while few spots touch, it is close to a power law, X^beta/zeta.
+    In a medium with the creep compliance J(t), X is F J(t)/(4 h L). Depth and velocity are arithmetic means of many
+    surfaces. Between the columns "from" and "to" lie 95 % of single surfaces; the last line states the interval of the
+    mean.
 
-    The range of X was chosen so that g is within 5 % of the mean over discs not used for the calibration: from the
-    first few contact spots until the whole disc sinks almost like a flat punch. Outside this range no number is given,
-    and the last column states the side. Within it, further discs of 257 elements across had means of vt/h within 12 %
-    of the law, and of g within 16 %, with standard errors of 5 % while few spots touch.
+    The law is used in a limited range of X: from the first few contact spots until the whole disc sinks almost like a
+    flat punch. The range was chosen so that g is within 5 % of its mean over discs that were not used for the
+    calibration. Outside this range no number is given, and the last column states on which side X lies. In this range,
+    means over further discs of 257 elements across agreed with the law within 12 % for vt/h and 16 % for g. While few
+    spots touch, the standard errors of these means were 5 %.
 
     Plain numbers are in consistent units: m, N and Pa s, for example. Depth is then in the unit of --rms, velocity in
-    that unit per unit of --times. If the lengths have units, for example --rms "2 um", force and viscosity may have
-    units, too. Then results are in m and s, and plain numbers are in N, Pa s and s.
+    the unit of --rms per unit of --times. If --rms and --diameter have units, for example --rms "2 um", force and
+    viscosity may have units, too. Results are then in m and s, and plain numbers are in N, Pa s and s.
 
     \b
     Example:

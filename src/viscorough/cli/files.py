@@ -1,4 +1,4 @@
-"""Read and write the files of the commands of the command line."""
+"""Read the input files of the commands, and write their output files."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 def check_output(output: Path, **inputs: Path | None) -> None:
     """Raise ValueError unless the output can be written and would replace no input file.
 
-    inputs : {content in words: input file, or None}
+    inputs : input files (or None), each by a name for its content, such as heights or force_history, which the message
+        quotes
     """
     from viscorough.io import atomic
 
@@ -38,23 +39,23 @@ def check_output(output: Path, **inputs: Path | None) -> None:
 
 
 def printable_name(file: Path) -> str:
-    """Return the name of a file for an attribute: bytes that are not letters appear with backslashes."""
+    """Return the name of a file as text; bytes of the name that are no valid text are written with backslashes."""
     return printable_path(Path(file.name))
 
 
 def printable_path(file: Path) -> str:
-    """Return the path of a file as text: bytes that are not letters appear with backslashes."""
+    """Return the path of a file as text; bytes of the path that are no valid text are written with backslashes."""
     return str(file).encode(errors="backslashreplace").decode()
 
 
-LONGEST = 60  # longest time to open a file in seconds
+LONGEST = 60  # longest time allowed for opening a file, in seconds
 
 
 def check_opens(path: Path) -> None:
     """Raise a one-line ValueError unless the NetCDF file can be opened.
 
-    Damage can make the HDF5 library run without end, and Python cannot interrupt it. Opening normally takes
-    milliseconds; if it takes too long, the process ends with one line and exit code 2.
+    A damaged file can make the HDF5 library run without end, and Python cannot interrupt the library. Opening normally
+    takes milliseconds. If it takes more than LONGEST seconds, the process writes one line and ends with exit code 2.
     """
     from viscorough.io import netcdf
 
@@ -63,7 +64,7 @@ def check_opens(path: Path) -> None:
         messages.complain(command, text)
         os._exit(2)
 
-    context = click.get_current_context(silent=True)  # processes of a table have none
+    context = click.get_current_context(silent=True)  # None in the processes that evaluate the files of a table
     command = context.command_path if context else "viscorough"
     timer = threading.Timer(LONGEST, end)
     timer.daemon = True
@@ -84,9 +85,10 @@ def read_content(path: Path) -> Content:
 
 
 def read_curve(path: Path) -> viscorough.LoadingCurve:
-    """Return the loading curve in a file. Raises ValueError for a compressible half-space, and for other contents.
+    """Return the loading curve in a file.
 
-    The kinetics of a viscous half-space follow only from the elastic curve of an incompressible half-space.
+    Raises ValueError for a file without a loading curve, and for the curve of a compressible half-space: the kinetics
+    of a viscous half-space follow only from the elastic curve of an incompressible half-space.
     """
     from viscorough.io.curves import curve_from_content
 
@@ -100,7 +102,10 @@ def read_curve(path: Path) -> viscorough.LoadingCurve:
 def load_from_options(
     force: Quantity | None, force_history: Path | None, length_unit: str, depth_history: Path | None = None
 ) -> tuple[Any, dict[str, Any]]:
-    """Return (force or Load, text for the output) of --force and the two histories, one of which is given."""
+    """Return (load, attributes for the output file) from --force, --force-history or --depth-history.
+
+    One of the three options is given; the others are None. The load is a number for --force, and a Load for a history.
+    """
     for kind, history in (("force", force_history), ("depth", depth_history)):
         if history is not None:
             load = viscorough.read_load(history, kind, length_unit)
@@ -110,7 +115,10 @@ def load_from_options(
 
 
 def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
-    """Return (viscosity or medium, text for the output) of --viscosity and --medium, one of which is given."""
+    """Return (viscosity or Medium, attributes for the output file) from --viscosity or --medium.
+
+    One of the two options is given; the other is None.
+    """
     if medium is not None:
         half_space = viscorough.read_medium(medium, length_unit)
         text = medium.read_bytes().decode("utf-8-sig", errors="replace").strip()
@@ -120,13 +128,13 @@ def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit
 
 
 def write_output(content: Content, output: Path, **attributes: Any) -> None:
-    """Write an io.netcdf.Content with attributes added, as NetCDF, or as a table if the name ends in .csv.
+    """Write an io.netcdf.Content with further attributes, as a table if the name ends in .csv, otherwise as NetCDF.
 
-    The attribute `warnings` holds the warnings given so far.
+    The attribute `warnings` of the file holds the warnings that the command has given so far.
     """
     from viscorough.io.saving import write_content
 
     if texts := messages.warning_texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
-    with on_interrupt(default_int_handler):  # raise KeyboardInterrupt, so that no temporary file is left
+    with on_interrupt(default_int_handler):  # Ctrl-C raises KeyboardInterrupt, so that no temporary file is left
         write_content(content.with_attributes(**attributes), output)

@@ -36,11 +36,11 @@ def generate(
     plateau: bool,
     output: Path,
 ) -> None:
-    """Make a random self-affine disc, an indenter, or a line for viscorough reduce.
+    """Make a random self-affine disc as an indenter, or a random self-affine line for viscorough reduce.
 
-    The power spectral density of a disc falls as q^(-2(H+1)), of a line as q^(-(2H+1)), down to waves of two spacings.
-    SURFACE.nc has the variable heights, nan outside the disc, with coordinates and units, so other commands need no
-    options for them.
+    The power spectral density falls with the wave number q as q^(-2(H+1)) for a disc and as q^(-(2H+1)) for a line,
+    down to wavelengths of two spacings. SURFACE.nc has the variable heights, nan outside the disc. It also has
+    coordinates and units, so other commands need no options for spacing and unit.
 
     \b
     Example:

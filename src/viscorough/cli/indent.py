@@ -58,41 +58,42 @@ def indent(
     """Compute loading curves of indenters pressed into an elastic half-space.
 
     HEIGHTS is a map of heights: .npy, NetCDF, text (a matrix, an ESRI grid, columns x, y, z), TIFF, or a format of an
-    instrument, which needs pip install "viscorough[formats]". Rows are along y, columns along x. Spacing and unit are
-    read from the file if it states them. Without a unit, heights, spacing and depths are in one unit of length of your
-    choice.
+    instrument, which needs pip install "viscorough[formats]". x runs along each row, y from row to row. Spacing and
+    unit are read from the file if it states them. Without a unit, heights, spacing and depths are in one unit of length
+    of your choice.
 
     Larger is higher: the highest point touches first. Points that are nan lie outside the indenter.
 
     CURVE.nc has the dimension "level" and the variables depth, force = F/G and stiffness = k/G (F the force,
     k its derivative with respect to depth, G the shear modulus of the incompressible half-space),
-    contact_count, contact_fraction and residual. Their units are powers of the unit of the heights; without a stated
-    unit they are 1, which means the unit you chose.
+    contact_count, contact_fraction and residual. The units of depth, force and stiffness are powers of the unit of the
+    heights. If no unit is stated, these units are 1, which means the unit you chose.
 
     Without a modulus, forces are F/G, in the unit of length squared. With --shear-modulus, or --young and --poisson,
-    forces are in N and moduli in Pa if the unit of length is known, otherwise all are in consistent units of your
-    choice. A number may then have a unit, for example "5 mN". Results are F/G and k/G in any case, G being the shear
-    modulus of the incompressible half-space with the same E/(1 - nu^2) = 4 G. The curve ends at the contact fraction or
-    at the force, whichever comes first, or when all elements are in contact.
+    forces are in N and moduli in Pa if the unit of length is known; they may also have a unit, for example "5 mN". If
+    the unit of length is not known, all numbers are in consistent units of your choice. Results are F/G and k/G in any
+    case, G being the shear modulus of the incompressible half-space with the same E/(1 - nu^2) = 4 G. The curve ends at
+    --until-fraction or at --until-force, whichever comes first, or when all elements are in contact.
 
-    With --audit the curve is followed to complete contact, and two integrals of it are compared with exact values from
-    linear problems, without a contact problem. Contacts are solved to a hundredth of the tolerance, and levels are
-    added until the estimated errors of the integrals are within the tolerance. If the integrals do not agree, a warning
-    says so.
+    With --audit the curve continues to complete contact, and two integrals of the curve are compared with their exact
+    values. The exact values follow from linear problems, without solving a contact problem. Contacts are solved to a
+    hundredth of the tolerance, and levels are added until the estimated errors of the integrals are within the
+    tolerance. If the integrals do not agree with the exact values, a warning is given.
 
-    With --grid-error a second curve is computed on every second point of the map. Its difference from the first curve
-    estimates the error due to the spacing of the map: grid_error of the velocity at the force of each level,
-    force_grid_error of the force at its depth, and area_change, the relative change of the contact area if the spacing
-    is halved.
+    With --grid-error a second curve is computed on every second point of the map. The difference of the two curves
+    estimates the errors due to the spacing of the map: grid_error is the error of the velocity at the force of each
+    level, and force_grid_error the error of the force at the depth of each level. area_change is the relative change of
+    the contact area if the spacing is halved.
 
     With --error 5% the curve is computed on every n-th point of the map. The largest n and the loosest tolerance are
     chosen that keep the estimated error of the velocity within 5 % of the curve of all points, as root mean square over
     the forces F/G from h L/25 on (h the rms height, L the diameter of a disc of the same area). The closing line states
     the choice.
 
-    Several files of HEIGHTS need a table, -o TABLE.csv. It has one row for each file and level, with lengths in um,
-    areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or --forces
-    it has the columns of viscorough contact, whose help explains failures and interrupts.
+    Several files of HEIGHTS need a table, -o TABLE.csv. The table has one row for each file and level, with lengths in
+    um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or
+    --forces it has the same columns as the table of viscorough contact. The help of viscorough contact also explains
+    failures and interrupts.
 
     \b
     Example:
@@ -109,7 +110,7 @@ def indent(
     settings |= {"until_fraction": until_fraction, "until_force": until_force}
     _check_exclusive(settings, has_tolerance=source is not ParameterSource.DEFAULT, audit=audit)
     settings["tolerance"] = tolerance if error is None else None
-    options.elasticity(length_unit="m", **constants)  # raises an error for options that exclude each other
+    options.elasticity(length_unit="m", **constants)  # raises an error if these options exclude each other
     if len(surfaces) > 1 and output.suffix.lower() == ".csv":
         options.require(not audit, "--audit is for one file of heights; leave it out, or audit one file at a time")
         evaluate = functools.partial(_rows, settings=settings, constants=constants, threads=threads)
@@ -135,7 +136,10 @@ def indent(
 
 
 def _audited(indenter: viscorough.Indenter, **how: Any) -> tuple[viscorough.LoadingCurve, list[str]]:
-    """Return the curve of an audit, and the lines of its result. Warns if the audit fails."""
+    """Audit an indenter, and return its loading curve and the lines of text about the result.
+
+    A warning is given if the audit fails. how : further arguments of viscorough.audit
+    """
     result = viscorough.audit(indenter, **how)
     lines = str(result).splitlines()
     if not result.agrees:
@@ -146,8 +150,9 @@ def _audited(indenter: viscorough.Indenter, **how: Any) -> tuple[viscorough.Load
 def _check_exclusive(settings: dict[str, Any], *, has_tolerance: bool, audit: bool) -> None:
     """Raise UsageError for options that exclude each other.
 
-    settings : {option: value}; None for options that are not given
-    has_tolerance, audit : True if --tolerance, --audit is given
+    settings : {name of an option: its value, or None if the option is not given}
+    has_tolerance : True if --tolerance is given
+    audit : True if --audit is given
     """
     levels = {"--depths": settings["depths"], "--forces": settings["forces"]}
     ends = {"--until-fraction": settings["until_fraction"], "--until-force": settings["until_force"]}
@@ -164,7 +169,10 @@ def _check_exclusive(settings: dict[str, Any], *, has_tolerance: bool, audit: bo
 
 
 def _arguments(settings: dict[str, Any]) -> dict[str, Any]:
-    """Return the keyword arguments of viscorough.indent for options, {option: value, or None}."""
+    """Convert options to keyword arguments of viscorough.indent.
+
+    settings : {name of an option: its value, or None if the option is not given}
+    """
     given = {name: settings[name] for name in ("depths", "forces", "tolerance", "error")}
     given["estimate_grid_error"] = bool(settings["grid_error"])
     fraction, force = settings["until_fraction"], settings["until_force"]
@@ -175,7 +183,7 @@ def _arguments(settings: dict[str, Any]) -> dict[str, Any]:
 
 
 def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, modulus: float | None) -> str:
-    """Return the number of levels and the numbers of the last level for the closing line."""
+    """Return a text for the closing line: the number of levels, and the results at the last level."""
     text = f"{curve.depth.size} levels, the last at depth {with_unit(curve.depth[-1], curve.length_unit, 6)}"
     if modulus is not None:
         read, area = result_units(curve.length_unit, modulus), indenter.spacing * indenter.row_spacing
@@ -186,7 +194,7 @@ def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, m
 
 
 def _accuracy(curve: viscorough.LoadingCurve) -> list[str]:
-    """Return the lines about the chosen points and the grid error, if they were requested."""
+    """Return the closing lines about the points chosen for --error and about the grid error, if they were requested."""
     return list(filter(None, [curve.choice, curve.grid_error_text]))
 
 
@@ -198,9 +206,10 @@ def _rows(
     threads: int,
     progress: Progress | None = None,
 ) -> Rows:
-    """Return a row of a table for each level, and {column: unit}.
+    """Return the rows of a table, one for each level, and {column: unit}.
 
-    settings : {option: value}, None for options that are not given; constants : arguments of options.elasticity
+    settings : {name of an option: its value, or None if the option is not given}
+    constants : arguments of options.elasticity
     """
     how: dict[str, Any] = {"threads": threads, "progress": progress}
     if settings["depths"] is not None or settings["forces"] is not None:

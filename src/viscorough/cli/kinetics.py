@@ -44,26 +44,31 @@ def kinetics(
 ) -> None:
     """Compute penetration over time of the indenter with the loading curve in CURVE.nc.
 
-    A history may load, hold, unload and reload; with --depth-history the depth is given, and the force follows. KIN.nc
-    holds time, depth, velocity, force and contact fraction. Without --times these are the times of the history, so a
-    ramp and a hold of few rows need --times for a curve. Under a constant force they are a hundred times at equal
-    ratios, from the first to the last level of the curve, or until creep has almost ended; they start after time 0 if
-    the medium responds elastically at t = 0. While the contact grows, the depth is read from the curve at F/G equal to
-    the creep response, the integral of J(t - s) dF(s) with the creep compliance J. On a linearly viscous half-space
-    this is the impulse over the viscosity. When the contact recedes, the curve is used as a row of springs, which is
-    exact as well. Under no force the indenter rests on the recovering surface. If the curve states a grid error, KIN.nc
-    and the closing line state it as well: of the velocity under a given force, or of the force at the largest depth.
+    A history may load, hold, unload and reload; with --depth-history the depth is given, and the force is computed.
+    KIN.nc holds time, depth, velocity, force and contact fraction.
 
-    MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
-    (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony
-    (relaxed_modulus, moduli, relaxation_times), springpot (modulus, exponent) and creep_table (file, of two columns,
-    times and compliances J). Moduli are those in shear. Young's moduli E = 3 G may be given instead, as young_modulus,
-    instantaneous_young_modulus, relaxed_young_modulus or young_moduli; poisson is then the Poisson ratio, by default
-    0.5.
+    Without --times, the output has the times of the history. A history of few rows, such as a ramp and a hold, thus
+    needs --times to give a smooth curve. Under a constant force, the output has a hundred times at equal ratios. They
+    reach from the first to the last level of the curve, or until creep has almost ended. They start after time 0 if the
+    medium responds elastically at t = 0.
 
-    If the unit of length of the curve is known, forces are in N, moduli in Pa, viscosities in Pa s, or have a unit,
-    as in --viscosity "2 kPa s" or in the heading t [ms],F [mN] of a force history. If not, they are plain numbers in
-    consistent units: with heights in metres, N and Pa s.
+    While the contact grows, the depth is read from the curve at F/G equal to the creep response, the integral of
+    J(t - s) dF(s) with the creep compliance J. On a linearly viscous half-space this integral is the impulse divided by
+    the viscosity. When the contact recedes, the curve is used as a row of springs, which is exact as well. Under no
+    force the indenter rests on the recovering surface. If the curve states a grid error, KIN.nc and the closing line
+    state an error, too: the error of the velocity if the force is given, or the error of the force at the largest depth
+    if the depth is given.
+
+    MEDIUM.yaml is one mapping with the kind of the medium and its parameters. The kinds are newtonian (viscosity),
+    maxwell and kelvin_voigt (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus,
+    relaxation_time), prony (relaxed_modulus, moduli, relaxation_times), springpot (modulus, exponent) and creep_table
+    (file: name of a file with two columns, times and compliances J). Moduli are shear moduli. Young's moduli E = 3 G
+    may be given instead, as young_modulus, instantaneous_young_modulus, relaxed_young_modulus or young_moduli; the key
+    poisson may then state the Poisson ratio, by default 0.5.
+
+    If the unit of length of the curve is known, forces are in N, moduli in Pa and viscosities in Pa s. They may also
+    have another unit, as in --viscosity "2 kPa s" or in the heading t [ms],F [mN] of a force history. If the unit of
+    length is not known, all are plain numbers in consistent units; for heights in metres these are N, Pa and Pa s.
 
     \b
     Examples:
@@ -107,9 +112,10 @@ def kinetics(
 
 
 def _stated_grid_error(curve: "viscorough.LoadingCurve", load: Any) -> tuple[str, dict[str, float]]:
-    """Return the estimated error of the grid in words, and as attributes; "" and none if the curve does not state it.
+    """Return the estimated grid error as a text and as attributes; "" and {} if the curve states no grid error.
 
-    It is the error of the velocity under a given force, or of the elastic force at the largest depth.
+    If the load is a force, the result is the error of the velocity. If the load is a depth, the result is the error of
+    the elastic force at the largest depth.
     """
     import numpy as np
 

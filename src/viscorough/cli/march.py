@@ -48,9 +48,10 @@ def march(
     """Integrate the viscous or viscoelastic problem directly in time, without using a loading curve.
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the variables time, depth, velocity, force and
-    contact_fraction over the dimension "level", the times of the output or of the force history. The medium must
-    consist of springs and dashpots. This command is slow and serves to check the other commands: the method events
-    takes seconds for 3000 elements, its memory grows with the square of their number, and it shows no progress.
+    contact_fraction along the dimension "level", with one level for each time of --times or of the force history. The
+    medium must consist of springs and dashpots. This command is slow and serves to check the other commands. The method
+    events takes seconds for 3000 elements, its memory grows with the square of the number of elements, and it shows no
+    progress.
 
     \b
     Example:
@@ -73,7 +74,7 @@ def march(
     indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
     load, load_attributes = files.load_from_options(force or Quantity(1.0), force_history, unit)
-    if times:  # under a constant force
+    if times:  # the load is a constant force, here a number
         load = viscorough.Load(np.append(0.0, times), force=np.full(1 + len(times), load))
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     how: dict[str, Any] = {"method": method} | ({} if until_fraction is None else {"until_fraction": until_fraction})

@@ -1,4 +1,4 @@
-"""Write messages and progress of the command line; streams may be closed, full, or limited in encoding."""
+"""Write messages and progress of the command line, also to streams that are closed, full, or limited in encoding."""
 
 import contextlib
 import io
@@ -12,14 +12,14 @@ import click
 
 from viscorough.basics.errors import REPORTED, AccuracyWarning, message
 
-_DELAY = 1.0  # seconds; shorter work shows no progress
-# Errors that are reported in one line. Any other error is a fault of viscorough.
+_DELAY = 1.0  # seconds until progress is shown
+# The command line reports errors of these types in one line. An error of any other type is a fault of viscorough.
 ERRORS = (click.ClickException, *REPORTED)
 
 
 def announce(output: Path, text: str) -> None:
-    """Write the closing line of a command, which names its output file, to standard output, if it can be written."""
-    with contextlib.suppress(OSError):  # the file is complete by then
+    """Write the closing line of a command, which starts with the name of the output file, to standard output."""
+    with contextlib.suppress(OSError):  # the output file is complete, so a failure to write this line is no error
         click.echo(f"{output}: {text}")
 
 
@@ -29,23 +29,23 @@ def warn(text: str) -> None:
 
 
 def warning_texts(caught: Sequence[warnings.WarningMessage]) -> list[str]:
-    """Return the texts of the different warnings, each on one line."""
+    """Return the texts of warnings without repetitions, each on one line."""
     return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))
 
 
 def complain(command: str, text: str) -> None:
-    """Write one line about an error or a warning to standard error, if it can be written."""
+    """Write one line about an error or a warning to standard error; do nothing if standard error cannot be written."""
     with contextlib.suppress(OSError):
         click.echo(f"{command}: {' '.join(text.split())}", err=True)
 
 
 def report(command: str, error: BaseException) -> None:
-    """Write one line about an error to stderr."""
+    """Write the one-line message of an error to standard error, with a hint to the help for a wrong option."""
     hint = ""
     if isinstance(error, click.UsageError):
         command = error.ctx.command_path if error.ctx else command
         hint = f"; see {command} --help"
-    if isinstance(error, OSError) and error.errno and error.filename is None:  # errors of files name them
+    if isinstance(error, OSError) and error.errno and error.filename is None:  # an error about a file has its name
         error = OSError(f"standard output cannot be written ({error.strerror})")
     complain(command, f"{error_text(error)}{hint}")
 
@@ -58,13 +58,13 @@ def error_text(error: BaseException) -> str:
 
 
 def escape_unencodable_characters() -> None:
-    """Write characters outside the encoding of standard output, for example in names of files, with backslashes."""
+    """Let standard output write characters outside its encoding, for example in names of files, with backslashes."""
     if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")
 
 
 def discard_what_cannot_be_written() -> None:
-    """Discard output that cannot be written: the interpreter would try again at exit, and change the exit code."""
+    """Discard output that cannot be written; at exit Python would try to write it again, and change the exit code."""
     for stream in (sys.stdout, sys.stderr):
         try:
             if stream:
@@ -75,11 +75,12 @@ def discard_what_cannot_be_written() -> None:
 
 @contextlib.contextmanager
 def progress_bar(label: str, shown: bool | None) -> Iterator[Callable[[float], object]]:
-    """Yield a function that shows the finished share, 0 to 1, from the first second on.
+    """Yield a function that shows the finished share of the work, 0 to 1, as a bar on standard error.
 
+    label : text in front of the bar
     shown : True to show the bar, False to hide it, None to show it if standard error is a terminal
 
-    The bar is erased at the end, so standard error contains only warnings and messages.
+    The bar appears after a second, and is erased at the end, so that only warnings and messages remain.
     """
     from tqdm import tqdm
 

@@ -1,4 +1,4 @@
-"""Define the options, and types of options, that the commands share."""
+"""Define the options that several commands share, and the types of their values."""
 
 import contextlib
 import itertools
@@ -14,7 +14,7 @@ from viscorough.basics.elasticity import INCOMPRESSIBLE, shear_modulus_of
 from viscorough.basics.units import Quantity
 from viscorough.io import suffixes
 
-# Largest number of times that an option may state by a count.
+# Largest number of times in an option of the form FIRST:LAST:COUNT.
 _MOST_TIMES = 1_000_000
 
 
@@ -25,7 +25,7 @@ def require(condition: bool, text: str) -> None:
 
 
 class PositiveNumber(click.FloatRange):
-    """A finite number above a lower limit, and not above an upper limit if there is one."""
+    """Type of options: a finite number larger than `above` and not larger than `maximum`, if there is a maximum."""
 
     def __init__(self, maximum: float | None = None, above: float = 0) -> None:
         super().__init__(above, maximum, min_open=True)
@@ -38,9 +38,11 @@ class PositiveNumber(click.FloatRange):
 
 
 class QuantityOption(click.ParamType):
-    """A finite number above 0, plain or with a unit of the same dimension as one of `units`, as "5 mN" for "N".
+    """Type of options: a finite number above 0, plain or with a unit, such as "5 mN" if "N" is allowed.
 
-    Converted to a viscorough.basics.units.Quantity; units.number gives the number that the solvers need.
+    The unit must have the same dimension as one of the units `allowed`. The text is converted to a
+    viscorough.basics.units.Quantity. The commands convert the Quantity to the number that the solvers need by
+    units.number.
     """
 
     name = "quantity"
@@ -64,7 +66,7 @@ class QuantityOption(click.ParamType):
 
 
 class Share(click.ParamType):
-    """A number, plain or in percent: 0.05 or "5%"."""
+    """Type of options: a share, given as a plain number or in percent: 0.05 or 5%."""
 
     name = "share"
 
@@ -77,10 +79,10 @@ class Share(click.ParamType):
 
 
 class Increasing(click.ParamType):
-    """Numbers above 0 separated by commas, each larger than its predecessor.
+    """Type of options: numbers above 0 separated by commas, each larger than the number before.
 
-    unit : unit of quantities, which are converted to viscorough.basics.units.Quantity; None for plain numbers,
-        which are converted to floats
+    unit : if given, numbers may have units of the same dimension as this unit, and each number is converted to a
+        viscorough.basics.units.Quantity. If None, numbers are plain and converted to floats
     """
 
     name = "a,b,c"
@@ -100,7 +102,10 @@ class Increasing(click.ParamType):
 
 
 class Times(Increasing):
-    """Increasing numbers above 0 separated by commas, or FIRST:LAST:COUNT: COUNT equally spaced numbers, 0 allowed."""
+    """Type of options: increasing times above 0 separated by commas, or FIRST:LAST:COUNT for equally spaced times.
+
+    COUNT is the number of times; FIRST may be 0.
+    """
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
         if ":" not in value:
@@ -122,7 +127,14 @@ FILE = click.Path(path_type=Path)
 def output(
     metavar: str, *, allowed: dict[str, str] = suffixes.RESULTS, required: bool = True
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Add -o/--output to a command. Suffixes that are not allowed raise BadParameter."""
+    """Return a decorator that adds the option -o/--output to a command.
+
+    A name of a file with a suffix that is not allowed raises BadParameter.
+
+    metavar : name of the output file in the help
+    allowed : {suffix: kind of file}
+    required : False if the command needs no output file
+    """
     kinds = ", ".join(f"{suffix} ({kind})" for suffix, kind in allowed.items())
     text = f"File to write or replace: {kinds}{'' if required else '  [default: none]'}"
 
@@ -177,13 +189,17 @@ progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS
 
 
 def until(default: float) -> Callable[..., Any]:
-    """Add --until-fraction to a command, which uses its default for None."""
+    """Return a decorator that adds the option --until-fraction to a command.
+
+    default : contact fraction that the help states. Without the option the command receives None, and it has to use
+        the default itself
+    """
     text = f"Contact fraction at which to stop  [default: {default:g}]"
     return click.option("--until-fraction", type=PositiveNumber(1), help=text)
 
 
 def elastic_constants(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add --shear-modulus, --young and --poisson to a command."""
+    """Decorate a command with the options --shear-modulus, --young and --poisson."""
     ratio = PositiveNumber(0.5, above=-1)
     command = click.option("--poisson", type=ratio, help="Poisson ratio, with --young  [default: 0.5]")(command)
     command = click.option("--young", type=QuantityOption("Pa"), help="Young's modulus, instead of G.")(command)
@@ -194,11 +210,12 @@ def elastic_constants(command: Callable[..., Any]) -> Callable[..., Any]:
 def elasticity(
     shear_modulus: Quantity | None, young: Quantity | None, poisson: float | None, length_unit: str
 ) -> tuple[float | None, dict[str, float]]:
-    """Return (G, stated values, for files) of the options; G is None without a modulus.
+    """Return the shear modulus G that the options state, and the values of the options as attributes of files.
 
-    G belongs to the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units].
+    G belongs to the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units]. G is None
+    if no modulus is given.
 
-    Raises ValueError if the options contradict each other, and like units.number.
+    Raises ValueError if the options contradict each other, and the errors of units.number.
     """
     modulus = shear_modulus_of(length_unit, shear_modulus, young, poisson)
     if young is not None:

@@ -12,12 +12,12 @@ from viscorough.io import suffixes
 @surface_options.heights_input("file")
 @options.output("FIGURE", allowed=suffixes.FIGURES)
 def plot(surface: surface_options.Surface, output: Path) -> None:
-    """Draw FILE: the output of another command (.nc), or a map of heights, read as by viscorough indent.
+    """Draw FILE: the output of another command (.nc), or a map of heights, which is read as by viscorough indent.
 
-    A surface is a map of heights; fields of a contact are maps of pressure, gap and contact; a loading curve is force
-    over depth, stiffness and contact fraction over force; a motion is depth and velocity over time. Maps have the first
-    row at the top; the colours of pressures end at their 99th percentile. Curves have logarithmic axes. This needs
-    matplotlib: pip install "viscorough[plot]".
+    A surface is drawn as a map of heights, a contact as maps of pressure, gap and contact, and a motion as depth and
+    velocity against time. A loading curve is drawn as force against depth, and as stiffness and contact fraction
+    against force. Maps have the first row at the top; the colours of pressures end at their 99th percentile. Curves
+    have logarithmic axes. This command needs matplotlib: pip install "viscorough[plot]".
 
     \b
     Example:
@@ -40,7 +40,7 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
             plotting.kind_of(content)
         except ValueError as error:
             content, fault = None, error if str(file) in str(error) else ValueError(f"{file}: {error}")
-    if content is None:  # not the output of another command: a map of heights
+    if content is None:  # FILE is not the output of another command, so it must be a map of heights
         try:
             content = surface_to_content(surface_options.read_indenter(surface, output))
         except ValueError as error:

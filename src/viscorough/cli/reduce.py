@@ -31,9 +31,9 @@ def reduce(
     """Compute the loading curve of a line by the method of dimensionality reduction (MDR).
 
     LINE_OR_MAP is a file with the heights of a line: .npy or NetCDF, as viscorough generate --points makes it, or a
-    measured profile, a text with a column of heights, or with columns x and z. Independent springs replace the
-    half-space. LINE_OR_MAP can also be a map, as for viscorough indent. Then lines are made with its radially averaged
-    power spectrum, random phases, and the rms height of the map.
+    measured profile, which is a text with a column of heights or with columns x and z. Independent springs replace the
+    half-space. LINE_OR_MAP can also be a map, as for viscorough indent. Lines are then made with the radially averaged
+    power spectrum and the rms height of the map, and with random phases.
 
     Limits: a line made from a map represents random surfaces with its spectrum, not the map itself. The mean stiffness
     of many surfaces is right to about 20 %. The stiffness of a single surface is wrong by a factor of 1.2 to 2, and
@@ -54,7 +54,7 @@ def reduce(
 
     line_or_map = surface.path
     files.check_output(output, heights=line_or_map)
-    states_map = "," in surface.options.get("spacing", "")  # both spacings are given
+    states_map = "," in surface.options.get("spacing", "")  # two spacings are given, as for a map
     if not states_map and dimensions_of_heights(line_or_map) == 1:
         text = "--realizations and --seed are for maps, of which lines are made; this is a line"
         options.require(not realizations and seed is None, text)

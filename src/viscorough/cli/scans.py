@@ -4,9 +4,9 @@
 2. Evaluate the other files in separate processes. After each file, write an unfinished table, TABLE.csv.unfinished.
 3. Write the table and remove the unfinished table.
 
-A file that cannot be evaluated becomes a row with the reason; the other files are evaluated. A run that is interrupted
-or killed leaves the unfinished table, and does not change the table of an earlier run. Rows depend neither on the order
-of the files nor on the number of processes.
+If a file cannot be evaluated, its row of the table states the reason, and the other files are evaluated. A run that is
+interrupted or killed leaves the unfinished table, and does not change the table of an earlier run. Rows depend neither
+on the order of the files nor on the number of processes.
 """
 
 from __future__ import annotations
@@ -35,18 +35,18 @@ if TYPE_CHECKING:
 
 # Exit code if the table is complete, but some of several files have an error instead of numbers.
 SOME_FAILED = 3
-# Libraries of linear algebra compute with one thread in each process. More threads would compete for the cores, and the
-# rounding of results would depend on their number.
+# These environment variables let libraries of linear algebra use one thread in each process. More threads would compete
+# for the cores, and the rounding of results would depend on the number of threads.
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _DIED = "its process ended without a result, as happens if there is not enough memory; --jobs 1 needs less"
 
 
 class Scan(NamedTuple):
-    """A file of heights to evaluate; can be sent to another process.
+    """File of heights to evaluate. A Scan can be pickled, so that it can be sent to another process.
 
     name : name of the file in the table
-    surface : the file, with its options for reading and preparation
-    digest : digest of the file and the settings; "" if the file cannot be read
+    surface : the file, with the options for reading and preparing it
+    digest : digest (io.load_tables.digest_of_scan) of the file and the settings; "" if the file cannot be read
     evaluate : function of the indenter and of `progress` that returns rows of the table and {column: unit}
     """
 
@@ -56,7 +56,7 @@ class Scan(NamedTuple):
     evaluate: Callable[..., Rows]
 
     def is_in(self, finished: dict[str, LoadRows]) -> bool:
-        """Return True if there are rows of the same file and settings."""
+        """Return True if `finished`, {name of a file: its rows}, has rows of this file with the same settings."""
         return bool(self.digest) and self.name in finished and finished[self.name].digest == self.digest
 
 
@@ -72,13 +72,15 @@ def tabulate(
 ) -> None:
     """Write the rows of all files as a table, and a closing line.
 
-    surfaces : the files, which are read and prepared alike
+    surfaces : the files, which are all read and prepared with the same options
     evaluate : function of the indenter and of `progress` that returns rows of the table and {column: unit}; picklable
-    settings : {option: value} of all further inputs of the rows; None for options that are not given
-    jobs : number of files that are evaluated at a time; None for the number of cores over `threads`
+    settings : {option: value} of all other options on which the rows depend; None for options that are not given
+    jobs : number of files that are evaluated at a time; None for the number of cores divided by `threads`
+    threads : number of threads with which `evaluate` computes
+    progress : True or False to show or hide the progress; None to show it on a terminal
 
-    An error of a single file is raised. If some of several files have an error, raises Exit with SOME_FAILED after
-    writing the table.
+    If there is only one file, its error is raised. If some of several files have an error, Exit with SOME_FAILED is
+    raised after the table is written.
     """
     from viscorough.io.load_tables import digest_of_scan, finished_rows
 
@@ -86,7 +88,7 @@ def tabulate(
     for surface in surfaces:
         files.check_output(output, heights=surface.path)
     files.check_output(unfinished)
-    surfaces[0].parsed()  # a wrong option is not an error of the file
+    surfaces[0].parsed()  # raise the error of a wrong option here, since it is not the error of a file
     spelled = _spelled(surfaces[0].options | settings)
     scans = []
     for name, surface in sorted({files.printable_path(surface.path): surface for surface in surfaces}.items()):
@@ -116,7 +118,11 @@ def tabulate(
 
 
 def _write(results: dict[str, LoadRows], path: Path, options: str) -> list[LoadRows]:
-    """Write the rows of files as a table, and return them as the table holds them."""
+    """Write the rows of files as a table, and return the rows in the order and the units of the table.
+
+    results : {name of a file: its rows}
+    options : text of the given options, which becomes an attribute of the table
+    """
     from viscorough.io import load_tables, tables
 
     listed = load_tables.with_one_unit(results.values())
@@ -125,16 +131,17 @@ def _write(results: dict[str, LoadRows], path: Path, options: str) -> list[LoadR
 
 
 def only_one(surfaces: Sequence[surface_options.Surface], output: Path) -> surface_options.Surface:
-    """Return the only file of heights. Raises UsageError if there are several, whose results need a table."""
+    """Return the only file of heights. Raises UsageError for several files, since their results need a table."""
     text = f"{output}: {len(surfaces)} files of heights need a table; -o TABLE.csv, or one file at a time, is allowed"
     options.require(len(surfaces) == 1, text)
     return surfaces[0]
 
 
 def rows_for_options(indenter: viscorough.Indenter, *, constants: dict[str, Any], **how: Any) -> Rows:
-    """Return a row of a table for each depth or force, and {column: unit}.
+    """Return the rows of a table, one for each depth or force, and {column: unit}.
 
-    constants : arguments of options.elasticity; how : arguments of io.scan_rows.rows_at_loads
+    constants : arguments of options.elasticity
+    how : further arguments of io.scan_rows.rows_at_loads
     """
     from viscorough.io import scan_rows
 
@@ -143,7 +150,13 @@ def rows_for_options(indenter: viscorough.Indenter, *, constants: dict[str, Any]
 
 
 def _close(output: Path, listed: Sequence[LoadRows], unchanged: int, label: str) -> None:
-    """Write the closing line, failures and warnings. Raises Exit if a file failed."""
+    """Write the closing line of a table, one line about all warnings, and one line about all failures.
+
+    listed : rows, or the error, of each file
+    unchanged : number of files whose rows were taken from an earlier table
+
+    Raises Exit if one of several files failed.
+    """
     from viscorough.io.load_tables import text_of_row
 
     if len(listed) == 1:
@@ -165,7 +178,7 @@ def _close(output: Path, listed: Sequence[LoadRows], unchanged: int, label: str)
 
 
 def _spelled(values: dict[str, Any]) -> str:
-    """Return options as they are given on the command line, in alphabetical order."""
+    """Return {option: value} as text in the form of the command line, in alphabetical order of the options."""
 
     def text(value: Any) -> str:
         if isinstance(value, Quantity):
@@ -177,7 +190,10 @@ def _spelled(values: dict[str, Any]) -> str:
 
 
 def _in_this_process(scan: Scan, progress: Callable[[float], object]) -> LoadRows:
-    """Return the rows of a file. Errors are raised, and warnings are given to the command as well."""
+    """Evaluate a file in this process, and return its rows with the texts of the warnings.
+
+    Errors are raised. The warnings also reach the command, which shows them.
+    """
     from viscorough.io.load_tables import LoadRows
 
     rows, units = scan.evaluate(scan.surface.read(), progress=progress)
@@ -186,7 +202,7 @@ def _in_this_process(scan: Scan, progress: Callable[[float], object]) -> LoadRow
 
 
 def _in_a_process(scan: Scan) -> LoadRows:
-    """Return the rows of a file, or its error."""
+    """Evaluate a file in a separate process, and return its rows, or the text of its error instead of rows."""
     from viscorough.io.load_tables import LoadRows
     from viscorough.io.scan_rows import evaluated
 
@@ -202,7 +218,8 @@ def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
     waiting = {scan.name: scan for scan in scans}
     try:
         with _processes(min(jobs, len(scans) or 1)) as submit:
-            # Evaluate one file at a time until the inner loops are compiled: processes that all compile them can crash.
+            # Evaluate one file at a time until a file succeeds, so that the inner loops are compiled: several processes
+            # that compile them at the same time can crash.
             for scan in scans:
                 result = submit(scan).result()
                 del waiting[result.file]
@@ -219,7 +236,7 @@ def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
 
 
 def _alone(scan: Scan) -> LoadRows:
-    """Evaluate a file in a new process, and return its rows, its error, or that the process died."""
+    """Evaluate a file in a new process, and return its rows or its error; also the death of the process is an error."""
     from viscorough.io.load_tables import LoadRows
 
     try:
@@ -231,17 +248,17 @@ def _alone(scan: Scan) -> LoadRows:
 
 @contextlib.contextmanager
 def _processes(count: int) -> Iterator[Callable[[Scan], Future[LoadRows]]]:
-    """Yield a function that evaluates a file in one of so many processes.
+    """Yield a function that evaluates a file in one of `count` processes.
 
-    The processes start anew (spawn), since a copy of this process could hold locks of its threads. They ignore Ctrl-C,
-    and end if the context is left early or this process dies.
+    The processes are spawned, not forked: a forked copy of this process could contain locks that no thread releases.
+    The processes ignore Ctrl-C. They end if an error leaves this context, or if this process dies.
     """
     others, environment = set(multiprocessing.active_children()), {name: os.environ.get(name) for name in _ONE_THREAD}
     os.environ.update(_ONE_THREAD)
     pool = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
 
     def submit(scan: Scan) -> Future[LoadRows]:
-        with on_interrupt(signal.SIG_IGN):  # processes started here inherit it
+        with on_interrupt(signal.SIG_IGN):  # a process that is started here inherits this handler
             return pool.submit(_in_a_process, scan)
 
     try:
@@ -259,7 +276,7 @@ def _processes(count: int) -> Iterator[Callable[[Scan], Future[LoadRows]]]:
 
 
 def _end_with_parent() -> None:
-    """End this process when its parent dies; otherwise it would wait for work without end."""
+    """End this process when its parent process dies; otherwise this process would wait for work forever."""
     parent = multiprocessing.parent_process()
 
     def end() -> None:

@@ -24,13 +24,16 @@ _PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
 
 @dataclass(frozen=True)
 class Surface:
-    """A file of heights and the options given to read and prepare it, {name: text, or True for flags}."""
+    """File of heights, with the options that the user gave for reading and preparing it.
+
+    options : {name of an option: its text, or True for a flag}
+    """
 
     path: Path
     options: dict[str, Any]
 
     def parsed(self) -> dict[str, Any]:
-        """Return the options as read_heights takes them. Raises ValueError, which names the option, for a mistake."""
+        """Convert the options to arguments of read_heights. Raises ValueError with the option for a wrong text."""
         from viscorough.io.atomic import path_named
 
         values = dict(self.options)
@@ -46,7 +49,7 @@ class Surface:
         return viscorough.read_heights(self.path, **self.parsed())
 
     def attributes(self, indenter: viscorough.Indenter) -> dict[str, object]:
-        """Return the attributes of an output file about the surface, its reading and its preparation."""
+        """Return attributes for an output file: name of the file of heights, spacings, unit, channel, preparation."""
         attributes = {"heights": files.printable_name(self.path), "spacing": indenter.spacing}
         attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
         if "channel" in self.options:
@@ -57,7 +60,7 @@ class Surface:
 
 
 def _spacing(text: str) -> Quantity | tuple[Quantity, ...]:
-    """Return one spacing, or the spacings between columns and between rows, plain or with a unit."""
+    """Convert "DX" to one distance, or "DX,DY" to the distances between columns and between rows."""
     distances = tuple(units.quantity(entry.strip()) for entry in text.split(","))
     if len(distances) > 2:
         raise ValueError("is not DX or DX,DY")
@@ -65,7 +68,7 @@ def _spacing(text: str) -> Quantity | tuple[Quantity, ...]:
 
 
 def _crop(text: str) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return columns and rows to keep, FIRST:END each."""
+    """Convert "X0:X1,Y0:Y1" to ((X0, X1), (Y0, Y1)): first and end of the columns and of the rows to keep."""
     match = re.fullmatch(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})", text, re.ASCII)
     if match is None:
         raise ValueError("is not X0:X1,Y0:Y1, numbers of points from 0")
@@ -82,9 +85,12 @@ _VALUES: dict[str, Callable[[str], Any]] = {
 
 
 def heights_input(argument: str = "heights", *, several: bool = False) -> Callable[..., Any]:
-    """Add the argument HEIGHTS and the options to read it, which reach the command as `surface`.
+    """Return a decorator that adds an argument for a file of heights, and the options for reading it, to a command.
 
-    several : True if several files are allowed, which reach the command as `surfaces`
+    The command receives the file and its options as the argument `surface`, a Surface.
+
+    argument : name of the argument in the help
+    several : True if several files are allowed. The command then receives the argument `surfaces`, a list of Surface
     """
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -128,9 +134,9 @@ def heights_input(argument: str = "heights", *, several: bool = False) -> Callab
 
 
 def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> viscorough.Indenter:
-    """Read the indenter of a Surface, after a check that the output can be written.
+    """Read the indenter of a Surface, after checking that the output can be written.
 
-    inputs : further input files, arguments of files.check_output
+    inputs : other input files of the command, arguments of files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights.
     """
     files.check_output(output, heights=surface.path, **inputs)

@@ -1,1 +1,1 @@
-"""Files: atomic writing, NetCDF, maps of heights, loading curves, motion over time."""
+"""Read and write files: maps of heights, loading curves, contacts, motions, media, tables and figures."""

@@ -19,7 +19,7 @@ import psutil
 
 from viscorough.basics.types import FilePath
 
-# Characters of an error message that are quoted: the message may repeat the content of a file.
+# Quote at most this many characters of the message of another library, which may repeat the content of a file.
 _LONGEST_REASON = 250
 
 
@@ -30,7 +30,7 @@ def reason(error: BaseException) -> str:
 
 @contextlib.contextmanager
 def path_named(path: FilePath) -> Iterator[None]:
-    """Put the path in front of the message of a ValueError raised in this context, unless it starts with it."""
+    """Put the path in front of the message of a ValueError raised in this context, unless the path is there already."""
     try:
         yield
     except ValueError as error:
@@ -63,7 +63,7 @@ def check_output(path: FilePath) -> Path:
     """Return the path with symbolic links resolved, so that the target of a link is replaced and not the link.
 
     Raises ValueError if the folder is missing or not writable, if the path exists but is not a regular file, and if
-    its name is not text, which the NetCDF library needs.
+    the path cannot be written as text, which the NetCDF library needs.
     """
     target, folder = Path(os.path.realpath(path)), Path(path).parent
     try:
@@ -83,16 +83,17 @@ def check_output(path: FilePath) -> Path:
 def atomic_write(path: FilePath) -> Iterator[Path]:
     """Yield a temporary path in the folder of `path`; the file written there replaces `path` on success.
 
-    A file that is replaced keeps its permissions. After an error the temporary file is removed, and `path` is
-    unchanged. Temporary files of the same path are removed, too, if the processes that wrote them have ended. Raises
-    the errors of check_output, and OSError if writing fails.
+    The new file has the permissions of the file that it replaces. After an error the temporary file is removed, and
+    `path` is unchanged. Temporary files that earlier processes left for the same path are removed, too, if these
+    processes have ended. Raises the errors of check_output, and OSError if writing fails.
     """
     target = check_output(path)
     stem = f".{os.fsencode(target.name)[:60].decode(errors='ignore')}.{_place()}"
     temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
     for leftover in target.parent.glob(f"{glob.escape(stem)}.*.part"):
         process = leftover.name.removeprefix(stem).split(".")[1]
-        with contextlib.suppress(OSError, OverflowError):  # another process removed it; not a process number
+        # OSError: another process has removed the file. OverflowError: the number is too large for a process number.
+        with contextlib.suppress(OSError, OverflowError):
             if process.isdecimal() and not psutil.pid_exists(int(process)):
                 leftover.unlink()
     try:
@@ -110,7 +111,10 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
 
 
 def _error_of_plain_writing(path: FilePath) -> OSError | None:
-    """Return the error of appending to a file, or None; the NetCDF library calls a full disk a missing permission."""
+    """Append bytes to a file, and return the OSError that this raises; None if it succeeds.
+
+    The error shows the true cause of a failure: the NetCDF library reports a full disk as a missing permission.
+    """
     try:
         with open(path, "ab") as file:
             file.write(bytes(2**20))
@@ -123,7 +127,7 @@ def _error_of_plain_writing(path: FilePath) -> OSError | None:
 
 @functools.cache
 def _place() -> str:
-    """Return a name of the running system or container, within which process numbers are unique.
+    """Return a name for the system or container in which this process runs and process numbers are unique.
 
     Containers, and systems that share a disk, may have the same host name. On Linux the name therefore includes the
     identifiers of the start of the system and of the namespace of process numbers.

@@ -13,13 +13,13 @@ from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import path_named, reading
 from viscorough.io.heights import npy_array
 
-# Common unit as the last word of a heading, such as t_ms.
+# Heading of a column whose last word is a common unit, such as t_ms.
 _LAST_WORD = re.compile(
     r"(?:.*[\s_:;])?((?:[kMmunpµμ]|kilo|milli|micro|nano)?(?:[sN]|sec|seconds?|newtons?)"
     r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1|[munµμ]m)"
 )
 _LOAD, _TIME = (re.compile(rf"(?:{names})(?![^\W\d_])", re.IGNORECASE) for names in ("force|depth|f|u", "time|t"))
-# Number, nan, infinity, or text that starts with a digit: "1N" is a mistake, not a heading.
+# A cell that matches is no heading: a number, nan, infinity, or a text that starts with a digit. "1N" is a mistake.
 _LIKE_A_NUMBER = re.compile(r"\s*[-+]?(?:\.?\d|(?:nan|inf|infinity)\s*$)", re.IGNORECASE)
 _LETTER = re.compile(r"[^\W\d_]")
 _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
@@ -31,13 +31,13 @@ def read_columns(path: FilePath, content: str, columns: dict[str, str], length_u
     """Read the first two columns of a .csv or .npy file as arrays of shape (rows,), with at least two rows.
 
     The first row of a .csv file is a heading if none of its fields starts like a number, nan or infinity. Lines that
-    start with "#" are comments, but two names in the last comment above the first row are a heading, too. The file may
-    have more than two columns if the heading names all of them. If a heading states units, as in t [ms], t (ms), t/ms,
-    t in ms or t_ms, the numbers are converted.
+    start with "#" are comments. If the last comment above the first row consists of two names, it is a heading, too.
+    The file may have more than two columns if the heading names all of them. If a heading states units, as in t [ms],
+    t (ms), t/ms, t in ms or t_ms, the numbers are converted.
 
-    content : content of the file in words, for messages
-    columns : {quantity of the column: unit of the returned numbers}
-    length_unit : unit of length of the indenter; "1" if it is not known. Numbers are then in consistent units of the
+    content : words for the content of the file in messages, such as "a record"
+    columns : {quantity in a column of the file: unit of the returned numbers}, for the two columns in order
+    length_unit : unit of length of the indenter. If it is "1" (not known), numbers are in consistent units of the
         user's choice, and headings with units are refused
 
     Raises a one-line ValueError that names the file and its fault.
@@ -68,7 +68,7 @@ def _rows_and_factors(path: FilePath, result_units: Iterable[str], length_unit: 
     else:
         heading = above[-1] if above and _TWO_NAMES.fullmatch(above[-1]) else None
     if heading is not None and heading.count(",") > 1 and {row.count(",") for row in rows} == {heading.count(",")}:
-        # Only the first two columns are read: fields of unknown interval ends are empty.
+        # Read only the first two columns. Other columns may have empty fields, such as unknown ends of an interval.
         heading, *rows = (",".join(row.split(",")[:2]) for row in [heading, *rows])
     table = np.loadtxt(rows, delimiter=",", ndmin=2) if rows else np.empty((0, 0))
     for comment in comments:
@@ -79,7 +79,7 @@ def _rows_and_factors(path: FilePath, result_units: Iterable[str], length_unit: 
 
 
 def _factors(heading: str, result_units: Iterable[str], length_unit: str) -> list[float]:
-    """Return the factors that convert the columns from the units in their heading to the units of the result."""
+    """Return the two factors that convert the columns from the units in the heading to the units of the result."""
     fields = [field.strip('# \t"') for field in heading.split(",")]
     if len(fields) != 2 or fields[0] == fields[1] or not all(map(_LETTER.search, fields)):
         raise ValueError(f"{heading[:40]!r} is neither two numbers nor the names of two columns")
@@ -99,7 +99,7 @@ def _factors(heading: str, result_units: Iterable[str], length_unit: str) -> lis
 
 
 def _unit_in(heading: str) -> str | None:
-    """Return the unit that a heading states, or None."""
+    """Return the unit that the heading of a column states, or None."""
     if match := re.search(r"[\[(]([^\])]*)[\])]|/\s*(.+)$|\bin\s+(\S+)$", heading):
         return next(text for text in match.groups() if text is not None).strip()
     last = _LAST_WORD.fullmatch(heading)

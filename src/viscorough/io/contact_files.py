@@ -18,11 +18,13 @@ COMMENT = (
     "of an element is the sum of sqrt(dx dy)/(4 pi) K pressure, K Love's influence coefficients. In contact, the gap "
     "is zero within residual times depth. Patches are regions in contact that are connected by sides of elements."
 )
+# Maps of a contact: {name: (long_name, power of the unit of length)}.
 MAPS = {
     "pressure": ("pressure over shear modulus p/G", 0),
     "gap": ("gap between the deformed surface and the indenter", 1),
     "contact": ("whether an element is in contact", 0),
 }
+# Numbers of a contact: {name: (long_name, power of the unit of length)}.
 NUMBERS = {
     **{name: OVER_LEVELS[name] for name in ("depth", "force", "stiffness", "contact_fraction")},
     "contact_area": ("area of the elements in contact", 2),
@@ -31,29 +33,30 @@ NUMBERS = {
     "largest_pressure": ("largest pressure over shear modulus", 0),
     "residual": OVER_LEVELS["residual"],
 }
-# Numbers of contacts with a given shear modulus.
+# Further numbers of a contact if the shear modulus is given: {name: (long_name, unit)}.
 NUMBERS_WITH_MODULUS = {
     **WITH_MODULUS,
     "mean_normal_pressure": ("mean normal pressure p", "Pa"),
     "largest_normal_pressure": ("largest normal pressure p", "Pa"),
 }
-# Map of contacts with a given shear modulus.
+# Further map of a contact if the shear modulus is given: {name: (long_name, unit)}.
 _MAP_WITH_MODULUS = {"normal_pressure": ("normal pressure p", "Pa")}
 PATCHES = {"patches": ("number of patches of contact", 0), "patch_area": ("area of a patch", 2)}
-# Store maps in single precision from this tolerance on: the solver then computes in single precision, too.
+# Store maps in single precision if the tolerance is at least this: the solver then uses single precision, too.
 _SINGLE_FROM = 1e-4
-# Smallest and largest numbers that single precision may store, far from its limits of 1e-38 and 3e38.
+# Store maps in single precision only if their numbers are in this range, far from its limits of 1e-38 and 3e38.
 _SINGLE_RANGE = (1e-25, 1e30)
 
 
 def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = None) -> Content:
     """Convert contacts of one indenter to a Content.
 
-    The variables are MAPS and heights over (y, x), NUMBERS, `patches` (number of contact patches), and `patch_area`
-    over `patch` (their areas in decreasing order, nan beyond the last patch). Coordinates count from the centre of the
-    map. If there are several contacts, `level` is the first dimension of maps and numbers.
+    The maps MAPS and heights have the dimensions (y, x), with coordinates that count from the centre of the map. The
+    numbers are NUMBERS and `patches`, the number of contact patches. `patch_area` has the dimension `patch`: it holds
+    the areas of the patches in decreasing order, and nan beyond the last patch. If there are several contacts, all
+    these variables have `level` as first dimension, except for heights.
 
-    heights : heights of the indenter, written as well if given, shape (rows, columns) [length]
+    heights : heights of the indenter, shape (rows, columns) [length]; None to leave them out
     """
     first = contacts[0]
     unit, level = first.length_unit, ("level",) if len(contacts) > 1 else ()
@@ -84,7 +87,7 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
 
 
 def _kind_of_maps(contacts: Sequence[Contact]) -> DTypeLike:
-    """Return the floating-point type of the stored maps of pressure and gap."""
+    """Return the floating-point type in which maps of pressure and gap are stored."""
     least, largest = _SINGLE_RANGE
     small = min(min(contact.depth, contact.mean_pressure) for contact in contacts)
     large = max(max(contact.largest_pressure, np.nanmax(contact.gap)) for contact in contacts)

@@ -18,12 +18,12 @@ COMMENT = (
     "force is F/G, stiffness is d(F/G)/du. With viscosity for G and impulse for F it is the viscous solution."
 )
 _NEEDED = "a loading curve of viscorough indent is needed"
-# Relative rounding error of numbers that were stored in single precision.
+# Relative differences up to this are ignored, since another program may have stored numbers in single precision.
 _ROUNDING = 1e-6
-# Allow contact counts and stiffnesses to decrease by this multiple of the tolerance: between close levels they decrease
-# by up to the tolerance itself.
+# Contact count and stiffness may decrease from a level to the next by at most this multiple of the tolerance. Errors of
+# the solver let them decrease by up to the tolerance between close levels.
 _LOST = 10
-# Variables over levels: {name: (long_name, power of the unit of length)}.
+# Variables of a curve, with one value for each level: {name: (long_name, power of the unit of length)}.
 OVER_LEVELS: dict[str, tuple[str, int]] = {
     "depth": ("depth of indentation u", 1),
     "force": ("normal force over shear modulus F/G", 2),
@@ -32,15 +32,15 @@ OVER_LEVELS: dict[str, tuple[str, int]] = {
     "contact_fraction": ("share of the indenter's elements in contact", 0),
     "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
 }
-# Further variables of curves with an estimated grid error, in the same form.
+# Further variables of a curve with estimated grid errors: {name: (long_name, power of the unit of length)}.
 ABOUT_GRID: dict[str, tuple[str, int]] = {
     "grid_error": ("estimated relative error of the velocity due to the spacing of the map", 0),
     "force_grid_error": ("estimated relative error of the force at a depth due to the spacing of the map", 0),
     "area_change": ("relative change of the contact area when the spacing of the map is halved", 0),
 }
-# Quantities of curves and contacts with a given shear modulus: {name: (long_name, unit)}.
+# Further variables of a curve or contact if the shear modulus is given: {name: (long_name, unit)}.
 WITH_MODULUS = {"normal_force": ("normal force F", "N"), "normal_stiffness": ("normal stiffness k = dF/du", "N m-1")}
-# Variables that are fields of LoadingCurve; the contact fraction is derived from them.
+# Variables that are fields of LoadingCurve. The contact fraction is no field: it follows from the contact count.
 STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]
 # Global attributes of every curve: {name: (type, long_name)}.
 PER_CURVE = {
@@ -49,16 +49,19 @@ PER_CURVE = {
     "tolerance": (float, "relative accuracy asked for"),
     "method": (str, "how the curve was obtained"),
 }
-# Attributes of single curves, stored if they differ from the defaults of LoadingCurve: {name: type}.
+# Further global attributes, stored only if they differ from the defaults of LoadingCurve: {name: type}.
 OPTIONAL: dict[str, type] = {"mean_grid_error": float, "mean_area_change": float, "sampling": int, "choice": str}
-# Least allowed values of these attributes; 0 for all others.
+# Least allowed values of attributes in OPTIONAL; the least allowed value of all other attributes is 0.
 OPTIONAL_LEAST = {"mean_area_change": -1.0, "sampling": 1}
 
 
 def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) -> Content:
-    """Convert a LoadingCurve to a Content: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE.
+    """Convert a LoadingCurve to a Content with the variables OVER_LEVELS and the attributes PER_CURVE.
 
-    shear_modulus : G [Pa], or in consistent units if the unit of length is not known; adds WITH_MODULUS
+    The dimension of all variables is `level`. If the curve has grid errors, the variables ABOUT_GRID are added.
+
+    shear_modulus : G [Pa], or in consistent units if the unit of length is not known. If G is given, the variables
+        WITH_MODULUS are added
     """
     values, unit = {name: getattr(curve, name) for name in OVER_LEVELS}, curve.length_unit
     values |= {name: getattr(curve, name) for name in ABOUT_GRID if getattr(curve, name) is not None}
@@ -76,8 +79,8 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
 def curve_from_content(content: Content) -> LoadingCurve:
     """Return the LoadingCurve in a Content that curve_to_content made.
 
-    Raises ValueError, which names the file, if the Content holds no curve, if units do not follow from the unit of the
-    depth, and if no curve can have these numbers within its tolerance.
+    Raises ValueError, which names the file, if the Content holds no curve, if the units of other variables contradict
+    the unit of the depth, and if the numbers contradict each other by more than the tolerance of the curve.
     """
     with contextlib.nullcontext() if content.path is None else path_named(content.path):
         return _checked_curve(content)
@@ -107,7 +110,10 @@ def _checked_curve(content: Content) -> LoadingCurve:
 
 
 def _length_unit(content: Content) -> str:
-    """Return the unit of the depth, "1" if none is stated. Raises ValueError if other units are not powers of it."""
+    """Return the unit of the depth, "1" if the Content states none.
+
+    Raises ValueError if the unit of another variable is not the required power of the unit of the depth.
+    """
     stated = {name: variable.attributes.get("units", units.UNKNOWN) for name, variable in content.variables.items()}
     length = stated["depth"]
     if length != units.UNKNOWN:
@@ -122,9 +128,9 @@ def _length_unit(content: Content) -> str:
 
 
 def _check_contact(curve: LoadingCurve) -> None:
-    """Raise ValueError unless the numbers of a curve can belong to a growing contact, within its tolerance.
+    """Raise ValueError unless the numbers of a curve can belong to a growing contact, within the curve's tolerance.
 
-    Contact only grows, so the force F(u) is a convex function of the depth. Between two levels its mean slope ΔF/Δu
+    While the contact grows, the force F(u) is a convex function of the depth u. The mean slope ΔF/Δu between two levels
     therefore lies between the stiffnesses at these levels.
     """
     if not curve.tolerance < 1:
@@ -137,7 +143,7 @@ def _check_contact(curve: LoadingCurve) -> None:
         too_soft = force_steps < np.append(0, stiffness[:-1]) * depth_steps - slack
         too_stiff = force_steps > stiffness * depth_steps + slack
     no_count = (count != np.rint(count)) | (count < 1) | (count > curve.elements)
-    no_residual = ~((curve.residual >= 0) & (curve.residual <= tolerance))  # or nan
+    no_residual = ~((curve.residual >= 0) & (curve.residual <= tolerance))  # also True for nan
     wrong = {
         f"contact_count must be a whole number from 1 to {curve.elements}": no_count,
         "contact_count must not decrease": np.diff(count, prepend=0) < -_LOST * tolerance * count,
@@ -151,8 +157,9 @@ def _check_contact(curve: LoadingCurve) -> None:
 
 
 def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
-    """Convert a global attribute to int, float or str. Raises ValueError if its value is of another type.
+    """Convert the value of a global attribute to int, float or str. Raises ValueError for other values.
 
+    kind : int, float or str
     least : least allowed number
     """
     with contextlib.suppress(TypeError, ValueError, OverflowError):
@@ -164,7 +171,7 @@ def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
 
 
 def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
-    """Combine loading curves into one Content over (realization, level), without grid errors.
+    """Combine loading curves into one Content with the dimensions (realization, level). Grid errors are left out.
 
     Values beyond the last level of a curve are nan. The variables `levels` (number of levels) and PER_CURVE have one
     value for each realization. Raises ValueError for an empty list, and for curves in different units of length.
@@ -195,6 +202,6 @@ def unstack_curves(content: Content) -> list[LoadingCurve]:
         variables = {name: Variable(("level",), v.values[i, :levels], v.attributes) for name, v in stacked.items()}
         attributes = content.attributes | {name: values[i] for name, values in per_curve.items()}
         curve = curve_from_content(Content(variables, attributes, content.path))
-        # Counts are stored as floats because of nan.
+        # stack_curves stores counts as floats, since values beyond the last level are nan.
         curves.append(dataclasses.replace(curve, contact_count=curve.contact_count.astype(int)))
     return curves

@@ -1,4 +1,4 @@
-"""Convert the content of NetCDF files to datasets of xarray, and back.
+"""Convert the content of NetCDF files to datasets of xarray, and write and read datasets.
 
 Only this module and `result_datasets` import xarray, which takes long to import.
 """
@@ -22,9 +22,9 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     """Write a dataset as CF-1.11 NetCDF, atomically.
 
     Every data variable needs the attribute `long_name`, and `units` unless it holds text. The attributes Conventions,
-    source ("viscorough <version>") and history are added, and large numeric arrays are compressed. Neither time nor
-    place of writing changes the file. CF has no coordinate variables of text, so text labels x of a dimension x are
-    written as a variable over a dimension x_index.
+    source ("viscorough <version>") and history are added, and large numeric arrays are compressed. The file does not
+    depend on the time and place of writing. In CF a coordinate cannot be text: if the labels of a dimension x are
+    texts, they are written as a variable x with the dimension x_index.
 
     Raises ValueError for a path that cannot be written, OSError if writing fails.
     """

@@ -1,7 +1,7 @@
-"""Digests of the content of NetCDF files, so that reading refuses a damaged file.
+"""Compute and check digests of the content of NetCDF files, so that a damaged file is refused when it is read.
 
-The HDF5 library, which stores these files, has checksums of their structure, but not of the numbers in it. A digest
-covers groups, dimensions, variables and attributes, with their names, types and stored values.
+The HDF5 library, which stores NetCDF files, adds checksums of the structure of a file, but not of the numbers. The
+digest of a file covers groups, dimensions, variables and attributes, with their names, types and stored values.
 """
 
 import hashlib
@@ -20,9 +20,9 @@ _VALUES_AT_A_TIME = 2**22
 
 
 def add_digest(file: netCDF4.Dataset) -> None:
-    """Add the digest of a file that is open for writing and is otherwise complete, as the attribute `ATTRIBUTE`.
+    """Add the digest, as the attribute `ATTRIBUTE`, to a file that is open for writing and is otherwise complete.
 
-    The attribute `history` then names it, so that a file that has lost its digest is refused.
+    The name of the digest is added to the attribute `history`, so that a file that has lost its digest is refused.
     """
     file.setncattr("history", f"{file.getncattr('history')}, with {ATTRIBUTE}")
     file.setncattr(ATTRIBUTE, content_digest(file))
@@ -48,12 +48,12 @@ def check_digest(file: netCDF4.Dataset) -> None:
 
 
 def content_digest(file: netCDF4.Dataset) -> str:
-    """Return the SHA-256 of the content of an open file, as 64 hexadecimal digits; `ATTRIBUTE` does not count.
+    """Return the SHA-256 of the content of an open file without `ATTRIBUTE`, as 64 hexadecimal digits.
 
-    Neither the order in the file nor the byte order of the machine changes it. The digest is computed from lines of
-    JSON: for each group, sorted by path, its path, dimensions and attributes, and for each of its variables, sorted by
-    name, its name, type, dimensions, shape and attributes. The stored values of the variable follow its line, as
-    little-endian numbers, or each as a line of JSON if they are texts.
+    The digest depends neither on the order in the file nor on the byte order of the machine. It is computed from lines
+    of JSON. For each group, sorted by path, a line contains its path, dimensions and attributes. For each variable of
+    the group, sorted by name, a line contains its name, type, dimensions, shape and attributes. The stored values of
+    the variable follow its line, as little-endian numbers, or each as a line of JSON if they are texts.
     """
     digest = hashlib.sha256()
 
@@ -83,7 +83,7 @@ def _groups(group: netCDF4.Dataset) -> Iterator[netCDF4.Dataset]:
 
 
 def _attributes(owner: netCDF4.Dataset | netCDF4.Variable) -> list[Any]:
-    """Return [name, type, shape, value] of every attribute, numbers as hexadecimal bytes."""
+    """Return [name, type, shape, value] of every attribute of a group or variable; numbers as hexadecimal bytes."""
     listed: list[Any] = []
     for name in sorted(set(owner.ncattrs()) - {ATTRIBUTE}):
         value = np.asarray(owner.getncattr(name))

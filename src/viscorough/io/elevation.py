@@ -1,4 +1,4 @@
-"""Read elevation models, such as GeoTIFF files, with rasterio (GDAL): units, masks, missing values, compressions."""
+"""Read elevation models, such as GeoTIFF files, with rasterio (GDAL), including units, masks and missing values."""
 
 import contextlib
 import math
@@ -16,19 +16,20 @@ from viscorough.basics.types import FilePath
 from viscorough.io.atomic import reading, reason
 from viscorough.io.scan import Scan
 
-# Formats of elevation models in GDAL, by the suffix of their files.
+# Formats of elevation models: {suffix of a file: name of the format in GDAL}.
 FORMATS = {".adf": "AIG", ".bil": "EHdr", ".dem": "USGSDEM", ".flt": "EHdr", ".hgt": "SRTMHGT", ".img": "HFA"}
 FORMATS |= dict.fromkeys((".dt0", ".dt1", ".dt2"), "DTED")
-# Names of units in GDAL that pint does not know.
+# Units that GDAL and pint call by different names: {name in GDAL: name in pint}.
 _GDAL_UNITS = {"US survey foot": "survey_foot", "sfoot": "survey_foot", "us-ft": "survey_foot"}
-# Rows and columns are perpendicular up to this cosine of the angle between them.
+# Rows and columns count as perpendicular if the cosine of the angle between them is at most this.
 _RIGHT_ANGLE = 1e-6
 
 
 def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Scan:
     """Read the Scan in a file of an elevation model.
 
-    Missing points are nan: those with the file's value for missing data, and those masked in the file or its .msk file.
+    Missing points are nan. A point is missing if it has the file's value for missing data, or if a mask in the file or
+    in its .msk file excludes it.
 
     kind : name of the format in GDAL, a value of FORMATS or "GTiff"
     channel : number of the band, or of the page of a TIFF file, from 0; needed if the file has several
@@ -46,7 +47,7 @@ def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Sca
 
 
 def units_of_prj(path: FilePath) -> tuple[str, str]:
-    """Return the units of positions and of heights that the .prj file of an ESRI grid states, "1" if it states none.
+    """Return the units (of positions, of heights) that the .prj file of an ESRI grid states, "1" for an unstated unit.
 
     Raises ValueError for coordinates in degrees, and for a reference system that GDAL cannot interpret.
     """
@@ -56,7 +57,11 @@ def units_of_prj(path: FilePath) -> tuple[str, str]:
 
 @contextlib.contextmanager
 def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]:
-    """Yield the rasterio dataset of a file, or of one of its pages; `page` is its name in GDAL."""
+    """Yield the rasterio dataset of a file, or of a page of the file.
+
+    kind : name of the format in GDAL
+    page : name of the page in GDAL; None for the file itself
+    """
     try:
         import rasterio
     except ImportError as error:
@@ -64,15 +69,16 @@ def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]
         raise ValueError(f"{path}: {text}") from error
     with contextlib.ExitStack() as stack:
         with _decoding(path):
-            stack.enter_context(warnings.catch_warnings(action="ignore"))  # maps without coordinates are read as well
-            # GDAL could take a name without a folder for an address or for options.
+            # rasterio warns about maps without coordinates, which are read as well.
+            stack.enter_context(warnings.catch_warnings(action="ignore"))
+            # The path is absolute, since GDAL could take a name without a folder for an address or for options.
             file = stack.enter_context(rasterio.open(page or os.path.abspath(path), driver=kind))
         yield file
 
 
 @contextlib.contextmanager
 def _decoding(path: FilePath) -> Iterator[None]:
-    """Turn an error in this context into a one-line ValueError with the cause that GDAL gives."""
+    """Turn every error in this context into a one-line ValueError with the cause that GDAL states."""
     with reading(path, "a whole elevation model, such as GeoTIFF, is needed"):
         try:
             yield
@@ -81,7 +87,12 @@ def _decoding(path: FilePath) -> Iterator[None]:
 
 
 def _number(channel: str | None, count: int, kind: str) -> int:
-    """Return the number of the channel to read, of `count` channels of a kind (bands or pages)."""
+    """Return the number, from 0, of the channel to read.
+
+    channel : number that the user gave, as a text; None if the user gave none
+    count : number of channels in the file
+    kind : word for the channels in the message, "bands" or "pages"
+    """
     if channel is None and count == 1:
         return 0
     if channel is None or not (channel.isascii() and channel.isdigit() and int(channel) < count):
@@ -103,7 +114,8 @@ def _scan(path: FilePath, file: Any, band: int) -> Scan:
     unit = vertical if unit == units.UNKNOWN else unit
     if file.transform.is_identity:
         return Scan(heights, unit)
-    a, b, c, d, e, f = file.transform[:6]  # steps in x and y: (a, d) along a row, (b, e) along a column
+    # From a point to the next, the position (x, y) changes by (a, d) along a row and by (b, e) along a column.
+    a, b, c, d, e, f = file.transform[:6]
     dx, dy = math.hypot(a, d), math.hypot(b, e)
     if abs(a * b + d * e) > _RIGHT_ANGLE * dx * dy:
         raise ValueError("its rows and columns are not perpendicular; a map with a rectangular grid is needed")
@@ -115,12 +127,12 @@ def _scan(path: FilePath, file: Any, band: int) -> Scan:
 
 
 def _heights(file: Any, band: int) -> NDArray[Any]:
-    """Return the heights of a band; nan where it is masked or equals the value for missing data."""
+    """Return the heights of a band, with nan at masked points and at points with the value for missing data."""
     stored, is_measured = file.read(band), file.read_masks(band) != 0
     if stored.dtype.kind not in "iuf":
         return stored
     heights = stored.astype(stored.dtype if stored.dtype.kind == "f" else np.float64)
-    if (nodata := file.nodatavals[band - 1]) is not None:  # GDAL ignores it if there is a mask
+    if (nodata := file.nodatavals[band - 1]) is not None:  # GDAL ignores this value if there is a mask
         with np.errstate(over="ignore"):
             is_measured &= heights != np.asarray(nodata).astype(heights.dtype)
     scale, offset = file.scales[band - 1], file.offsets[band - 1]
@@ -130,7 +142,7 @@ def _heights(file: Any, band: int) -> NDArray[Any]:
 
 
 def _units(system: Any) -> tuple[str, str]:
-    """Return the units of positions and of heights in a reference system of rasterio, "1" if it states none."""
+    """Return the units (of positions, of heights) in a reference system of rasterio, "1" for an unstated unit."""
     if system is None:
         return units.UNKNOWN, units.UNKNOWN
     definition = system.to_dict(projjson=True)

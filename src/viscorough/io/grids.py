@@ -6,11 +6,12 @@ import numpy as np
 
 from viscorough.basics.types import Array, Integers
 
-# Positions closer than this share of their range are the same position.
+# Two positions count as the same if their distance is at most this share of the range of all positions.
 _MERGED = 1e-6
-# Largest distance of a point from the grid, relative to its spacing.
+# Largest distance of a point from its place on the grid, relative to the spacing of the grid.
 _OFF_GRID = 0.05
-# Rows of unknown meaning are points of a grid only if they fill this share of it, and are at least so many.
+# If it is not certain that rows are points x, y, z, they are taken for points of a grid only if they fill at least this
+# share of the grid, and if there are at least this many rows.
 _LEAST_SHARE, _LEAST_POINTS = 0.5, 9
 
 
@@ -18,10 +19,11 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
     """Return (heights, (dx, dy)) of points on a grid of equal spacing.
 
     points : x, y, z, shape (points, 3)
-    required : True if the points are certainly x, y, z; otherwise None is returned for points that form no grid
+    required : True if the points are certainly x, y, z. ValueError is then raised if the points form no grid. If False,
+        None is returned in this case
 
-    The heights have the shape (rows, columns), both in increasing order, and are nan at missing points. Raises
-    ValueError for required points that form no grid.
+    The heights have the shape (rows, columns), with y increasing from row to row and x from column to column. They are
+    nan at missing points.
     """
     try:
         if points.shape[1] != 3:
@@ -36,7 +38,7 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
         if not required and len(points) < max(_LEAST_POINTS, _LEAST_SHARE * columns * rows):
             raise ValueError("few of its points")
         if not required and min(np.bincount(column).max(), np.bincount(row).max()) == 1:
-            raise ValueError("no two points in a row or column")  # as x, z and a number of a profile
+            raise ValueError("no two points in a row or column")  # such as columns x, z and number of a profile
     except ValueError as fault:
         if required:
             raise ValueError(f"points x, y, z form no grid of equal spacing ({fault}); a grid is needed") from None
@@ -49,8 +51,8 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
 def even_spacing(positions: Array) -> float | None:
     """Return the distance between positions that rise or fall in equal steps; None for other positions.
 
-    Each position may deviate by its rounding error, one unit of the last digit, but by at most a twentieth of the
-    distance.
+    Each position may deviate by its rounding error, which is one unit of the last digit, but by no more than a
+    twentieth of the distance.
     """
     with np.errstate(invalid="ignore", over="ignore"):
         step = abs(positions[-1] - positions[0]) / max(positions.size - 1, 1)
@@ -61,7 +63,10 @@ def even_spacing(positions: Array) -> float | None:
 
 
 def _last_digit(numbers: Array) -> float:
-    """Return the unit of the last digit of printed numbers that have equally many decimals or equally many digits."""
+    """Return the size of one unit in the last printed digit of numbers, such as 0.01 for 1.25 and 3.5.
+
+    All numbers were printed with the same number of decimals, or with the same number of digits.
+    """
     decimals = [Decimal(repr(number)).normalize() for number in numbers.tolist()]
     digits, places = zip(*(number.as_tuple()[1:] for number in decimals), strict=True)
     largest = max(number.adjusted() for number in decimals)
@@ -69,9 +74,9 @@ def _last_digit(numbers: Array) -> float:
 
 
 def _axis(positions: Array) -> tuple[Integers, int, float]:
-    """Return (index of each position, number of indices, spacing) along an axis of equal spacing.
+    """Return (index of each position, number of indices, spacing) along an axis on which positions are equally spaced.
 
-    Positions may be rounded, and whole columns may be missing. Raises ValueError if the spacing is not equal.
+    Positions may be rounded, may occur repeatedly, and may be missing. Raises ValueError if the spacing is not equal.
     """
     different = np.unique(positions)
     with np.errstate(over="ignore"):

@@ -14,12 +14,12 @@ from viscorough.basics import units
 from viscorough.basics.argument_names import argument, spelled
 
 Spacing = tuple[float, float]
-# Statements of a header by role: (line, unit in brackets, value).
+# Statements of a header: {role, a key of _ROLES: [(line, unit in brackets after the key, value)]}.
 Stated = dict[str, list[tuple[str, str, str]]]
 
-# Relative difference up to which statements of the same length agree.
+# Two statements of the same spacing agree if their relative difference is at most this.
 _AGREEMENT = 1e-3
-# The same for an extent and a spacing, which are rounded to few digits.
+# An extent and a spacing agree if their relative difference is at most this. Both are often rounded to few digits.
 _ROUNDING = 5e-3
 
 _NUMBER = r"[+-]?(?:\d+(?:[.,]\d+|\.)?|[.,]\d+)(?:[eE][+-]?\d+)?"
@@ -41,7 +41,7 @@ _DEGREES = {"lon", "lat", "longitude", "latitude"}
 
 _STEP = "pixelsize pixelspacing pointspacing samplespacing spacing pixelgröße pixelabstand"
 _STEPS = f"{_STEP} step stepsize pitch increment d"
-# Spellings of keys by role. The axis comes first or last, as in "x pixel size" and "pixel size x".
+# {role of a statement: spellings of its key}. The axis comes first or last, as in "x pixel size" and "pixel size x".
 _ROLES = {
     "step x": {f"x{key}" for key in _STEPS.split()} | {f"{key}x" for key in _STEPS.split()} | {"deltax", "pixelwidth"},
     "step y": {f"y{key}" for key in _STEPS.split()} | {f"{key}y" for key in _STEPS.split()} | {"deltay", "pixelheight"},
@@ -57,7 +57,7 @@ _ROLES = {
     "channel": {"channel", "kanal", "canal", "datachannel"},
 }
 _ROLE_OF = {key: role for role, keys in _ROLES.items() for key in keys}
-# Axes along which lengths are stated: 0 is x, 1 is y.
+# {role of a length: axes along which the length applies}; 0 is x, 1 is y.
 _AXES = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,)}
 
 
@@ -65,10 +65,10 @@ class Header(NamedTuple):
     """Units and spacing that a header states.
 
     unit : unit of the heights; "1" if it is not stated
-    spacing : (dx, dy); nan for a direction that is not stated, None if neither is
+    spacing : (dx, dy), with nan for a direction that is not stated; None if no direction is stated
     lateral_unit : unit of the spacing, or of positions x and y; "1" if it is not stated
-    columns : names of the columns of points in their order, such as ("x", "y", "z"), or ("x", "z") for a profile; None
-        if they are not stated
+    columns : names of the columns in the order of the table, such as ("x", "y", "z"), or ("x", "z") for a profile; ""
+        for other columns; None if no heading names the columns
     """
 
     unit: str
@@ -78,14 +78,25 @@ class Header(NamedTuple):
 
 
 class _Columns(NamedTuple):
-    """Names of columns, "" for columns without positions or heights, and {name: unit}."""
+    """Columns of a table, as their heading names them.
+
+    names : "x", "y" or "z" for each column; "" for a column that holds neither positions nor heights
+    units : {name of a column: its unit}, for columns whose heading states a unit
+    """
 
     names: tuple[str, ...]
     units: dict[str, str]
 
 
 class _Length(NamedTuple):
-    """Spacing or extent along an axis, as a line of the header states it; the unit is "" if it is not stated."""
+    """Length along an axis that a line of the header states.
+
+    line : the line of the header
+    axis : 0 for x, 1 for y
+    is_extent : True for an extent of the map, False for a spacing
+    number : the length in its unit
+    unit : unit of the length; "" if it is not stated
+    """
 
     line: str
     axis: int
@@ -95,7 +106,7 @@ class _Length(NamedTuple):
 
 
 def states(line: str) -> bool:
-    """Return True if a line states a length, a unit or the name of a map."""
+    """Return True if a line of text states a length, a unit or the name of a map."""
     match = _STATEMENT.match(line)
     return match is not None and bool(_role(match[1]))
 
@@ -136,7 +147,7 @@ def _statements(lines: Sequence[str]) -> tuple[Stated, list[str]]:
             others.append(line)
             continue
         key, value = match[1], match[3].strip(" \t,;|\"'")
-        if (role := _role(key)) and value:  # "Height (nm):" heads numbers below
+        if (role := _role(key)) and value:  # "Height (nm):" without a value is a heading of the numbers below
             stated[role].append((line.strip()[:80], match[2] or "", value))
         elif _FACTOR.match(key) and ("factor" in key.lower() or _LENGTH.match(value)):
             way = f"without this line, and with {argument('scale')}, they are read"
@@ -148,19 +159,22 @@ def _statements(lines: Sequence[str]) -> tuple[Stated, list[str]]:
 
 
 def _role(key: str) -> str:
-    """Return the role of a key, one of `_ROLES`; "" for other keys."""
+    """Return the role (a key of `_ROLES`) of the key of a statement; "" for an unknown key."""
     compact = re.sub(r"[\s_.-]+", "", key.lower())
     return _ROLE_OF.get(re.sub(r"(unité?|einheit)(?:s|en)", r"\1", compact), "")
 
 
 def _unit_text(value: str) -> str:
-    """Return the unit in a value; "" for a unit that counts points."""
+    """Return the unit in the value of a statement, without brackets; "" for a unit that counts points, such as px."""
     text = value.strip("[](){} ")
     return "" if units.counts_points(text) else text
 
 
 def _agreed(texts: Iterable[str]) -> str:
-    """Return the unit in texts, in any spelling; "" if all are empty. Raises ValueError for two different units."""
+    """Return the unit on which all texts agree, as the first of them spells it; "" if all texts are empty.
+
+    Raises ValueError if two texts are different units.
+    """
     different = list(dict.fromkeys(filter(None, texts)))
     for other in different[1:]:
         if units.metres(different[0]) != units.metres(other):
@@ -171,10 +185,13 @@ def _agreed(texts: Iterable[str]) -> str:
 def _spacing(stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str) -> tuple[Spacing | None, str]:
     """Return ((dx, dy), unit) of the points from the stated spacings and extents.
 
-    lateral : stated unit of lengths along x and y, "" if there is none
+    stated : statements of the header
+    shape : rows and columns of the table
+    lateral : unit that the header states for all lengths along x and y; "" if it states none
+    decimal : decimal mark of the table
 
-    The spacing is nan for a direction that is not stated, None if neither is. The unit is `lateral` or, for lengths
-    with their own units, "m"; it is "" if no unit is stated.
+    The spacing is nan for a direction that is not stated, and None if no direction is stated. The unit is `lateral` if
+    the header states it, otherwise "m" if the lengths have units, and "" if no unit is stated.
     """
     points = shape[::-1]
     steps: list[list[float]] = [[], []]
@@ -189,7 +206,7 @@ def _spacing(stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str)
         have_units.add(bool(unit))
         number = length.number * units.metres(unit) / units.metres(lateral or "m") if unit else length.number
         (extents if length.is_extent else steps)[length.axis].append(number)
-    if not (any(steps) or all(extents)):  # a height without a width may be one of the heights
+    if not (any(steps) or all(extents)):  # a statement "height" without "width" may be a height of the surface
         return None, lateral
     if len(have_units) > 1:
         raise ValueError("the header states units for some of the lengths only; one for all, or none, is needed")
@@ -198,7 +215,7 @@ def _spacing(stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str)
 
 
 def _lengths(stated: Stated, decimal: str) -> Iterator[_Length]:
-    """Yield the stated spacings and extents. Raises ValueError for two different units of one length."""
+    """Yield the spacings and extents that a header states. Raises ValueError if one length has two different units."""
     for role, axes in _AXES.items():
         for line, bracket, value in stated[role]:
             is_pair = role == "step" and value.count(" x ") == 1  # "0.5 um x 0.8 um"
@@ -210,7 +227,10 @@ def _lengths(stated: Stated, decimal: str) -> Iterator[_Length]:
 
 
 def _length(line: str, value: str, decimal: str) -> tuple[float, str]:
-    """Return (number, unit or "") of a length. Raises ValueError for other texts, and for ambiguous commas."""
+    """Convert the text `value` of a length to (number, unit); the unit is "" if none is stated.
+
+    Raises ValueError, which quotes the line, for a text that is no length. A comma with two meanings is an error, too.
+    """
     match = _LENGTH.fullmatch(value)
     if match is None:
         raise ValueError(f"header {line!r}: not a length; a number, with or without a unit, is needed")
@@ -222,7 +242,14 @@ def _length(line: str, value: str, decimal: str) -> tuple[float, str]:
 
 
 def _agreed_step(axis: int, steps: Sequence[float], extents: Sequence[float], count: int) -> float:
-    """Return the spacing along an axis from statements that must agree; nan without a statement."""
+    """Return the spacing along an axis from the statements about the axis; nan if there is no statement.
+
+    axis : 0 for x, 1 for y
+    steps, extents : stated spacings, and stated extents of the map, along the axis
+    count : number of points along the axis; the extent of the map is `count` or `count` − 1 spacings
+
+    Raises ValueError if the statements do not agree.
+    """
     if not (steps or extents):
         return float("nan")
     step = steps[0] if steps else extents[0] / count
@@ -238,7 +265,7 @@ def _agreed_step(axis: int, steps: Sequence[float], extents: Sequence[float], co
 
 
 def names_profile(lines: Iterable[str], count: int) -> bool:
-    """Return True if a line is the heading of a profile with `count` columns, positions x and heights z among them."""
+    """Return True if one of the lines is the heading of a profile: `count` names of columns, including x and z."""
     return any(len(cells) == count and _profile_columns(cells) for cells in (_cells(_heading(line)) for line in lines))
 
 
@@ -253,10 +280,10 @@ def _cells(heading: str) -> list[str]:
 
 
 def _heading_of_columns(lines: Sequence[str], count: int, is_profile: bool) -> _Columns | None:
-    """Return the columns in the first line that is their heading, or None.
+    """Return the columns that the heading among the lines names; None if no line is a heading.
 
     count : number of columns of the table
-    is_profile : True for columns x and z, False for columns x, y and z
+    is_profile : True if the table holds a profile with columns x and z, False for a map with columns x, y and z
 
     Raises ValueError for units that are not lengths, for positions in degrees, for a second heading, for lines that may
     be headings in another form, and for the heading of a profile above a map.
@@ -275,7 +302,10 @@ def _heading_of_columns(lines: Sequence[str], count: int, is_profile: bool) -> _
 
 
 def _columns(heading: str, count: int, is_profile: bool) -> _Columns | None:
-    """Return the columns in a heading, or None. Raises ValueError for the heading of a profile above a map."""
+    """Return the columns that a text names as a heading of `count` columns; None if the text is no such heading.
+
+    Raises ValueError for the heading of a profile above a map.
+    """
     cells = _cells(heading)
     if len(cells) != count:
         return None
@@ -287,7 +317,7 @@ def _columns(heading: str, count: int, is_profile: bool) -> _Columns | None:
 
 
 def _check_no_heading(text: str, count: int, is_profile: bool) -> None:
-    """Raise ValueError if a text may be a heading that was not recognised, or one of positions in degrees."""
+    """Raise ValueError if a text may be a heading that was not recognised, or if it names positions in degrees."""
     words = set(re.split(r"[\W\d_]+", text.lower()))
     if words & _DEGREES:
         raise ValueError(f"heading {text[:60]!r}: positions in degrees; lengths x and y are needed")
@@ -301,9 +331,12 @@ def _check_no_heading(text: str, count: int, is_profile: bool) -> None:
 
 
 def _map_columns(cells: Sequence[str]) -> _Columns | None:
-    """Return the columns of a heading with x, y and z in any order, and possibly others; None for other cells."""
+    """Return the columns of a heading that names x, y and z in any order; None for cells that do not name all three.
+
+    The heading may name other columns as well.
+    """
     matches = [_COLUMN.fullmatch(cell) for cell in cells]
-    if [m and m[1].lower() for m in matches] == ["x", "y", None]:  # z has another name
+    if [m and m[1].lower() for m in matches] == ["x", "y", None]:  # the third column is z under another name
         matches[2] = _COLUMN.fullmatch(re.sub(r"^[^\W\d_][^\[(/_]*", "z", cells[2]))
     names = tuple(match[1].lower() if match else "" for match in matches)
     if sorted(filter(None, names)) != ["x", "y", "z"]:
@@ -313,7 +346,10 @@ def _map_columns(cells: Sequence[str]) -> _Columns | None:
 
 
 def _profile_columns(cells: Sequence[str]) -> _Columns | None:
-    """Return the columns of a heading with positions x and heights z of a profile; either may be named y."""
+    """Return the columns of a heading that names positions x and heights z of a profile; None for other cells.
+
+    Positions or heights may also be named y.
+    """
     matches = [_PROFILE_COLUMN.fullmatch(cell) for cell in cells]
     names = [next(name for name in "xyz" if match[name]) if match else "" for match in matches]
     if sorted(names) == ["y", "z"] or sorted(names) == ["x", "y"]:

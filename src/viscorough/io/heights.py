@@ -40,8 +40,8 @@ def read_heights(
 ) -> Indenter:
     """Read a map of heights as an Indenter.
 
-    The highest point touches first. Points that the file marks as missing are nan and lie outside the indenter. Rows
-    are along y and columns along x, in the order of the file; points x, y, z are sorted in increasing order. An
+    The highest point touches first. Points that the file marks as missing are nan and lie outside the indenter. x runs
+    along each row and y from row to row, in the order of the file; points x, y, z are sorted by increasing x and y. An
     AccuracyWarning is given for each defect of the prepared map, such as tilt, spikes and holes, and for an rms slope
     above 0.3.
 
@@ -119,8 +119,8 @@ def read_line(
         with positions x and heights z. If a heading names x and z, such as "x [um], z [nm]", other columns are ignored.
     spacing : number or text, optional
         Distance between neighbouring points: a number in the unit of the heights, or a text such as "0.2 um". Needed if
-        the file states no spacing. Positions in the file must be equally spaced, to the last digit. Positions 0, 1,
-        2, … or 1, 2, 3, … without a heading number the points and state no spacing.
+        the file states no spacing. Positions in the file must be equally spaced, within one unit of their last digit.
+        Positions 0, 1, 2, … or 1, 2, 3, … without a heading number the points and state no spacing.
     unit : str, optional
         Unit of length of the heights, such as "um", if the file states none. It also applies to positions without a
         unit.
@@ -161,7 +161,7 @@ def read_line(
 
 
 def surface_to_content(indenter: Indenter) -> netcdf.Content:
-    """Convert an Indenter to a Content with `heights` over (y, x), or over x for a line.
+    """Convert an Indenter to a Content with the variable `heights`, of dimensions (y, x), or (x) for a line.
 
     The coordinates y and x count from the centre of the map or line.
     """
@@ -188,7 +188,7 @@ def dimensions_of_heights(path: FilePath) -> int:
 
 
 def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
-    """Return the Scan with heights multiplied by a scale, whose unit, if any, becomes the unit of the heights."""
+    """Multiply the heights of a Scan by a scale. If the scale has a unit, the heights get this unit."""
     quantity = units.with_unit(scale)
     number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
     if unit and units.is_length(scan.unit):
@@ -215,7 +215,8 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
         return read_tiff(path, channel)
     if suffix in elevation.FORMATS:
         return elevation.read_elevation(path, elevation.FORMATS[suffix], channel)
-    if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):  # some instruments use suffixes of texts
+    # A binary file with the suffix of a text is in the format of an instrument.
+    if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):
         if channel is not None:
             raise ValueError(f"{argument('channel')} {channel}: a file of this kind holds one map; leave it out")
         return Scan(npy_array(path)) if suffix == ".npy" else _with_units_of_prj(read_text(path, is_map=is_map), path)
@@ -225,7 +226,10 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
 
 
 def _with_units_of_prj(scan: Scan, path: FilePath) -> Scan:
-    """Return the Scan of a text file with the units of its .prj file, if it is an ESRI grid and has such a file."""
+    """Add the units that the .prj file of an ESRI grid states to its Scan. Return other Scans unchanged.
+
+    path : text file of the Scan; the .prj file has the same name with another suffix
+    """
     if scan.corners is None or not any(Path(path).with_suffix(end).exists() for end in (".prj", ".PRJ")):
         return scan
     lateral, vertical = elevation.units_of_prj(path)
@@ -241,7 +245,8 @@ def npy_array(path: FilePath) -> NDArray[Any]:
 def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Scan:
     """Return the Scan in a variable of a NetCDF file.
 
-    channel : name of the variable; None for `heights` or, without it, for the only variable of so many dimensions
+    channel : name of the variable. None for the variable `heights` or, if there is none, for the only variable with
+        this number of dimensions
     dimensions : 2 for a map, 1 for a line; leading dimensions of length 1, such as a time, do not count
     """
     with netcdf.opened(path) as file:
@@ -271,19 +276,28 @@ def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Sca
 
 
 def _leading(variable: netCDF4.Variable, dimensions: int) -> str:
-    """Return the leading dimensions with more than one value as text, such as "time (3)"; "" if there are none."""
+    """Return the leading dimensions that have more than one value, as text such as "time (3)"; "" if there are none.
+
+    dimensions : number of the last dimensions, which belong to a map or line and are not leading
+    """
     lengths = zip(variable.dimensions[:-dimensions], variable.shape[:-dimensions], strict=True)
     return ", ".join(f"{name} ({length})" for name, length in lengths if length != 1)
 
 
 def _unit_of(variable: netCDF4.Variable) -> str:
-    """Return the attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" without both."""
+    """Return the unit of a NetCDF variable from its attribute `units` or `unit`; "1" if it has neither."""
     unit = getattr(variable, "units", getattr(variable, "unit", None))
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
 def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
-    """Return (name, positions, unit) along a dimension, from its coordinate or the only variable over it; or None."""
+    """Return (name, positions, unit) of the variable with the positions along a dimension; None if there is none.
+
+    This variable is the coordinate, which has the name of the dimension. Without a coordinate, it is the only variable
+    of numbers whose only dimension is this dimension.
+
+    heights : name of the variable of heights, which is not considered
+    """
     variables = {name: each for name, each in file.variables.items() if each.dimensions == (dimension,)}
     along = [name for name, each in variables.items() if np.dtype(each.dtype).kind in "iuf" and name != heights]
     name = dimension if dimension in along else along[0] if len(along) == 1 else None
@@ -293,8 +307,9 @@ def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tup
 def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str] | None) -> tuple[Any, ...]:
     """Return ((dx, dy), unit) from the positions of rows and columns; (None, "1") without positions.
 
-    Positions that only number the points do not count. Raises ValueError if only rows or columns have positions, and if
-    only one unit is stated.
+    rows, columns : (name, positions, unit) from `_positions_along`. Positions that only number the points do not count
+
+    Raises ValueError if only the rows or only the columns have positions, and if a unit is stated for one of them only.
     """
     stated = [axis for axis in (columns, rows) if axis is not None and not _are_indices(*axis[1:])]
     if not stated:

@@ -16,13 +16,14 @@ from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import reading
 from viscorough.io.scan import Scan
 
-# Formats of plain arrays, with rows along y. The first index of SurfaceTopography runs along x.
+# In these formats of plain arrays the first index runs along y. In all other formats that SurfaceTopography reads, the
+# first index of its arrays runs along x.
 _ARRAY_FORMATS = ("npy", "npz", "mat", "h5")
-# Heights of at least this magnitude, in any unit of length, mark missing points, such as -1.8e308.
+# Numbers of at least this magnitude, such as -1.8e308, mark missing points. No height is as large, whatever its unit.
 _LARGEST_HEIGHT = 1e30
-# Shortest and longest side of the field of an instrument in metres. Other sides indicate a wrong unit.
+# Sides of the field that an instrument measures are between these lengths in metres. Other sides suggest a wrong unit.
 _LEAST_SIDE, _LARGEST_SIDE = 1e-8, 1.0
-# Suffixes that several formats use, so that the fault found by one of their readers may not be the cause.
+# Several formats use each of these suffixes. The error that the reader of one format raises may thus be misleading.
 _SHARED_SUFFIXES = ("asc", "csv", "dat", "txt", "xyz", "zip")
 _NANOMETRES_PER_MILLIMETRE = 1e6
 
@@ -33,8 +34,8 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
     An AccuracyWarning is given if other channels hold heights as well, for a periodic surface, and for a field that is
     larger than 1 m or smaller than 10 nm.
 
-    channel : name or number of the channel, from 0; by default the first channel with heights. It is needed for
-        several plain arrays, as in MATLAB and HDF5 files
+    channel : name or number of the channel, from 0; by default the first channel with heights. It is needed if a file
+        of plain arrays, such as a MATLAB or HDF5 file, holds several arrays
 
     Raises a one-line ValueError for unknown formats, line scans and channels without heights.
     """
@@ -47,11 +48,11 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         if file.format() == "gwy" and not file.channels:
             return _gwyddion_scan(path, file, channel)
         chosen, others = _choose(file, channel)
-        # SurfaceTopography needs a size even if the file states none. It is not used then.
+        # SurfaceTopography needs a size. If the file states none, this size is a dummy, and no spacing is returned.
         size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
         topography = chosen.topography(**size)
         heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
-        # HDF5 files that MATLAB wrote hold its arrays transposed.
+        # An HDF5 file that MATLAB wrote holds the arrays in transposed form.
         kind = file.format()
         if kind not in _ARRAY_FORMATS or (kind == "h5" and Path(path).suffix.lower() == ".mat"):
             heights = heights.T
@@ -73,7 +74,8 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 def _opened(path: FilePath) -> Any:
     """Return a SurfaceTopography reader of a file, for the format that its content or its suffix indicates.
 
-    Raises ValueError for an unknown format, and with the fault that the reader for the suffix finds.
+    Raises ValueError for an unknown format. If the content indicates no format, the reader for the suffix raises an
+    error that states the fault.
     """
     try:
         from SurfaceTopography.IO import CannotDetectFileFormat, open_topography, readers
@@ -93,16 +95,19 @@ def _opened(path: FilePath) -> Any:
         if not kinds or suffix in _SHARED_SUFFIXES:
             raise ValueError("no known format") from error
         return open_topography(source, format=kinds[0])
-    if file.format() == "hgt":  # any file of a suitable size could have this format
+    if file.format() == "hgt":  # every file of a suitable size is recognised as this format
         raise ValueError("no known format")
     if file.format() in kinds or _maps(file) or not kinds:
         return file
-    file.close()  # the content suits several formats
+    file.close()  # the content suits several formats, and the format found is not the format of the suffix
     return open_topography(source, format=kinds[0])
 
 
 def _with_plain_revision(path: FilePath) -> Any:
-    """Return the path as text, or the content of an x3p file with a hyphen instead of a dash in its revision."""
+    """Return what SurfaceTopography can open: the path, or for an x3p file its content with a corrected revision.
+
+    The revision in an x3p file may be spelled with a dash. In the returned content it has a hyphen: ISO5436 - 2000.
+    """
     if Path(path).suffix.lower() != ".x3p" or not zipfile.is_zipfile(path):
         return str(path)
     content = io.BytesIO()
@@ -117,15 +122,16 @@ def _with_plain_revision(path: FilePath) -> Any:
 
 
 def _maps(file: Any) -> list[Any]:
-    """Return the channels of a file that are maps; plain arrays need more than one row and column."""
+    """Return the channels of a file that are maps. Plain arrays with a single row or column do not count as maps."""
     maps = [channel for channel in file.channels if channel.dim == 2]
     return [each for each in maps if file.format() not in _ARRAY_FORMATS or min(each.nb_grid_pts) > 1]
 
 
 def _choose(file: Any, name: str | None) -> tuple[Any, list[str]]:
-    """Return (channel, names of the other channels with heights).
+    """Return the channel of a file to read, and the names of the other channels with heights.
 
-    name : name or number of the channel; None for the first channel with heights. Others are listed only for None
+    name : name or number of the channel; None for the first channel with heights. The names of other channels are
+        returned only for None
     """
     maps = _maps(file)
     called = [channel for channel in maps if name in (channel.channel_id, channel.name, str(channel.index))]
@@ -172,9 +178,12 @@ def _check_field(path: FilePath, spacing: tuple[float, float], unit: str, shape:
 
 
 def _gwyddion_scan(path: FilePath, file: Any, name: str | None) -> Scan:
-    """Return the Scan of a Gwyddion field whose heights or lengths have no unit; a size without a unit is ignored.
+    """Return the Scan of a Gwyddion field whose heights or lengths have no unit.
 
-    name : name or number of the field; needed if there are several
+    If the lengths have no unit, the Scan has no spacing.
+
+    file : reader of SurfaceTopography for the file at `path`
+    name : name or number of the field; needed if the file holds several fields
     """
     content = file._metadata
     numbers = [match[1] for match in map(re.compile(r"/(\d+)/data").fullmatch, content) if match]
@@ -199,11 +208,14 @@ def _gwyddion_scan(path: FilePath, file: Any, name: str | None) -> Scan:
 
 
 def _gwyddion_unit(field: dict[str, Any], axes: str) -> str:
-    """Return the unit of a Gwyddion field, "1" if it has none."""
+    """Return the unit of heights (axes "z") or of lengths (axes "xy") of a Gwyddion field; "1" if it is not stated."""
     return field.get(f"si_unit_{axes}", {}).get("GwySIUnit", {}).get("unitstr", "").strip() or units.UNKNOWN
 
 
 def _gwyddion_numbers(path: FilePath, field: dict[str, Any]) -> Array:
-    """Return the numbers of a Gwyddion field, stored in double precision after their count, shape (rows, columns)."""
+    """Read the numbers of a Gwyddion field as an array of shape (rows, columns).
+
+    The file holds the count of the numbers in 4 bytes, and then the numbers in double precision.
+    """
     shape = field["yres"], field["xres"]
     return np.fromfile(path, "<f8", shape[0] * shape[1], offset=field["data"]["offset"] + 4).reshape(shape)

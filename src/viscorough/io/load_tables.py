@@ -2,8 +2,8 @@
 
 The columns are depth, force, stiffness, contact area, pressures and, on request, grid errors, in the units of
 viscorough.basics.units.result_units: um, um2, and with a modulus N, N/m and MPa. A file that could not be evaluated has
-one row with the error and without numbers. Every row has a digest of its file and of the settings, so that a table can
-be continued: the rows of unchanged files are taken from it instead of being computed again.
+one row with the error and without numbers. Every row has a digest of its file and of the settings. Thanks to the
+digests, a table can be continued: rows of unchanged files are taken from the table instead of being computed again.
 """
 
 import csv
@@ -26,7 +26,7 @@ from viscorough.results.contact_maps import Contact
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# {quantity: its kind, a key of units.result_units; None for counts and shares}.
+# Quantities in tables: {quantity: key of units.result_units for its unit, or None for counts and shares}.
 _MEASURES = {
     "depth": "length",
     "force": "force",
@@ -40,10 +40,10 @@ _MEASURES = {
     "patches": None,
     **dict.fromkeys(ABOUT_GRID),
 }
-# Names of columns if a modulus is given: F, k and p replace F/G, k/G and p/G.
+# {quantity: name of its column if a modulus is given}: F, k and p then replace F/G, k/G and p/G.
 _WITH_MODULUS = {"force": "normal_force", "stiffness": "normal_stiffness"}
 _WITH_MODULUS |= {"mean_pressure": "mean_normal_pressure", "largest_pressure": "largest_normal_pressure"}
-# Quantities of contacts and of loading curves.
+# Quantities in a table of contacts, and quantities in a table of loading curves.
 _CONTACT_QUANTITIES = [name for name in _MEASURES if name not in ("contact_count", *ABOUT_GRID)]
 _CURVE_QUANTITIES = [
     "depth",
@@ -56,9 +56,9 @@ _CURVE_QUANTITIES = [
 ]
 # Columns of whole numbers.
 _COUNTS = ("contact_count", "patches")
-# Quantities that users prescribe, with six digits in texts.
+# Users may prescribe these quantities. Texts therefore show them with six digits.
 _PRESCRIBED = ("depth", "force", "normal_force")
-# Number of digits of a digest.
+# Number of hexadecimal digits of a digest that are kept.
 _DIGEST_DIGITS = 16
 # Columns of texts: {name: meaning}.
 _TEXTS = {
@@ -70,7 +70,7 @@ _TEXTS = {
 _MEANINGS = {
     name: text for name, (text, _) in (OVER_LEVELS | ABOUT_GRID | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()
 }
-# {column: (meaning, unit, or None for texts)} of a table of contacts with grid errors, in SI units.
+# Columns of a table of contacts with a modulus and with grid errors: {column: (meaning, unit, or None for texts)}.
 SI_COLUMNS: dict[str, tuple[str, str | None]] = {
     "file": (_TEXTS["file"], None),
     **{
@@ -83,7 +83,8 @@ SI_COLUMNS: dict[str, tuple[str, str | None]] = {
     },
     **{name: (text, None) for name, text in _TEXTS.items() if name != "file"},
 }
-# Suffixes of files that GDAL reads together with a scan: in place of its suffix, and added to its name.
+# GDAL reads further files together with a file of heights. They have its name with one of these suffixes instead of its
+# suffix, or with one of these endings after its suffix.
 _COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")
 
 Row = dict[str, float | int]
@@ -91,7 +92,7 @@ Rows = tuple[Sequence[Row], dict[str, str]]  # rows and {column: unit}
 
 
 class LoadRows(NamedTuple):
-    """Rows of one file of heights in a table of loads.
+    """Rows of one file of heights in a table.
 
     file : name of the file
     digest : digest of the file and the settings; "" if the file cannot be read
@@ -110,7 +111,7 @@ class LoadRows(NamedTuple):
 
 
 def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] | None = None) -> Rows:
-    """Return a row of a table for each contact, and {column: unit}.
+    """Return the rows of a table, one for each contact, and {column: unit}.
 
     grid_errors : {quantity of io.curves.ABOUT_GRID: its value for each contact}; None for a table without them
     """
@@ -122,7 +123,7 @@ def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] 
 
 
 def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float | None) -> Rows:
-    """Return a row of a table for each level of the loading curve of an indenter, and {column: unit}.
+    """Return the rows of a table, one for each level of the loading curve of an indenter, and {column: unit}.
 
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known; None if it is not given
     """
@@ -134,7 +135,7 @@ def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float 
 
 
 def _rows(values: dict[str, Any], length_unit: str, shear_modulus: float | None) -> Rows:
-    """Convert {quantity: numbers of the solver} to rows in the units of readers."""
+    """Convert {quantity: numbers of the solver} to the rows of a table, in the units of units.result_units."""
     read, stated = units.result_units(length_unit, shear_modulus), {}
     columns: dict[str, list[float | int]] = {}
     for quantity, numbers in values.items():
@@ -149,12 +150,15 @@ def _rows(values: dict[str, Any], length_unit: str, shear_modulus: float | None)
 
 
 def _rounded(number: float) -> float:
-    """Return a number to 15 digits, so that a force of 5 uN is 5e-06 N after its conversion to F/G and back."""
+    """Round a number to 15 digits, so that a force of 5 uN is 5e-06 N after its conversion to F/G and back."""
     return float(f"{number:.15g}")
 
 
 def text_of_row(row: Row, stated: dict[str, str]) -> str:
-    """Return the numbers of a contact in one line, in the units of its table."""
+    """Return the numbers of a contact, given as a row of a table, as one line of text.
+
+    stated : {column: unit} of the table
+    """
 
     def text(name: str) -> str:
         return units.ResultUnit(stated[name], 1.0).text(row[name], 6 if name in _PRESCRIBED else 4)
@@ -171,9 +175,11 @@ def text_of_row(row: Row, stated: dict[str, str]) -> str:
 
 
 def digest_of_scan(path: FilePath, settings: str) -> str:
-    """Return a digest of a file of heights, of the files that GDAL reads with it, and of the settings.
+    """Return a digest of a file of heights, of further files that GDAL reads with this file, and of the settings.
 
-    Returns "" if a file cannot be read.
+    settings : text that states the version of viscorough, the command and its options
+
+    Returns "" if one of the files cannot be read.
     """
     file = Path(path)
     companions = [file.with_suffix(suffix) for suffix in _COMPANIONS] + [Path(f"{file}{end}") for end in _ADDED]
@@ -203,12 +209,15 @@ def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
 
 
 def lines_of_files(results: Iterable[LoadRows]) -> list[dict[str, Any]]:
-    """Return {column: value} of all lines of a table: one for each load, or one with the error of a file."""
+    """Return the lines of a table as {column: value}: a line for each load of a file, or one line with its error."""
     return [row | {name: getattr(result, name) for name in _TEXTS} for result in results for row in result.rows or [{}]]
 
 
 def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
-    """Convert the rows of files, which `with_one_unit` returned, to the Content of a table."""
+    """Convert the rows of files, as `with_one_unit` returns them, to the Content of a table.
+
+    attributes : further global attributes of the Content
+    """
     stated = next((result.units for result in results if result.rows), {})
     lines = lines_of_files(results)
     variables = {"file": _column([line["file"] for line in lines], _TEXTS["file"])}
@@ -220,15 +229,15 @@ def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
 
 
 def _column(values: list[Any], meaning: str, **attributes: str) -> Variable:
-    column: Array = np.empty(len(values), dtype=object)  # whole numbers stay whole if others are missing
+    column: Array = np.empty(len(values), dtype=object)  # of objects, since nan would turn whole numbers into floats
     column[:] = values
     return Variable(("row",), column, {"long_name": meaning, **attributes})
 
 
 def finished_rows(path: FilePath) -> dict[str, LoadRows]:
-    """Return {file: its rows} in a table that `load_table` made, without the files that had an error.
+    """Read a table that `load_table` made, and return {name of a file: its rows}, without files that had an error.
 
-    Other files, and tables that another program changed beyond recognition, give no rows.
+    Return {} for a file that is no such table, or that another program changed beyond recognition.
     """
     found: dict[str, LoadRows] = {}
     try:
@@ -250,6 +259,6 @@ def finished_rows(path: FilePath) -> dict[str, LoadRows]:
 
 
 def _heading(text: str) -> tuple[str, str]:
-    """Return the name and the unit in a heading such as "depth (um)"; the unit is "1" if there is none."""
+    """Return (name, unit) from the heading of a column such as "depth (um)"; the unit is "1" if there is none."""
     name, _, unit = text.removesuffix(")").partition(" (")
     return name, unit or units.UNKNOWN

@@ -20,7 +20,8 @@ from viscorough.media import kinds
 from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.media.medium import Medium
 
-# Classes of media by kind. The keys of a kind are the parameters of its class; a creep table is in a separate file.
+# {kind of medium in a YAML file: class}. The other keys of the file are the parameters of the class. Only a creep table
+# is in a separate file.
 KINDS: dict[str, Any] = {
     "newtonian": kinds.Newtonian,
     "maxwell": kinds.Maxwell,
@@ -30,11 +31,12 @@ KINDS: dict[str, Any] = {
     "springpot": kinds.Springpot,
     "creep_table": kinds.CreepTable,
 }
-# Columns of the table of an identified medium: common ones, and further ones by the measured quantity.
+# First columns of every table of an identified medium: {name: (meaning, unit)}.
 _COMPLIANCE: dict[str, tuple[str, int | str]] = {
     "time": ("time since a step of the force", "s"),
     "compliance": ("creep compliance J", "1/Pa"),
 }
+# All columns of the table of an identified medium: {measured quantity: {name: (meaning, unit)}}.
 _TABLES: dict[str, Quantities] = {
     "depth": _COMPLIANCE
     | {
@@ -48,7 +50,7 @@ _TABLES: dict[str, Quantities] = {
         "high": ("relaxation modulus, upper end of 95 %, missing if it or the scatter is unknown", "Pa"),
     },
 }
-_LARGEST_FILE = 1_000_000  # bytes
+_LARGEST_FILE = 1_000_000  # largest size of a YAML file in bytes
 
 
 def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
@@ -121,7 +123,7 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
 
 
 def creep_table_of(path: FilePath) -> Path | None:
-    """Return the path of the creep table that a YAML file names, which may not exist; None for other media."""
+    """Return the path of the creep table that a YAML file names, whether it exists or not; None for other media."""
     name = _mapping(path).get("file")
     return Path(path).parent / name if isinstance(name, str) and name and "\0" not in name else None
 
@@ -129,9 +131,10 @@ def creep_table_of(path: FilePath) -> Path | None:
 def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: Any) -> None:
     """Write an IdentifiedMedium as YAML for `read_medium`, atomically.
 
-    A creep table is written to a second file in the same folder, with the suffix .csv. It has the columns time,
-    compliance, and low and high, the ends of the interval of the compliance, which are empty if the scatter of the
-    record is unknown.
+    A creep table is written to a second file in the same folder, with the suffix .csv. The table has the columns time,
+    compliance, low and high. low and high are the ends of the interval of the compliance; they are empty if the scatter
+    of the record is unknown. If the force was measured, the table also has the column relaxation_modulus, and low and
+    high are the ends of its interval.
 
     Parameters
     ----------
@@ -176,7 +179,7 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
 
 
 def identified_to_content(identified: IdentifiedMedium) -> Content:
-    """Convert an IdentifiedMedium to a Content: compliance and the ends of its interval over time."""
+    """Convert an IdentifiedMedium to a Content: compliance, relaxation modulus if known, and interval at each time."""
     quantities = _TABLES[identified.measured]
     values = {name: getattr(identified, name) for name in quantities}
     variables = described(("level",), values, quantities, identified.length_unit)
@@ -184,7 +187,10 @@ def identified_to_content(identified: IdentifiedMedium) -> Content:
 
 
 def check_medium_file(path: FilePath) -> Path:
-    """Return the path of the creep table of a YAML file. Raises ValueError for suffixes other than .yaml and .yml."""
+    """Return the path of the creep table that belongs to a YAML file to be written: the same name with .csv.
+
+    Raises ValueError if the suffix of the YAML file is neither .yaml nor .yml.
+    """
     check_suffix(path, MEDIA)
     return Path(path).with_suffix(".csv")
 

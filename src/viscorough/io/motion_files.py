@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from viscorough.law.estimate import Estimate
 
 
-# Quantities over time: {name of a variable: (long_name, unit)}.
+# Variables with one value for each time: {name: (long_name, unit as in io.netcdf.Quantities)}.
 _QUANTITIES: Quantities = {
     **OVER_LEVELS,
     "time": ("time since the load was applied", "time"),
@@ -22,7 +22,7 @@ _QUANTITIES: Quantities = {
     "velocity": ("velocity of penetration du/dt", "velocity"),
     "force": ("force F at that time", "N"),
 }
-# Suffixes of the variables of an estimate: the mean, and the ends of the interval of single surfaces.
+# An estimate has three variables for each quantity: {suffix of the name of a variable: meaning}.
 _STATISTICS = {
     "": "mean over surfaces",
     "_low": "lower end of the interval of 95 % of single surfaces",
@@ -46,9 +46,9 @@ def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
 
 
 def motion_to_content(motion: Motion) -> Content:
-    """Convert a Motion to a Content over its times.
+    """Convert a Motion to a Content with one level for each time of the motion.
 
-    Undetermined values (before the first level of the curve) and infinite values become nan.
+    Undetermined values (at times before the first level of the loading curve) and infinite values become nan.
     """
     names = ("time", "depth", "force", "velocity", "contact_fraction")
     finite = {name: np.where(np.isinf(values := getattr(motion, name)), np.nan, values) for name in names}

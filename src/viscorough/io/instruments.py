@@ -19,7 +19,7 @@ from viscorough.io.scan import Scan
 # In these formats of plain arrays the first index runs along y. In all other formats that SurfaceTopography reads, the
 # first index of its arrays runs along x.
 _ARRAY_FORMATS = ("npy", "npz", "mat", "h5")
-# Numbers of at least this magnitude, such as -1.8e308, mark missing points. No height is as large, whatever its unit.
+# Numbers of at least this magnitude, such as -1.8e308, mark missing points. No height in any unit is as large.
 _LARGEST_HEIGHT = 1e30
 # Sides of the field that an instrument measures are between these lengths in metres. Other sides suggest a wrong unit.
 _LEAST_SIDE, _LARGEST_SIDE = 1e-8, 1.0

@@ -19,7 +19,8 @@ from viscorough.io.unpacking import STORAGE, unpacked
 # {name of a variable: (long_name, unit)}. The unit is a power of the unit of length, "time" (always in s), "velocity",
 # or an SI unit such as "N", which becomes "1" if the unit of length is not known.
 Quantities = Mapping[str, tuple[str, int | str]]
-# Compress variables of at least so many values: for fewer, chunks cost more than compression saves.
+# Variables of at least this many values are compressed. For smaller variables, the chunks that compression needs take
+# more room than compression saves.
 COMPRESSED_FROM = 4096
 
 
@@ -34,7 +35,7 @@ class Variable(NamedTuple):
 class Content(NamedTuple):
     """Content of a NetCDF file: variables {name: Variable} and global attributes {name: value}.
 
-    path : path of the file that was read, for error messages; None for other contents
+    path : path of the file from which the Content was read, for error messages; None if it was not read from a file
     """
 
     variables: dict[str, Variable]
@@ -49,7 +50,11 @@ class Content(NamedTuple):
 def described(
     dimensions: tuple[str, ...], values: Mapping[str, Any], quantities: Quantities, length_unit: str
 ) -> dict[str, Variable]:
-    """Return variables over the same dimensions, each with the long_name and the unit of its quantity."""
+    """Return {name: Variable} with the given dimensions, each with the long_name and the unit of its quantity.
+
+    values : {name: array}
+    quantities : {name: (long_name, unit)}, see `Quantities`
+    """
     spelled: dict[int | str, str] = {power: unit_power(length_unit, power) for power in (0, 1, 2)}
     spelled |= {"time": "s", "velocity": "s-1" if length_unit == "1" else f"{length_unit} s-1"}
     variables = {}
@@ -61,7 +66,11 @@ def described(
 
 
 def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: str) -> dict[str, Variable]:
-    """Return the coordinates of the points of a map or line by dimension, counted from the centre."""
+    """Return the coordinates of the points of a map or line, {dimension: Variable}, counted from the centre.
+
+    spacings : {dimension: distance between neighbouring points}, in the order of `shape`
+    unit : unit of the spacings and coordinates
+    """
     axes = {}
     for (name, spacing), points in zip(spacings.items(), shape, strict=True):
         positions = spacing * (np.arange(points) - (points - 1) / 2)
@@ -70,7 +79,7 @@ def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: st
 
 
 def padded(rows: Sequence[Array]) -> Array:
-    """Combine rows of numbers to one array, with nan beyond the ends of shorter rows."""
+    """Combine rows of numbers into one array, with nan beyond the ends of shorter rows."""
     table = np.full((len(rows), max(map(len, rows))), np.nan)
     for whole, row in zip(table, rows, strict=True):
         whole[: len(row)] = row
@@ -78,7 +87,7 @@ def padded(rows: Sequence[Array]) -> Array:
 
 
 def global_attributes() -> dict[str, str]:
-    """Return the attributes of every file; they do not depend on the time and place of writing."""
+    """Return the global attributes that every file gets; they do not depend on the time and place of writing."""
     program = f"viscorough {__version__}"
     return {"Conventions": "CF-1.11", "source": program, "history": f"written by {program}"}
 
@@ -90,9 +99,10 @@ def compression(size: int) -> dict[str, Any]:
 
 @contextmanager
 def written_with_digest(path: FilePath) -> Iterator[Path]:
-    """Yield a temporary path for a NetCDF file with global_attributes, which then replaces `path`.
+    """Yield a temporary path at which the caller writes a NetCDF file; the file is then completed and replaces `path`.
 
-    The file gets the digest of its content (io.digest), which `opened` checks. Raises the errors of atomic_write.
+    The caller writes the file with global_attributes. The digest of the content (io.digest), which `opened` checks, is
+    added here. Raises the errors of atomic_write.
     """
     with atomic_write(path) as temporary:
         yield temporary
@@ -115,7 +125,7 @@ def write(content: Content, path: FilePath) -> None:
                 if dimension not in file.dimensions:
                     file.createDimension(dimension, size)
             kind = str if values.dtype.kind in "UO" else values.dtype
-            # CF: no coordinate may be missing.
+            # In CF no value of a coordinate may be missing, so coordinates get no fill value.
             fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None
             stored = file.createVariable(name, kind, dimensions, fill_value=fill, **compression(values.size))
             stored.setncatts(attributes)

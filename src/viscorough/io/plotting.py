@@ -27,13 +27,13 @@ Variables = dict[str, Variable]
 _METADATA: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 # Colours of Okabe and Ito, which people with any colour vision can distinguish.
 _BLUE, _VERMILION = "#0072b2", "#d55e00"
-# Curves of fewer points have markers.
+# A curve of fewer points is drawn with a marker at each point.
 _FEW = 40
-# Ratio of the ends of a logarithmic axis below which ticks at decades are too few.
+# If the upper end of a logarithmic axis divided by the lower end is less than this, ticks at powers of ten are too few.
 _FEW_DECADES = 80
-# Percentile of the pressures in contact at the end of their colours: single elements may have far larger pressures.
+# Colours end at this percentile of the pressures in contact, since single elements may have far larger pressures.
 _PERCENTILE = 99
-# Largest number of contacts of one file that are drawn.
+# At most this many contacts of a file are drawn.
 _MOST_MAPS = 4
 _STYLE: dict[Any, Any] = {"font.size": 8, "axes.titlesize": 8, "lines.linewidth": 1.2, "lines.markersize": 3}
 _STYLE |= {"savefig.dpi": 200, "svg.hashsalt": "viscorough"}
@@ -53,7 +53,7 @@ _SYMBOLS = {
 _LABELS = {name: f"{name.replace('_', ' ')} ${symbol}$" for name, symbol in _SYMBOLS.items()}
 _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x": "$x$", "y": "$y$"}
 _LABELS |= {"normal_force": "force $F$", "normal_stiffness": "stiffness $k$", "normal_pressure": "pressure $p$"}
-# {name of a number of a contact: its label above the maps}.
+# {name of a number of a contact: label of this number in the text above the maps}.
 _STATE = {"depth": "$u$", "force": "$F/G$", "normal_force": "$F$", "largest_normal_pressure": "largest $p$"}
 _STATE |= {"contact_fraction": "contact fraction", "corrected_contact_area": "corrected contact area"}
 _STATE |= {"patches": "patches"}
@@ -102,8 +102,11 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
 
 
 def kind_of(content: Content) -> tuple[Callable[[Variables], Figure], Variables]:
-    """Return the function that draws a Content, and its numbers. Raises ValueError for a Content of another kind."""
-    if set(STORED) <= set(content.variables):  # checks the curve, also in files of motions
+    """Return the function that draws a Content, and the variables of numbers for this function.
+
+    Raises ValueError for a Content that no function can draw.
+    """
+    if set(STORED) <= set(content.variables):  # the Content has a loading curve, which is checked here
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
     dimensions = {name: variable.dimensions for name, variable in numbers.items()}
@@ -147,14 +150,14 @@ def _fields(variables: Variables) -> Figure:
 
 
 def _with_modulus(variables: Variables, name: str) -> str:
-    """Return the name of the variable in N, N/m or Pa if a modulus was given; otherwise the name itself."""
+    """Return the name of the variable in N, N/m or Pa, if there is one since a modulus was given; otherwise `name`."""
     return f"normal_{name}" if f"normal_{name}" in variables else name
 
 
 def _in_readable_units(variables: Variables) -> Variables:
     """Convert positions, gap, heights and depth to units that suit their size, pressures to MPa and areas to um2.
 
-    Positions along x and y have one unit. Quantities without a unit of length are not changed.
+    Positions along x and y get the same unit. Quantities whose unit of length is not known are not changed.
     """
     changed = dict(variables)
     for names, unit in ((_PRESSURES, "MPa"), (_AREAS, "um2")):
@@ -182,7 +185,7 @@ def _stated_unit(variables: Variables, name: str) -> str:
 
 
 def _state(variables: Variables, index: int) -> str:
-    """Return the numbers of a contact in a file as text, with F instead of F/G if a modulus was given."""
+    """Return the numbers of the contact with this index as a text, with F instead of F/G if a modulus was given."""
     texts = []
     for name, symbol in _STATE.items():
         if name in variables and variables[name].values.size > index and _with_modulus(variables, name) == name:
@@ -191,7 +194,7 @@ def _state(variables: Variables, index: int) -> str:
 
 
 def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Array) -> None:
-    """Draw a map, grey outside the indenter, with a bar of colours unless it shows the contact."""
+    """Draw a map, grey outside the indenter, with a colour bar unless the map shows which elements are in contact."""
     extent: list[float] = []
     for position in (variables["x"].values, variables["y"].values):
         step = (position[-1] - position[0]) / max(len(position) - 1, 1) or 1.0
@@ -216,7 +219,7 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
 
 
 def _motion(variables: Variables) -> Figure:
-    """Draw depth and velocity over time, or a loop if force or depth decreases."""
+    """Draw depth and velocity against time. If force or depth decreases, draw the figure of `_loop` instead."""
     time = variables["time"].values
     if not (np.diff(time) >= 0).all():
         raise ValueError("time must not decrease; a file that viscorough wrote is needed")
@@ -228,7 +231,7 @@ def _motion(variables: Variables) -> Figure:
     figure, axes = _panels(len(names))
     for panel, name in zip(axes, names, strict=True):
         ends = [variables[key] for end in ("low", "high") if (key := f"{name}_{end}") in variables]
-        if len(ends) == 2:  # an estimate
+        if len(ends) == 2:  # the variables of an estimate, which has an interval
             panel.fill_between(time, ends[0].values, ends[1].values, color=_BLUE, alpha=0.25, linewidth=0)
         _curve(panel, time, variables[name].values)
         _label(panel, variables, "time", name, name)
@@ -236,7 +239,7 @@ def _motion(variables: Variables) -> Figure:
 
 
 def _loop(variables: Variables) -> Figure:
-    """Draw depth and force over time, and force over depth, on linear axes."""
+    """Draw depth and force against time, and force against depth, on linear axes."""
     variables = variables | {"normal_force": variables["force"]}  # the label of `force` is F/G
     pairs = [
         ("time", "depth", "depth"),
@@ -260,16 +263,16 @@ def _compliance(variables: Variables) -> Figure:
 def _relaxation(variables: Variables) -> Figure:
     figure, (modulus, compliance) = _panels(2)
     _with_interval(modulus, variables, "relaxation_modulus")
-    after = variables["time"].values > 0  # logarithmic axes
+    after = variables["time"].values > 0  # the axes are logarithmic
     _curve(compliance, variables["time"].values[after], variables["compliance"].values[after])
     _label(compliance, variables, "time", "compliance", "compliance")
     return figure
 
 
 def _with_interval(panel: Axes, variables: Variables, name: str) -> None:
-    """Draw a function of an identified medium over time with its interval, on logarithmic axes."""
+    """Draw compliance or relaxation modulus of a medium against time, with its interval, on logarithmic axes."""
     time, values, low, high = (variables[key].values for key in ("time", name, "low", "high"))
-    after = (time > 0) & (values > 0)  # logarithmic axes
+    after = (time > 0) & (values > 0)  # the axes are logarithmic
     least = values[after].min() / 10 if after.any() else 0.0
     ends = np.maximum(low[after], least), np.minimum(high[after], 10 * values[after])
     panel.fill_between(time[after], *ends, color=_BLUE, alpha=0.25, linewidth=0)
@@ -299,7 +302,7 @@ def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
     """Draw the positive values of a curve on logarithmic axes."""
     shown = (x > 0) & (y > 0)
     axes.set(xscale="log", yscale="log")
-    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # not shown, but they would take room
+    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # such labels, even if empty, would take room
     look = {"linewidth": 0.5, "alpha": 0.5} if thin else {"marker": "o" if shown.sum() < _FEW else ""}
     axes.plot(x[shown], y[shown], color=_BLUE, **look)
 
@@ -327,7 +330,8 @@ def _unit(variable: Variable) -> str:
 
 _X = {"x": ("x",)}
 _XY = _X | {"y": ("y",)}
-# (function that draws, variables and dimensions that it needs); the first that suits is used.
+# (function that draws a Content, {variable that the function needs: its dimensions}). The first function is used whose
+# variables the Content has.
 _KINDS: tuple[tuple[Callable[[Variables], Figure], dict[str, tuple[str, ...]]], ...] = (
     (_fields, {"pressure": ("y", "x"), **_XY}),
     (_fields, {"pressure": ("level", "y", "x"), **_XY}),

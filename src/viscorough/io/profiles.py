@@ -14,18 +14,18 @@ from viscorough.io.headers import names_profile, read_header
 from viscorough.io.scan import Scan
 from viscorough.io.text import Table, decoded_lines, is_own_table, parsed
 
-# A profile has at least so many points: in two rows of two numbers, x and z could be rows or columns.
+# A profile has at least this many points: in two rows of two numbers, x and z could be rows or columns.
 _LEAST_POINTS = 3
-# Relative difference up to which positions agree with the spacing in a header.
+# The distance of positions agrees with the spacing in a header if the relative difference is at most this.
 _STEPS_AGREE = 1e-3
 
 
 def read_profile(path: FilePath) -> Scan:
-    """Read the Scan, with heights of shape (points,), in a text file; points are in increasing order of x.
+    """Read a profile from a text file as a Scan with heights of shape (points,), in increasing order of x.
 
     A single column or row holds heights; two columns or rows hold x and z. If a heading names x and z, columns may have
-    any order, and others are ignored. Positions 0, 1, 2, … or 1, 2, 3, … without a unit and a name are numbers of the
-    points, and state no spacing.
+    any order, and columns other than x and z are ignored. Positions 0, 1, 2, … or 1, 2, 3, … without a unit and a name
+    only number the points, and state no spacing.
 
     Raises a one-line ValueError if the file does not certainly hold a profile.
     """
@@ -69,9 +69,9 @@ def holds_profile(path: FilePath) -> bool:
 
 
 def _positions_and_heights(table: Table, columns: tuple[str, ...] | None) -> tuple[Array | None, Array]:
-    """Return (positions x or None, heights) of a table.
+    """Return (positions x, heights) of the points in a table; positions are None if the table holds heights only.
 
-    columns : names of the columns; None if they have no heading
+    columns : names of the columns in their heading; None if there is no heading
 
     Raises ValueError for a table of another shape, and for columns whose meaning is not certain.
     """
@@ -105,7 +105,7 @@ def _counts_points(x: Array) -> bool:
 
 
 def _spacing(x: Array) -> float:
-    """Return the distance between positions. Raises ValueError if they are not equally spaced."""
+    """Return the distance between neighbouring positions. Raises ValueError if positions are not equally spaced."""
     spacing = even_spacing(x)
     if spacing is None:
         if np.isfinite(x).all():

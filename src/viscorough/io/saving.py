@@ -1,4 +1,4 @@
-"""Write results to the files of the command line, and read loading curves from them."""
+"""Write results to files in the formats of the command line, and read loading curves from such files."""
 
 from viscorough.basics.types import FilePath
 from viscorough.io import netcdf, tables
@@ -89,7 +89,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
 
 
 def to_content(result: Result) -> netcdf.Content:
-    """Convert a result to the Content of its file. Raises TypeError for other objects."""
+    """Convert a result to the Content of the file that `save` writes. Raises TypeError for other objects."""
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
     if isinstance(result, Motion):

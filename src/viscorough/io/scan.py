@@ -11,22 +11,23 @@ from viscorough.basics.types import Array
 from viscorough.surfaces.indenter import Indenter
 
 Distance = float | units.Quantity
-# Relative difference up to which a given spacing agrees with the spacing in the file.
+# A spacing that the user gives agrees with the spacing in the file if the relative difference is at most this.
 _AGREEMENT = 1e-3
-# Deviation from equal spacing that rounding of coordinates may cause, relative to the spacing.
+# Largest deviation from equal spacing that counts as rounding of coordinates, relative to the spacing.
 _UNIFORMITY = 1e-2
 
 
 class Scan(NamedTuple):
-    """Heights as a file states them; rows of a map are along y, columns along x, larger is higher.
+    """Heights of a map or line, with their spacing and units as a file states them. Larger heights are higher.
 
-    heights : shape (rows, columns), or (points,) for a line; nan or masked at points that were not measured
+    heights : shape (rows, columns), where x runs along a row and y from row to row, or (points,) for a line; nan or
+        masked at points that were not measured
     unit : unit of the heights, as in the file; "1" if the file states none
-    spacing : (dx, dy), distances between neighbouring columns and rows; nan for a direction that is not stated, None if
-        neither is
+    spacing : (dx, dy), distances between neighbouring columns and rows, with nan for a direction that is not stated;
+        None if no direction is stated
     spacing_unit : unit of the spacing, or of positions x and y, as in the file; "1" if the file states none
     corners : (left, bottom, right, top), x and y of the outermost points in a format without units that may hold
-        longitudes and latitudes; nan if the file does not state them, None for other formats
+        longitudes and latitudes; nan if the file does not state the corners, None for other formats
     """
 
     heights: np.ndarray
@@ -44,14 +45,14 @@ def to_indenter(
     *,
     dimensions: int = 2,
 ) -> Indenter:
-    """Convert a Scan to an Indenter: heights in their unit, spacings converted to it.
+    """Convert a Scan to an Indenter, with spacings in the unit of the heights.
 
-    spacing : one distance, or (dx, dy), each a number in the unit of the heights or a quantity for units.with_unit;
-        needed if the file states none, must agree with the file otherwise
-    unit : unit of the heights, and of a spacing in plain numbers; needed if the file states none, must agree with the
-        file otherwise
-    lateral_unit : unit of the spacing in the file, and of a spacing in plain numbers, if it is not the unit of the
-        heights; must agree with the file
+    spacing : one distance, or (dx, dy), each a number in the unit of the heights or a quantity for units.with_unit.
+        Needed if the file states no spacing; otherwise it must agree with the file
+    unit : unit of the heights, and of a spacing in plain numbers. Needed if the file states no unit; otherwise it must
+        agree with the file
+    lateral_unit : unit of the spacing in the file, and of a spacing in plain numbers, if this unit differs from the
+        unit of the heights. It must agree with the file
     dimensions : 2 for a map, 1 for a line
 
     Raises ValueError if file and arguments contradict each other, if spacing or unit is missing, for a unit that is not
@@ -94,14 +95,16 @@ def to_indenter(
 
 
 def _may_be_degrees(left: float, bottom: float, right: float, top: float) -> bool:
-    """Return True if all corners are possible longitudes, to 180 or 360 degrees, and latitudes."""
+    """Return True if x and y of the corners may be degrees: longitudes from −180 to 360, latitudes from −90 to 90."""
     return -180 <= left < right <= 360 and -90 <= bottom < top <= 90
 
 
 def _given_spacing(scan: Scan, length_unit: str, spacing: Any, plain_unit: str | None) -> tuple[float, ...]:
-    """Convert a given spacing to (dx, dy) in the unit of the heights.
+    """Convert a spacing that the user gives to (dx, dy) in the unit of the heights.
 
-    plain_unit : unit of plain numbers; None for the unit of the heights
+    length_unit : unit of the heights
+    spacing : one distance, or (dx, dy)
+    plain_unit : unit of distances that are plain numbers; None for the unit of the heights
     """
     pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
     if len(pair) != 2:
@@ -125,7 +128,7 @@ def _in_unit(distance: Any, unit: str) -> units.Quantity:
 
 
 def _unit_of_heights(scan: Scan, given: str | None) -> str:
-    """Return the unit of the heights, from the file or the argument; "1" if it is not known."""
+    """Return the unit of the heights from the file or from the argument `given`; "1" if neither states it."""
     try:
         _stated_unit(scan.unit)
     except ValueError as error:
@@ -135,12 +138,19 @@ def _unit_of_heights(scan: Scan, given: str | None) -> str:
 
 
 def _stated_unit(in_file: str) -> str | None:
-    """Return the unit of length that a file states, or None. Raises ValueError for other units."""
+    """Return the unit of length that a file states; None if the file states none. Raises ValueError for other units."""
     return None if in_file.strip() in ("", units.UNKNOWN) else units.length_unit(in_file)
 
 
 def _agreed_unit(name: str, lengths: str, in_file: str, given: str | None) -> str:
-    """Return the unit of lengths, from the file or the argument, which must agree; "1" if it is not known."""
+    """Return the unit that the file or the user's argument states; "1" if neither states one.
+
+    name : name of the argument
+    lengths : words for the lengths that have this unit, for the message
+    in_file : unit in the file; given : value of the argument, or None
+
+    Raises ValueError if file and argument state different units.
+    """
     stated = _stated_unit(in_file)
     given = None if given is None or given == units.UNKNOWN else units.length_unit(given)
     if stated and given and units.metres(stated) != units.metres(given):
@@ -174,7 +184,9 @@ def _stated_spacing(scan: Scan, length_unit: str, is_given: bool) -> tuple[float
 def uniform_spacing(name: str, positions: Array) -> float:
     """Return the distance between equally spaced positions, which may rise or fall.
 
-    Raises ValueError for fewer than two positions, and for distances that differ by more than rounding explains.
+    name : name of the coordinate in the file, for messages
+
+    Raises ValueError for fewer than two positions, and for distances that differ by more than rounding can cause.
     """
     positions = np.ma.filled(np.ma.asarray(positions).astype(float), np.nan)
     if positions.size < 2:
@@ -185,7 +197,8 @@ def uniform_spacing(name: str, positions: Array) -> float:
         steps = np.diff(positions)
         mean = (positions[-1] - positions[0]) / (positions.size - 1)
         largest = np.abs(positions).max()
-        in_single = np.array_equal(positions, positions.astype(np.float32))  # so they may have been rounded to it
+        # Positions that single precision represents exactly may have been rounded to single precision.
+        in_single = np.array_equal(positions, positions.astype(np.float32))
         rounding = float(np.spacing(largest.astype(np.float32))) if in_single else 4 * np.spacing(largest)
     is_uniform = mean != 0 and np.isfinite(mean) and np.abs(steps - mean).max() <= _UNIFORMITY * abs(mean) + rounding
     if not is_uniform or (np.sign(steps) != np.sign(mean)).any():

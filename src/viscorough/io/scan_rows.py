@@ -1,4 +1,4 @@
-"""Evaluate files of heights for a table of loads (io.load_tables): contacts, grid errors, and failures as rows."""
+"""Compute the rows of a file of heights in a table (io.load_tables): contacts, grid errors, or an error."""
 
 import warnings
 from collections.abc import Callable
@@ -18,12 +18,13 @@ from viscorough.results.contact_maps import Contact
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# Share of the contacts in the computation of contacts and their grid errors.
+# If grid errors are computed as well, the computation of the contacts counts as this share of the progress.
 _SHARE_OF_CONTACTS = 0.3
-# Further levels of the curve for grid errors, over the force of a load. The error is a mean over half a decade, and the
-# difference of two curves at a single force can be zero by chance.
+# The curve for grid errors has further levels at these multiples of the force of each load. A grid error is a mean over
+# half a decade of forces, since the difference of two curves at a single force can be zero by chance.
 _FORCES_BELOW = (10**-0.5, 10**-0.25)
-# Forces that differ by less than this share need only one level: closer levels differ by less than the tolerance.
+# No further level is added if its force differs from the force of a level by a smaller share than this: so close levels
+# differ by less than the tolerance.
 _LEAST_DIFFERENCE = 0.02
 
 
@@ -37,7 +38,7 @@ def rows_at_loads(
     progress: Progress | None = None,
     **how: Any,
 ) -> Rows:
-    """Return a row of a table for each load, and {column: unit}. Raises the errors of `contact_at`.
+    """Return the rows of a table, one for each load, and {column: unit}. Raises the errors of `contact_at`.
 
     force, depth : increasing forces [N, or length² without a modulus] or depths [length]; one of the two is needed
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known
@@ -56,14 +57,14 @@ def rows_at_loads(
 
 
 def _curve_with_grid_errors(indenter: Indenter, contacts: list[Contact], **how: Any) -> LoadingCurve:
-    """Return a curve with levels at the forces of contacts, and at the forces below them that grid errors need."""
+    """Return the loading curve with grid errors, at the forces of the contacts and at lower forces (_FORCES_BELOW)."""
     forces = _with_forces_below(np.array([contact.force for contact in contacts]))
     with warnings.catch_warnings(action="ignore", category=AccuracyWarning):  # the contacts gave the same warnings
         return indent(indenter, forces=forces, estimate_grid_error=True, **how)
 
 
 def _with_forces_below(forces: Array) -> Array:
-    """Return increasing forces together with the forces of further levels below them."""
+    """Return the forces, together with the forces of further levels (_FORCES_BELOW), in increasing order."""
     levels = list(forces)
     for candidate in np.multiply.outer(forces, _FORCES_BELOW).ravel():
         if all(abs(candidate - level) > _LEAST_DIFFERENCE * level for level in levels):
@@ -74,11 +75,12 @@ def _with_forces_below(forces: Array) -> Array:
 def evaluated(
     scan: LoadRows, path: Path, read: Callable[[], Indenter], evaluate: Callable[[Indenter], Rows]
 ) -> LoadRows:
-    """Return a file's LoadRows with its rows and warnings, or with the error that reading or evaluation raised.
+    """Evaluate a file, and return its rows and warnings, or the error that reading or evaluating the file raised.
 
-    scan : name and digest of the file
-    path : file of heights; messages are kept without it, since the table has a column of files
-    read, evaluate : functions that return the indenter, and its rows and {column: unit}
+    scan : LoadRows with the name and the digest of the file, to which the results are added
+    path : path of the file. It is removed from messages, since the table has a column with the name of the file
+    read : function that returns the indenter
+    evaluate : function of the indenter that returns the rows and {column: unit}
     """
     with warnings.catch_warnings(record=True) as caught:
         try:
@@ -86,12 +88,12 @@ def evaluated(
             scan = scan._replace(rows=rows, units=units)
         except REPORTED as error:
             scan = scan._replace(error=_without_path(message(error), path))
-        except Exception as error:  # a fault of viscorough, which other files may not have
+        except Exception as error:  # a fault of viscorough, which need not occur with other files
             scan = scan._replace(error=f"{type(error).__name__}: {_without_path(message(error), path)}")
     texts = dict.fromkeys(_without_path(str(warning.message), path) for warning in caught)
     return scan._replace(warnings="; ".join(texts))
 
 
 def _without_path(text: str, path: Path) -> str:
-    """Return the text of an error or warning on one line, without the path in front."""
+    """Return the text of an error or warning on one line, without the path at its start."""
     return " ".join(text.split()).removeprefix(f"{path}: ")

@@ -1,4 +1,4 @@
-"""Suffixes of output files with the kinds of files, and their check before anything is computed."""
+"""List the suffixes of output files, {suffix: kind of file}, and check a suffix before anything is computed."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # types imports numpy, which takes long
+if TYPE_CHECKING:  # the module `types` imports numpy, which takes long
     from viscorough.basics.types import FilePath
 
 RESULTS = {".nc": "NetCDF", ".csv": "table"}

@@ -37,7 +37,7 @@ def write(content: Content, path: FilePath) -> None:
 
 
 def _cell(value: float | str) -> str:
-    """Return a text as it is, a number in full precision, and nothing for a missing number."""
+    """Convert a value to the text of its cell: a number in full precision, "" for nan, a text unchanged."""
     if isinstance(value, str):
         return value
     return "" if value != value else repr(value)

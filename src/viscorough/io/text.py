@@ -32,10 +32,10 @@ _MISSING = (
 _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
 _ALMOST_A_NUMBER = re.compile(rf"[^\w\s]*\s?\d.*|{_MISSING}", re.IGNORECASE)
-_HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # but not in marks such as #N/A or #DIV/0!
+_HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # start of a comment, but not of a mark such as #N/A or #DIV/0!
 _COMMENT = re.compile(rf"[ \t]*(?:[%;!]|//|{_HASH})", re.IGNORECASE)
 _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
-_QUOTED = re.compile(r'"([^".]*|[^",]*)"')  # its commas are decimal marks, if it has no points
+_QUOTED = re.compile(r'"([^".]*|[^",]*)"')  # a quoted cell has commas or points, as decimal marks, but not both
 _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
 # Characters of numbers and delimiters. Other characters in the rows are marks of missing points.
@@ -43,11 +43,11 @@ _PLAIN = b"0123456789.,;+-eE \t\n"
 _ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
 # Characters that no text contains. Under DOS, \x1a ends a text.
 _CONTROLS = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))
-# At least so many numbers in equal steps are taken for positions rather than heights.
+# A row or column of at least this many numbers in equal steps is taken for positions and not for heights.
 _LEAST_LABELS = 6
-# The same for numbers that rise or fall in any steps.
+# A row or column of at least this many numbers that rise or fall in unequal steps is taken for positions, too.
 _LEAST_POSITIONS = 10
-# A profile has at most so many columns: x, z, a second quantity, and the number of the point.
+# A profile has at most this many columns: x, z, a second quantity, and the number of the point.
 _MOST_PROFILE_COLUMNS = 4
 
 
@@ -56,10 +56,11 @@ class Table(NamedTuple):
 
     values : numbers of the rows, shape (rows, columns); missing values are nan
     header : lines above the first row
-    comments : lines between and below the rows
-    delimiter, decimal : delimiter of the cells, None for white space, and decimal mark
-    separated : number of the first row that empty lines separate from the rows above; 0 if there is none
-    esri : keys of an ESRI grid and their numbers; empty for other files
+    comments : comments between and below the rows
+    delimiter : delimiter of the cells; None for white space
+    decimal : decimal mark
+    separated : number of the first line with a row that empty lines separate from the rows above; 0 without such a row
+    esri : {key: number} in the header of an ESRI grid; empty for other files
     """
 
     values: Array
@@ -132,7 +133,10 @@ def is_binary(path: FilePath) -> bool:
 
 
 def _utf16(start: bytes) -> str | None:
-    """Return the encoding of UTF-16 text, with or without a byte order mark; None for other text."""
+    """Return the encoding of UTF-16 text, with or without a byte order mark; None for other text.
+
+    start : first bytes of the file
+    """
     if start.startswith((b"\xff\xfe", b"\xfe\xff")):
         return "utf-16"
     places = np.flatnonzero(np.frombuffer(start, np.uint8) == 0) % 2
@@ -148,7 +152,7 @@ def _content(path: FilePath, size: int = -1) -> bytes:
 
 
 def decoded_lines(path: FilePath) -> list[str]:
-    """Return the lines of a text file in an encoding that instruments use, with ASCII minus signs."""
+    """Return the lines of a text file in UTF-16, UTF-8 or Windows-1252; minus signs are converted to ASCII."""
     content = _content(path)
     if encoding := _utf16(content[:4096]):
         text = content.decode(encoding, errors="replace")
@@ -169,17 +173,19 @@ def _is_row(line: str) -> bool:
 
 
 def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], int]:
-    """Return ({number of a line: row}, comments, number of the first separated row or 0).
+    """Return ({line number: row}, comments, line number of the first separated row or 0) from line `first` on.
 
-    A comment at the end of a row is removed; only comments on separate lines are returned. Empty lines separate a row
-    from the rows above, unless there are equally many above every row.
+    A comment at the end of a row is removed; only comments on separate lines are returned. A row is separated if empty
+    lines separate it from the rows above, unless every row has equally many empty lines above.
 
-    Raises ValueError for a comment between rows that states a length or unit, as between two maps.
+    first : index of the line with the first row
+
+    Raises ValueError for a comment between rows that states a length or unit, since a second map may begin there.
     """
     has_tabs = "\t" in lines[first].strip(" ")
     starts_row = (";",) * (";" in lines[first]) + ("\t",) * has_tabs
     rows, comments = {}, {}
-    empty = [0]  # number of empty lines above each row, and below the last one
+    empty = [0]  # numbers of empty lines above each row, and finally below the last row
     for number, line in enumerate(lines[first:], first + 1):
         if not line.strip(" ") or (not line.strip() and not has_tabs):
             empty[-1] += 1
@@ -203,14 +209,14 @@ def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], 
 def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
     """Return (delimiter, decimal mark) of rows; the delimiter is None for white space.
 
-    Raises ValueError if commas may be decimal marks or delimiters.
+    Raises ValueError if commas may be either decimal marks or delimiters.
     """
     body = "\n".join(rows.values())
     delimiter = ";" if ";" in body else "\t" if "\t" in body else None
     if "," not in body:
         return delimiter, "."
     if delimiter is None and "." not in body and re.search(r"\d,\d", body) and re.search(r"[^,\s] +[^,\s]", body):
-        return None, ","  # white space delimits
+        return None, ","  # white space is the delimiter, the comma is the decimal mark
     if "." in body if delimiter else _may_be_decimal_commas(body):
         number, line = next(iter(rows.items()))
         where = f"line {number} ({line[:40]!r})"
@@ -221,15 +227,15 @@ def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
 def _may_be_decimal_commas(body: str) -> bool:
     """Return True if commas may be decimal marks, in rows without other delimiters between numbers."""
     has_spaces = re.search(r", | ,", body) is not None
-    if "." in body:  # mixed, such as "1.5, 2,5"
+    if "." in body:  # points and commas as decimal marks, such as "1.5, 2,5"
         return has_spaces and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body) is not None
-    # Rows hold one number with a decimal comma each, or several whole numbers, which do not start with 0.
+    # Each row may be one number with a decimal comma, or several whole numbers. A whole number does not start with 0.
     may_be_one_number = has_spaces or all(line.count(",") == 1 for line in body.split("\n"))
     return re.search(r"\d,\d", body) is not None and (may_be_one_number or re.search(r"(?<!\d)0\d", body) is not None)
 
 
 def _values(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
-    """Convert rows to an array of two dimensions; missing values are nan. Raises ValueError, which names the line."""
+    """Convert rows to an array of two dimensions; missing values are nan. Raises ValueError with the faulty line."""
     text = "\n".join(rows.values())
     if decimal == ",":
         text = text.replace(",", ".")
@@ -262,7 +268,12 @@ def _fill_empty_cells(text: str, delimiter: str) -> str:
 
 
 def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) -> str:
-    """Describe the first line that is not a row of as many numbers as the first row; "" if there is none."""
+    """Describe the fault of the first line that is no row of numbers, or that is longer or shorter than the first row.
+
+    numbers : numbers of the lines in the file
+
+    Return "" if no line has such a fault.
+    """
     count = len(lines[0].split(delimiter))
     for number, line in zip(numbers, lines, strict=False):
         if not line.isascii():
@@ -277,12 +288,14 @@ def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) 
 
 
 def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], esri: dict[str, float]) -> None:
-    """Raise ValueError if a line above the first row may be a row with a misprint, so that no row is left out.
+    """Raise ValueError if a line above the first row may be a row with a misprint, which must not be left out.
 
-    Such a line has as many cells as the table, with or without outer delimiters. In addition, a cell is a number or
-    almost a number, or all filled cells are equal, or no cell contains a letter.
+    A line may be such a row if it has as many cells as the rows of the table, with or without outer delimiters. In
+    addition, a cell must be a number or almost a number, or all filled cells must be equal, or no cell contains a
+    letter. A heading of a column of row numbers is refused, too.
 
-    counts : numbers of cells of the table, with and without outer delimiters
+    counts : numbers of cells in a row of the table, counted with and without outer delimiters
+    esri : {key: number} in the header of an ESRI grid; empty for other files
     """
     for number, line in enumerate(lines, 1):
         is_comment = _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";"))
@@ -305,7 +318,7 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
 
 
 def _check_not_profile(shape: tuple[int, ...]) -> None:
-    """Raise ValueError for a table of at most two rows or columns, which may hold a profile and its positions."""
+    """Raise ValueError for a table of one or two rows or columns, which may be a profile with or without positions."""
     count, name = min(zip(shape, ("row", "column"), strict=True))
     if count <= 2:
         text = f"a single {name}, as of a profile" if count == 1 else f"two {name}s, as x and z of a profile"
@@ -315,14 +328,19 @@ def _check_not_profile(shape: tuple[int, ...]) -> None:
 
 
 def _check_positions(table: Array) -> None:
-    """Raise ValueError if a column or row at an edge holds positions or numbers of points, unlike the others.
+    """Raise ValueError if a column or row at an edge of the table holds positions, or numbers of points, not heights.
 
-    The first column or row holds positions if it rises or falls in equal steps. A table of few columns may be a
-    profile, so there the last column is checked as well, one other column may be even (the numbers of the points), and
-    the steps may be unequal if no other column rises or falls throughout. The heights of a wide map may do the same
-    along an edge.
+    The first column or row holds positions if it rises or falls in equal steps and the others do not. A table of at
+    most _MOST_PROFILE_COLUMNS columns may be a profile with positions. For such a table
+
+    - the last column is checked as well,
+    - one other column, which may number the points, may also have equal steps,
+    - the steps may be unequal, if no other column rises or falls throughout.
+
+    Tables of more columns are not checked in this way, since the heights of a map may rise or fall along an edge. Rows
+    are checked like columns.
     """
-    # Positions along both axes meet in a corner, which may hold any number.
+    # If a table has positions along both axes, they meet in a corner of the table, which may hold any number.
     has_corner = min(table.shape) >= _LEAST_LABELS and _is_even(table[1:, 0]) and _is_even(table[0, 1:])
     for name, vectors in (("column", table.T), ("row", table)):
         are_few = len(vectors) <= _MOST_PROFILE_COLUMNS
@@ -331,7 +349,8 @@ def _check_positions(table: Array) -> None:
             labels = vector[1:] if place == "first" and (has_corner or np.isnan(vector[0])) else vector
             if not len(others) or vector.size < _LEAST_LABELS or not _is_monotonic(labels):
                 continue
-            most = min(1, len(others) - 1) if are_few else 0  # all columns of a tilted plane are even
+            # At most this many other columns may have equal steps. In a tilted plane all columns have equal steps.
+            most = min(1, len(others) - 1) if are_few else 0
             even = _is_even(labels) and sum(map(_is_even, others)) <= most
             if even or (are_few and labels.size >= _LEAST_POSITIONS and not any(map(_is_monotonic, others))):
                 text = f"the {place} {name} counts up {'evenly' if even else 'throughout'}, unlike the others"
@@ -355,10 +374,11 @@ def _is_even(values: Any) -> bool:
 def _grid(table: Array, stated: Spacing | None, required: bool) -> tuple[Array, Spacing] | None:
     """Return (heights, (dx, dy)) of a table with columns x, y, z; None for a matrix of heights.
 
-    stated : spacing in the header, in the unit of x and y
+    stated : spacing that the header states, in the unit of x and y; None if it states none
+    required : True if the columns are certainly x, y, z
 
-    Raises ValueError for points that form no grid, for a grid of another spacing, and for a table whose columns may be
-    positions or heights.
+    Raises ValueError if points x, y, z form no grid, if the spacing of the grid differs from the stated spacing, and if
+    it is not certain whether columns hold positions or heights.
     """
     grid = gridded(table, required=required)
     if grid is None and 3 < table.shape[1] <= 6 and gridded(table[:, :3], required=False) is not None:
@@ -372,7 +392,10 @@ def _grid(table: Array, stated: Spacing | None, required: bool) -> tuple[Array, 
 
 
 def _esri(lines: Sequence[str]) -> dict[str, float]:
-    """Return {key: number} of an ESRI grid. Raises ValueError for a key without a number, and for a repeated key."""
+    """Return {key: number} from the header of an ESRI grid; {} for the header of another file.
+
+    Raises ValueError for a key without a number, and for a repeated key.
+    """
     found: dict[str, float] = {}
     for number, line in enumerate(lines, 1):
         if match := _ESRI_KEY.match(line):
@@ -390,7 +413,7 @@ def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
         text = f"{len(table)} lines of {table.shape[1]} numbers contradict {rows:g} rows and {columns:g} columns"
         raise ValueError(f"{text}; a line for each row is needed")
     mark = esri.get("nodata_value", -9999.0)
-    # Marks such as -3.4e38 are printed with few digits.
+    # A large mark, such as -3.4e38, may be printed with few digits, so it is compared with a tolerance.
     missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
     heights = np.where(missing, np.nan, table)
     dx, dy = (esri.get(key, esri.get("cellsize")) for key in ("dx", "dy"))

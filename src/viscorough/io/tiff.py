@@ -1,4 +1,8 @@
-"""Read maps of heights from TIFF files of one channel, with the spacing that ImageJ states; rasterio reads GeoTIFF."""
+"""Read maps of heights from TIFF files of one channel, with the spacing that ImageJ states.
+
+TIFF files of elevation models (GeoTIFF) and of Park Systems microscopes are passed on to io.elevation and
+io.instruments.
+"""
 
 import logging
 import os
@@ -14,22 +18,22 @@ from viscorough.io.elevation import read_elevation
 from viscorough.io.instruments import read_instrument
 from viscorough.io.scan import Scan
 
-_PARK_SYSTEMS = 50432  # tag of atomic force microscopes whose files hold the heights outside the picture
+_PARK_SYSTEMS = 50432  # TIFF tag of Park Systems microscopes, whose files hold the heights outside the picture
 # Tags of GeoTIFF (scale, place and rotation of the pixels, keys) and of GDAL (metadata, value for missing data).
 _ELEVATION_TAGS = (33550, 33922, 34264, 34735, 42112, 42113)
-_MASK = 4  # bit of the tag NewSubfileType
-# Ends of the names of files in which GDAL keeps the mask, the units and the value for missing data of a TIFF file.
+_MASK = 4  # bit of the tag NewSubfileType that marks a page as a mask
+# GDAL keeps the mask, the units and the value for missing data of a TIFF file in files whose names have these endings.
 _SIDECARS = (".msk", ".aux.xml")
-# Do not print the log of tifffile about a damaged file: the error has the fault in one line.
+# Do not print the log of tifffile about a damaged file: the error message states the fault in one line.
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 
 def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
     """Read the Scan in a TIFF file.
 
-    Files with a tag of GeoTIFF or GDAL, a mask, or a companion file of GDAL are elevation models.
+    A file with a tag of GeoTIFF or GDAL, a mask, or a companion file of GDAL is read as an elevation model.
 
-    channel : number of the page, from 0; needed if the file has several of the same size
+    channel : number of the page, from 0; needed if the file has several pages. Pages of reduced size do not count
 
     Raises a one-line ValueError for a picture in colours, and for geographic coordinates in degrees.
     """
@@ -48,7 +52,10 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
 
 
 def _scan(file: Any, pages: list[Any], channel: str | None) -> Scan:
-    """Return the Scan in a tifffile.TiffFile with these pages."""
+    """Return the Scan in the page of a tifffile.TiffFile that `channel` selects.
+
+    pages : the pages with a picture in full resolution
+    """
     page = _page(pages, channel)
     if page.samplesperpixel != 1:
         raise ValueError(f"a picture of {page.samplesperpixel} colours; a map of heights is needed")
@@ -63,7 +70,7 @@ def _scan(file: Any, pages: list[Any], channel: str | None) -> Scan:
 
 
 def _page(pages: list[Any], channel: str | None) -> Any:
-    """Return the page of a TIFF file that holds the heights."""
+    """Return the page with the number `channel`, or the only page if `channel` is None."""
     if channel is None and len(pages) == 1:
         return pages[0]
     if channel is None or not (channel.isascii() and channel.isdigit() and int(channel) < len(pages)):
@@ -72,7 +79,7 @@ def _page(pages: list[Any], channel: str | None) -> Any:
 
 
 def _heights(page: Any) -> NDArray[Any]:
-    """Return the numbers of a page. Raises ValueError with the package to install if they cannot be decompressed."""
+    """Return the numbers of a page. Raises ValueError if a package is missing that decompresses them."""
     try:
         return page.asarray()
     except (ImportError, ValueError) as error:
@@ -84,7 +91,7 @@ def _heights(page: Any) -> NDArray[Any]:
 
 
 def _stated_spacing(file: Any, page: Any) -> tuple[tuple[float, float] | None, str]:
-    """Return the spacing (dx, dy) and its unit that ImageJ states; None and "1" for none."""
+    """Return the spacing (dx, dy) that ImageJ states in the file, and its unit; (None, "1") if none is stated."""
     stated = file.imagej_metadata or {}
     unit = str(stated.get("unit") or units.UNKNOWN).replace("\\u00B5", "µ")
     if unit == units.UNKNOWN or units.counts_points(unit) or "yunit" in stated:

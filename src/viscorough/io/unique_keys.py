@@ -1,4 +1,4 @@
-"""Load YAML and refuse repeated keys of a mapping; YAML itself would keep the last of them."""
+"""Load YAML, and refuse a mapping with a repeated key; the yaml library would keep the last value of the key."""
 
 from typing import Any
 

@@ -22,8 +22,9 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
     """Return the unpacked values of a netCDF4.Variable, as a masked array if any are missing; text is unchanged.
 
     A value is missing if it equals _FillValue or missing_value, or lies outside valid_range or valid_min and valid_max.
-    Without _FillValue the default of the format counts, except for single bytes, all of whose values are valid. If
-    _Unsigned is "true", whole numbers are stored with a sign but have none, and the reverse for "false".
+    Without the attribute _FillValue, the default fill value of NetCDF marks missing values, but not in variables of
+    single bytes, in which all values are valid. If _Unsigned is "true", the type of the stored whole numbers has a
+    sign, but the values are unsigned. If _Unsigned is "false", the reverse is true.
 
     Raises ValueError if an attribute is not a number of the stored type, or if _Unsigned is another text.
     """
@@ -48,7 +49,7 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
 
 
 def _kind(variable: netCDF4.Variable, stored: np.dtype[Any]) -> np.dtype[Any]:
-    """Return the type of the values: the stored type, with or without a sign as _Unsigned states."""
+    """Return the type of the values: the stored type, but signed or unsigned as the attribute _Unsigned states."""
     if "_Unsigned" not in variable.ncattrs() or stored.kind == "f":
         return stored
     text = str(variable.getncattr("_Unsigned")).lower()
@@ -58,7 +59,10 @@ def _kind(variable: netCDF4.Variable, stored: np.dtype[Any]) -> np.dtype[Any]:
 
 
 def _as_kind(numbers: Array, stored: np.dtype[Any], kind: np.dtype[Any]) -> Array:
-    """Reinterpret the bytes of numbers of the stored type as another type; other numbers are returned unchanged."""
+    """Reinterpret the bytes of whole numbers of the type `stored` as numbers of the type `kind`.
+
+    Numbers that are not whole, and numbers that the type `stored` cannot hold, are returned unchanged.
+    """
     if kind == stored or not numbers.size or numbers.dtype.kind not in "iu":
         return numbers
     limits = np.iinfo(stored)
@@ -68,9 +72,14 @@ def _as_kind(numbers: Array, stored: np.dtype[Any], kind: np.dtype[Any]) -> Arra
 
 
 def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any], kind: np.dtype[Any]) -> Array:
-    """Return an attribute as an array of numbers, in the precision of the stored values they are compared with.
+    """Return an attribute as an array of numbers.
 
-    kind : type of the values, which may differ in the sign from the stored type
+    Numbers that are compared with the stored values, such as missing_value, get the precision of the stored values.
+
+    stored : type of the stored values
+    kind : type of the values, which may be unsigned while the stored type is signed, or the reverse
+
+    Raises ValueError if the attribute does not hold such numbers.
     """
     value = variable.getncattr(name)
     numbers = np.ravel(value)

@@ -33,7 +33,7 @@ def shear_modulus_of(
     Raises ValueError, which names the argument, for numbers out of range, and for arguments that exclude each other.
     """
     from viscorough.basics.arrays import (
-        positive,  # numpy takes long to import, and reading the options does not need it
+        positive,  # imported here, since the command line reads its options without the slow import of numpy
     )
 
     names = {"shear_modulus": spelled("--shear-modulus", "shear_modulus"), "young": spelled("--young", "young_modulus")}

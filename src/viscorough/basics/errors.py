@@ -1,4 +1,4 @@
-"""Errors and warnings that users may want to catch, and the messages of errors."""
+"""Define the errors and warnings that users may want to catch, and write the messages of errors."""
 
 
 class ConvergenceError(RuntimeError):

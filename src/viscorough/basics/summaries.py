@@ -1,4 +1,4 @@
-"""Write numbers and units for short texts about results, for print and notebooks."""
+"""Format numbers and units for the short texts about results that print() and notebooks show."""
 
 from typing import Any
 

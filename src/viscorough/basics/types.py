@@ -1,4 +1,4 @@
-"""Abbreviations for annotations: arrays of real numbers, indices and truth values, paths, and progress functions."""
+"""Define short names for type annotations: arrays of numbers and truth values, paths, and progress functions."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -18,4 +18,4 @@ FloatType = type[np.floating[Any]] | np.dtype[Any] | str  # floating-point type,
 Several = list[Any] | tuple[Any, ...] | NDArray[Any]  # sequence of numbers, each of which may have a unit
 Pair = tuple[Array, Array] | tuple[float, float]  # values at both ends of an interval
 FilePath = str | os.PathLike[str]
-Progress = Callable[[float], object]  # called with the share of the work that is done
+Progress = Callable[[float], object]  # function that a computation calls with the finished share of its work, 0 to 1

@@ -60,7 +60,7 @@ def with_unit(value: Any) -> Any:
     Raises the errors of `quantity`.
     """
     from viscorough.basics.arrays import (
-        real_number,  # numpy takes long to import, and reading the options does not need it
+        real_number,  # imported here, since the command line reads its options without the slow import of numpy
     )
 
     if hasattr(value, "magnitude") and hasattr(value, "units"):
@@ -202,7 +202,7 @@ def factor(unit: str, to: str) -> float:
 
 
 def counts_points(unit: str) -> bool:
-    """Return True if a unit counts the points of a map, such as px, so that it is not a length."""
+    """Return True if a unit, such as px, counts the points of a map, and is therefore no unit of length."""
     return bool(re.fullmatch(_POINTS, unit.strip()))
 
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 def check_output(output: Path, **inputs: Path | None) -> None:
     """Raise ValueError unless the output can be written and would replace no input file.
 
-    inputs : input files (or None), each by a name for its content, such as heights or force_history, which the message
-        quotes
+    inputs : input files; None is allowed and ignored. The keyword of a file, such as force_history, names the content
+        of the file in the message
     """
     from viscorough.io import atomic
 

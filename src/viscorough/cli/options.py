@@ -191,8 +191,8 @@ progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS
 def until(default: float) -> Callable[..., Any]:
     """Return a decorator that adds the option --until-fraction to a command.
 
-    default : contact fraction that the help states. Without the option the command receives None, and it has to use
-        the default itself
+    default : contact fraction that the help states. If the option is not given, the command receives None, and must
+        insert this default itself
     """
     text = f"Contact fraction at which to stop  [default: {default:g}]"
     return click.option("--until-fraction", type=PositiveNumber(1), help=text)

@@ -88,7 +88,7 @@ def tabulate(
     for surface in surfaces:
         files.check_output(output, heights=surface.path)
     files.check_output(unfinished)
-    surfaces[0].parsed()  # raise the error of a wrong option here, since it is not the error of a file
+    surfaces[0].parsed()  # a wrong option raises its error here; otherwise the table would show it for every file
     spelled = _spelled(surfaces[0].options | settings)
     scans = []
     for name, surface in sorted({files.printable_path(surface.path): surface for surface in surfaces}.items()):
@@ -236,7 +236,10 @@ def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
 
 
 def _alone(scan: Scan) -> LoadRows:
-    """Evaluate a file in a new process, and return its rows or its error; also the death of the process is an error."""
+    """Evaluate a file in a new process, and return its rows or its error.
+
+    If the process dies, the error states this.
+    """
     from viscorough.io.load_tables import LoadRows
 
     try:

@@ -45,7 +45,7 @@ def reading(path: FilePath, needed: str) -> Iterator[None]:
     Libraries raise errors of many kinds for a damaged file. Pipes and devices are refused: opening a pipe would wait
     for a writer, and a device may have no end. MemoryError passes, since it is no fault of the file.
 
-    needed : sentence about the content that is needed, for the message
+    needed : end of the message, which states the content that is needed, such as "a whole NetCDF file is needed"
     """
     try:
         mode = os.stat(path).st_mode

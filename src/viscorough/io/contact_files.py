@@ -44,12 +44,12 @@ _MAP_WITH_MODULUS = {"normal_pressure": ("normal pressure p", "Pa")}
 PATCHES = {"patches": ("number of patches of contact", 0), "patch_area": ("area of a patch", 2)}
 # Store maps in single precision if the tolerance is at least this: the solver then uses single precision, too.
 _SINGLE_FROM = 1e-4
-# Store maps in single precision only if their numbers are in this range, far from its limits of 1e-38 and 3e38.
+# Store maps in single precision only if their numbers are in this range. Single precision ends at 1e-38 and 3e38.
 _SINGLE_RANGE = (1e-25, 1e30)
 
 
 def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = None) -> Content:
-    """Convert contacts of one indenter to a Content.
+    """Convert contacts of one indenter to the content of a NetCDF file.
 
     The maps MAPS and heights have the dimensions (y, x), with coordinates that count from the centre of the map. The
     numbers are NUMBERS and `patches`, the number of contact patches. `patch_area` has the dimension `patch`: it holds

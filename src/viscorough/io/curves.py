@@ -20,10 +20,11 @@ COMMENT = (
 _NEEDED = "a loading curve of viscorough indent is needed"
 # Relative differences up to this are ignored, since another program may have stored numbers in single precision.
 _ROUNDING = 1e-6
-# Contact count and stiffness may decrease from a level to the next by at most this multiple of the tolerance. Errors of
-# the solver let them decrease by up to the tolerance between close levels.
+# Contact count and stiffness may decrease from one level to the next by at most this multiple of the tolerance. Between
+# close levels, errors of the solver let them decrease by up to the tolerance.
 _LOST = 10
-# Variables of a curve, with one value for each level: {name: (long_name, power of the unit of length)}.
+# Variables of a curve, with one value for each level, that is, for each computed contact: {name: (long_name, power of
+# the unit of length)}.
 OVER_LEVELS: dict[str, tuple[str, int]] = {
     "depth": ("depth of indentation u", 1),
     "force": ("normal force over shear modulus F/G", 2),
@@ -56,7 +57,7 @@ OPTIONAL_LEAST = {"mean_area_change": -1.0, "sampling": 1}
 
 
 def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) -> Content:
-    """Convert a LoadingCurve to a Content with the variables OVER_LEVELS and the attributes PER_CURVE.
+    """Convert a LoadingCurve to the content of a NetCDF file: variables OVER_LEVELS and attributes PER_CURVE.
 
     The dimension of all variables is `level`. If the curve has grid errors, the variables ABOUT_GRID are added.
 
@@ -77,9 +78,9 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
 
 
 def curve_from_content(content: Content) -> LoadingCurve:
-    """Return the LoadingCurve in a Content that curve_to_content made.
+    """Return the LoadingCurve in the content of a NetCDF file that curve_to_content made.
 
-    Raises ValueError, which names the file, if the Content holds no curve, if the units of other variables contradict
+    Raises ValueError, which names the file, if the content holds no curve, if the units of other variables contradict
     the unit of the depth, and if the numbers contradict each other by more than the tolerance of the curve.
     """
     with contextlib.nullcontext() if content.path is None else path_named(content.path):
@@ -171,7 +172,9 @@ def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
 
 
 def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
-    """Combine loading curves into one Content with the dimensions (realization, level). Grid errors are left out.
+    """Combine loading curves into the content of one NetCDF file, with the dimensions (realization, level).
+
+    Grid errors are left out.
 
     Values beyond the last level of a curve are nan. The variables `levels` (number of levels) and PER_CURVE have one
     value for each realization. Raises ValueError for an empty list, and for curves in different units of length.
@@ -194,7 +197,10 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
 
 
 def unstack_curves(content: Content) -> list[LoadingCurve]:
-    """Return the loading curves in a Content that stack_curves made. Raises the errors of curve_from_content."""
+    """Return the loading curves in the content of a NetCDF file that stack_curves made.
+
+    Raises the errors of curve_from_content.
+    """
     stacked = {n: v for n, v in content.variables.items() if v.dimensions == ("realization", "level")}
     per_curve = {name: content.variables[name].values for name in PER_CURVE if name in content.variables}
     curves = []

@@ -10,7 +10,10 @@ from viscorough.io import netcdf
 
 
 def content_to_dataset(content: netcdf.Content) -> xr.Dataset:
-    """Convert a Content to a dataset; a variable along a dimension of the same name becomes a coordinate."""
+    """Convert the content of a NetCDF file to a dataset of xarray.
+
+    A variable becomes a coordinate if its only dimension has the name of the variable.
+    """
     given = {name: (v.dimensions, v.values, v.attributes) for name, v in content.variables.items()}
     along = {name for name, (dimensions, _, _) in given.items() if dimensions == (name,)}
     data = {name: variable for name, variable in given.items() if name not in along}

@@ -13,7 +13,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-# Global attribute with the digest of the rest of the file.
+# Name of the global attribute with the digest of all other content of the file.
 ATTRIBUTE = "content_sha256"
 # Number of values read at a time, 32 MiB in double precision, so that a large map need not fit into memory twice.
 _VALUES_AT_A_TIME = 2**22
@@ -29,7 +29,7 @@ def add_digest(file: netCDF4.Dataset) -> None:
 
 
 def check_digest(file: netCDF4.Dataset) -> None:
-    """Raise ValueError if the content of an open file has changed since its digest was added.
+    """Raise ValueError if the content of an open file does not match its digest.
 
     Files of other programs, and of versions of viscorough without digests, have no digest and are not checked.
     """
@@ -50,10 +50,11 @@ def check_digest(file: netCDF4.Dataset) -> None:
 def content_digest(file: netCDF4.Dataset) -> str:
     """Return the SHA-256 of the content of an open file without `ATTRIBUTE`, as 64 hexadecimal digits.
 
-    The digest depends neither on the order in the file nor on the byte order of the machine. It is computed from lines
-    of JSON. For each group, sorted by path, a line contains its path, dimensions and attributes. For each variable of
-    the group, sorted by name, a line contains its name, type, dimensions, shape and attributes. The stored values of
-    the variable follow its line, as little-endian numbers, or each as a line of JSON if they are texts.
+    The digest depends neither on the order in the file nor on the byte order of the machine. The input of SHA-256
+    consists of lines of JSON and of stored values. For each group, sorted by path, a line contains its path, dimensions
+    and attributes. For each variable of the group, sorted by name, a line contains its name, type, dimensions, shape
+    and attributes. The stored values of the variable follow its line, as little-endian numbers, or each as a line of
+    JSON if they are texts.
     """
     digest = hashlib.sha256()
 

@@ -26,7 +26,7 @@ _RIGHT_ANGLE = 1e-6
 
 
 def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Scan:
-    """Read the Scan in a file of an elevation model.
+    """Read heights, spacing and units from a file of an elevation model, as a Scan.
 
     Missing points are nan. A point is missing if it has the file's value for missing data, or if a mask in the file or
     in its .msk file excludes it.
@@ -101,7 +101,12 @@ def _number(channel: str | None, count: int, kind: str) -> int:
 
 
 def _scan(path: FilePath, file: Any, band: int) -> Scan:
-    """Return the Scan of a band of a rasterio dataset."""
+    """Return heights, spacing and units of a band of a rasterio dataset, as a Scan.
+
+    path : path of the file, for messages
+    file : rasterio dataset
+    band : number of the band, from 1
+    """
     if (colour := file.colorinterp[band - 1].name) not in ("gray", "undefined"):
         raise ValueError(f"a picture in colours (band {band - 1} is {colour}); a map of heights is needed")
     lateral, vertical = _units(file.crs)
@@ -160,7 +165,7 @@ def _units(system: Any) -> tuple[str, str]:
 
 
 def _axes(definition: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the axes of all parts of a reference system in PROJJSON."""
+    """Return the axes of a reference system, given as PROJJSON, including the axes of all its parts."""
     if definition["type"] == "BoundCRS":
         return _axes(definition["source_crs"])
     if definition["type"] == "CompoundCRS":

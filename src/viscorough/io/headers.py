@@ -41,7 +41,7 @@ _DEGREES = {"lon", "lat", "longitude", "latitude"}
 
 _STEP = "pixelsize pixelspacing pointspacing samplespacing spacing pixelgröße pixelabstand"
 _STEPS = f"{_STEP} step stepsize pitch increment d"
-# {role of a statement: spellings of its key}. The axis comes first or last, as in "x pixel size" and "pixel size x".
+# {role of a statement: spellings of its key}. A key names its axis first or last: "x pixel size" or "pixel size x".
 _ROLES = {
     "step x": {f"x{key}" for key in _STEPS.split()} | {f"{key}x" for key in _STEPS.split()} | {"deltax", "pixelwidth"},
     "step y": {f"y{key}" for key in _STEPS.split()} | {f"{key}y" for key in _STEPS.split()} | {"deltay", "pixelheight"},
@@ -112,8 +112,9 @@ def states(line: str) -> bool:
 
 
 def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str, profile_columns: int = 0) -> Header:
-    """Return the Header in the lines of text around a table of numbers.
+    """Return the units, spacing and columns that the lines of text around a table of numbers state, as a Header.
 
+    lines : lines above the table, and comments in and below the table
     shape : rows and columns of the table
     decimal : decimal mark of the table; if it is a comma, "1,234" is a number below two
     profile_columns : number of columns of the table if it holds a profile, whose points lie along x; 0 for a map
@@ -137,7 +138,8 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str, prof
 def _statements(lines: Sequence[str]) -> tuple[Stated, list[str]]:
     """Return the statements in lines by their roles, and the lines that are no statements.
 
-    Raises ValueError for a factor of the heights, and for a unit of length without the quantity that it belongs to.
+    Raises ValueError for a factor by which the heights must be multiplied, and for a unit of length if the line does
+    not state to which lengths the unit belongs.
     """
     stated: Stated = {role: [] for role in _ROLES}
     others = []
@@ -218,7 +220,7 @@ def _lengths(stated: Stated, decimal: str) -> Iterator[_Length]:
     """Yield the spacings and extents that a header states. Raises ValueError if one length has two different units."""
     for role, axes in _AXES.items():
         for line, bracket, value in stated[role]:
-            is_pair = role == "step" and value.count(" x ") == 1  # "0.5 um x 0.8 um"
+            is_pair = role == "step" and value.count(" x ") == 1  # for example "0.5 um x 0.8 um"
             for axis, text in zip(axes, value.split(" x ") if is_pair else [value] * len(axes), strict=True):
                 number, unit = _length(line, text, decimal)
                 if unit and bracket and unit != bracket:

@@ -161,7 +161,7 @@ def read_line(
 
 
 def surface_to_content(indenter: Indenter) -> netcdf.Content:
-    """Convert an Indenter to a Content with the variable `heights`, of dimensions (y, x), or (x) for a line.
+    """Convert an Indenter to the content of a NetCDF file: heights with the dimensions (y, x), or (x) for a line.
 
     The coordinates y and x count from the centre of the map or line.
     """
@@ -197,14 +197,14 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
         )
     number = positive(argument("scale"), number)
     if scan.heights.dtype.kind not in "iuf":
-        return scan  # the Indenter refuses such heights
+        return scan  # heights that are no numbers; the Indenter refuses such heights
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
 def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
-    """Read the Scan in a file with the reader for its suffix.
+    """Read heights, spacing and units from a file, as a Scan, with the reader for the suffix of the file.
 
-    is_map : True if the user gives both dx and dy, so that a text of one or two rows or columns is a map
+    is_map : True if the user gives both dx and dy. A text of one or two rows or columns is then a map, not a profile
     """
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
@@ -243,7 +243,7 @@ def npy_array(path: FilePath) -> NDArray[Any]:
 
 
 def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Scan:
-    """Return the Scan in a variable of a NetCDF file.
+    """Read heights, spacing and units from a variable of a NetCDF file, as a Scan.
 
     channel : name of the variable. None for the variable `heights` or, if there is none, for the only variable with
         this number of dimensions

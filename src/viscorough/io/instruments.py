@@ -29,7 +29,7 @@ _NANOMETRES_PER_MILLIMETRE = 1e6
 
 
 def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
-    """Read the Scan in a file of a format that SurfaceTopography recognizes from its contents.
+    """Read heights, spacing and units, as a Scan, from a file in a format that SurfaceTopography recognizes.
 
     An AccuracyWarning is given if other channels hold heights as well, for a periodic surface, and for a field that is
     larger than 1 m or smaller than 10 nm.
@@ -104,7 +104,7 @@ def _opened(path: FilePath) -> Any:
 
 
 def _with_plain_revision(path: FilePath) -> Any:
-    """Return what SurfaceTopography can open: the path, or for an x3p file its content with a corrected revision.
+    """Return a source for SurfaceTopography: the path, or for an x3p file its content with a corrected revision.
 
     The revision in an x3p file may be spelled with a dash. In the returned content it has a hyphen: ISO5436 - 2000.
     """
@@ -174,11 +174,11 @@ def _check_field(path: FilePath, spacing: tuple[float, float], unit: str, shape:
         warnings.warn(f"{path}: {text}: check the unit of the spacing", AccuracyWarning, stacklevel=3)
 
 
-# ---- Gwyddion fields without a unit of heights or lengths, which SurfaceTopography ignores
+# ---- Gwyddion fields whose heights or lengths have no unit; SurfaceTopography ignores such fields
 
 
 def _gwyddion_scan(path: FilePath, file: Any, name: str | None) -> Scan:
-    """Return the Scan of a Gwyddion field whose heights or lengths have no unit.
+    """Return, as a Scan, the heights and spacing of a Gwyddion field whose heights or lengths have no unit.
 
     If the lengths have no unit, the Scan has no spacing.
 

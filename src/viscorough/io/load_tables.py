@@ -83,8 +83,8 @@ SI_COLUMNS: dict[str, tuple[str, str | None]] = {
     },
     **{name: (text, None) for name, text in _TEXTS.items() if name != "file"},
 }
-# GDAL reads further files together with a file of heights. They have its name with one of these suffixes instead of its
-# suffix, or with one of these endings after its suffix.
+# GDAL reads companion files together with a file of heights. The name of a companion file is the name of the file of
+# heights, in which the suffix is replaced by a suffix in _COMPANIONS, or to which an ending in _ADDED is appended.
 _COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")
 
 Row = dict[str, float | int]
@@ -113,7 +113,7 @@ class LoadRows(NamedTuple):
 def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] | None = None) -> Rows:
     """Return the rows of a table, one for each contact, and {column: unit}.
 
-    grid_errors : {quantity of io.curves.ABOUT_GRID: its value for each contact}; None for a table without them
+    grid_errors : {quantity in io.curves.ABOUT_GRID: its value for each contact}; None for a table without grid errors
     """
     values: dict[str, Any] = {name: [] for name in _CONTACT_QUANTITIES}
     for contact in contacts:
@@ -196,7 +196,7 @@ def digest_of_scan(path: FilePath, settings: str) -> str:
 def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
     """Return the rows of files, sorted by name, with one unit in each column.
 
-    A file without a unit of length becomes an error if other files have one.
+    If some files state a unit of length, each file without a unit gets an error instead of its rows.
     """
     listed = sorted(results, key=lambda result: result.file)
     if len({result.units["depth"] for result in listed if result.rows}) < 2:
@@ -214,9 +214,9 @@ def lines_of_files(results: Iterable[LoadRows]) -> list[dict[str, Any]]:
 
 
 def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
-    """Convert the rows of files, as `with_one_unit` returns them, to the Content of a table.
+    """Convert the rows of files, as `with_one_unit` returns them, to the content of a table.
 
-    attributes : further global attributes of the Content
+    attributes : further global attributes of the content
     """
     stated = next((result.units for result in results if result.rows), {})
     lines = lines_of_files(results)

@@ -20,8 +20,8 @@ from viscorough.media import kinds
 from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.media.medium import Medium
 
-# {kind of medium in a YAML file: class}. The other keys of the file are the parameters of the class. Only a creep table
-# is in a separate file.
+# {kind of medium in a YAML file: class}. The other keys of the file are the parameters of the class, except for a creep
+# table, which is in a separate file.
 KINDS: dict[str, Any] = {
     "newtonian": kinds.Newtonian,
     "maxwell": kinds.Maxwell,
@@ -56,7 +56,7 @@ _LARGEST_FILE = 1_000_000  # largest size of a YAML file in bytes
 def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
     """Read a medium from a YAML file with one mapping: its kind and its parameters.
 
-    The path of a creep table is relative to the YAML file.
+    The path of a creep table is relative to the folder of the YAML file.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
     length_unit : unit of length of the indenter. If it is known, plain moduli are in Pa, viscosities in Pa s and times
         in s, and values may have units ("2 MPa"), except for a springpot. If it is "1", all values are plain numbers in
         consistent units of the user's choice
-    folder : folder that the file of a creep table is relative to
+    folder : folder to which the name of the file of a creep table is relative
 
     Raises a one-line ValueError for an unknown kind or key, missing keys, and values out of range.
     """
@@ -179,7 +179,10 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
 
 
 def identified_to_content(identified: IdentifiedMedium) -> Content:
-    """Convert an IdentifiedMedium to a Content: compliance, relaxation modulus if known, and interval at each time."""
+    """Convert an IdentifiedMedium to the content of a table, with one row for each time.
+
+    The columns are the creep compliance, the relaxation modulus if the force was measured, and an interval (_TABLES).
+    """
     quantities = _TABLES[identified.measured]
     values = {name: getattr(identified, name) for name in quantities}
     variables = described(("level",), values, quantities, identified.length_unit)
@@ -213,7 +216,7 @@ def _mapping(path: FilePath) -> dict[str, Any]:
 
 
 def _values(key: str, value: object, length_unit: str) -> Any:
-    """Convert a value of a mapping, or a list of values, to an argument of the class of a medium."""
+    """Convert a value that a YAML file states for a key, or a list of values, to an argument for the class."""
     if isinstance(value, list):
         return [_values(f"{key}[{i}]", entry, length_unit) for i, entry in enumerate(value)]
     if isinstance(value, str):

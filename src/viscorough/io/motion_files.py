@@ -31,7 +31,7 @@ _STATISTICS = {
 
 
 def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
-    """Convert an Estimate to a Content; values are nan at times at which the law does not hold."""
+    """Convert an Estimate to the content of a NetCDF file; values are nan at times at which the law does not hold."""
     quantities = {name: _QUANTITIES[name] for name in ("time", "x")}
     for name, text, unit in (("depth", "depth of penetration u", 1), ("velocity", *_QUANTITIES["velocity"])):
         quantities |= {name + suffix: (f"{text}, {statistic}", unit) for suffix, statistic in _STATISTICS.items()}
@@ -46,7 +46,7 @@ def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
 
 
 def motion_to_content(motion: Motion) -> Content:
-    """Convert a Motion to a Content with one level for each time of the motion.
+    """Convert a Motion to the content of a NetCDF file, with one level for each time of the motion.
 
     Undetermined values (at times before the first level of the loading curve) and infinite values become nan.
     """

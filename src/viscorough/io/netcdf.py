@@ -152,7 +152,7 @@ def read(path: FilePath) -> Content:
     with opened(path) as file:
         variables = {}
         for name, variable in file.variables.items():
-            # Attributes of the storage do not apply to unpacked values.
+            # Attributes that describe how values are stored do not apply to unpacked values.
             attributes = {key: variable.getncattr(key) for key in variable.ncattrs() if key not in STORAGE}
             variables[name] = Variable(variable.dimensions, read_only(unpacked(variable)), attributes)
         return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()}, path)

@@ -75,13 +75,13 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     Returns
     -------
     Figure
-        Figure of matplotlib. Maps have the first row at the top. Their coordinates are those of the file or count from
-        the centre. Colours of pressures end at the 99th percentile.
+        Figure of matplotlib. Maps have the first row at the top. Coordinates are taken from the file or count from the
+        centre. Colours of pressures end at the 99th percentile.
 
     Raises
     ------
     ValueError
-        For another suffix, and for a Content of another kind.
+        For a suffix that is not allowed, and for a Content that holds no such result.
 
     Examples
     --------
@@ -240,7 +240,7 @@ def _motion(variables: Variables) -> Figure:
 
 def _loop(variables: Variables) -> Figure:
     """Draw depth and force against time, and force against depth, on linear axes."""
-    variables = variables | {"normal_force": variables["force"]}  # the label of `force` is F/G
+    variables = variables | {"normal_force": variables["force"]}  # for the label F, since the label of `force` is F/G
     pairs = [
         ("time", "depth", "depth"),
         ("time", "normal_force", "force"),
@@ -302,7 +302,7 @@ def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
     """Draw the positive values of a curve on logarithmic axes."""
     shown = (x > 0) & (y > 0)
     axes.set(xscale="log", yscale="log")
-    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # such labels, even if empty, would take room
+    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # empty labels of minor ticks would take room
     look = {"linewidth": 0.5, "alpha": 0.5} if thin else {"marker": "o" if shown.sum() < _FEW else ""}
     axes.plot(x[shown], y[shown], color=_BLUE, **look)
 
@@ -311,7 +311,7 @@ def _label(axes: Axes, variables: Variables, x: str, y: str, title: str) -> None
     axes.set(xlabel=_label_of(variables, x), ylabel=_label_of(variables, y), title=title.replace("_", " "))
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        if axis.get_scale() == "log" and high < _FEW_DECADES * low:  # ticks only at decades would be too few
+        if axis.get_scale() == "log" and high < _FEW_DECADES * low:  # ticks only at powers of ten would be too few
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
             axis.set_major_formatter("{x:.3g}")
 
@@ -330,8 +330,8 @@ def _unit(variable: Variable) -> str:
 
 _X = {"x": ("x",)}
 _XY = _X | {"y": ("y",)}
-# (function that draws a Content, {variable that the function needs: its dimensions}). The first function is used whose
-# variables the Content has.
+# (function that draws a Content, {variable that the function needs: its dimensions}). `kind_of` chooses the first
+# function whose variables are all in the Content.
 _KINDS: tuple[tuple[Callable[[Variables], Figure], dict[str, tuple[str, ...]]], ...] = (
     (_fields, {"pressure": ("y", "x"), **_XY}),
     (_fields, {"pressure": ("level", "y", "x"), **_XY}),

@@ -89,7 +89,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
 
 
 def to_content(result: Result) -> netcdf.Content:
-    """Convert a result to the Content of the file that `save` writes. Raises TypeError for other objects."""
+    """Convert a result to the content of the file that `save` writes. Raises TypeError for other objects."""
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
     if isinstance(result, Motion):
@@ -109,5 +109,5 @@ def to_content(result: Result) -> netcdf.Content:
 
 
 def write_content(content: netcdf.Content, path: FilePath) -> None:
-    """Write a Content as NetCDF, or as a table if the path ends in .csv. Raises the errors of `save`."""
+    """Write the content of a file as NetCDF, or as a table if the path ends in .csv. Raises the errors of `save`."""
     WRITERS[check_suffix(path, RESULTS)](content, path)

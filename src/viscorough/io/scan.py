@@ -161,8 +161,9 @@ def _agreed_unit(name: str, lengths: str, in_file: str, given: str | None) -> st
 
 
 def _stated_spacing(scan: Scan, length_unit: str, is_given: bool) -> tuple[float, ...]:
-    """Return the spacing (dx, dy) that the file states, in the unit of the heights; nan if it states none.
+    """Return the spacing (dx, dy) that the file states, in the unit of the heights; (nan, nan) if none is stated.
 
+    length_unit : unit of the heights
     is_given : True if the user gives a spacing, which then replaces a spacing without a unit in the file
     """
     if scan.spacing is None:

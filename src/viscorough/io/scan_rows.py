@@ -23,8 +23,8 @@ _SHARE_OF_CONTACTS = 0.3
 # The curve for grid errors has further levels at these multiples of the force of each load. A grid error is a mean over
 # half a decade of forces, since the difference of two curves at a single force can be zero by chance.
 _FORCES_BELOW = (10**-0.5, 10**-0.25)
-# No further level is added if its force differs from the force of a level by a smaller share than this: so close levels
-# differ by less than the tolerance.
+# A further level is left out if its force and the force of another level differ by less than this share: the results
+# at these levels would differ by less than the tolerance.
 _LEAST_DIFFERENCE = 0.02
 
 
@@ -59,7 +59,8 @@ def rows_at_loads(
 def _curve_with_grid_errors(indenter: Indenter, contacts: list[Contact], **how: Any) -> LoadingCurve:
     """Return the loading curve with grid errors, at the forces of the contacts and at lower forces (_FORCES_BELOW)."""
     forces = _with_forces_below(np.array([contact.force for contact in contacts]))
-    with warnings.catch_warnings(action="ignore", category=AccuracyWarning):  # the contacts gave the same warnings
+    # The computation of the contacts has already given the same warnings.
+    with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         return indent(indenter, forces=forces, estimate_grid_error=True, **how)
 
 

@@ -73,7 +73,7 @@ class Table(NamedTuple):
 
 
 def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
-    """Read the Scan in a text file.
+    """Read a map of heights from a text file, as a Scan with its spacing and units.
 
     is_map : True if the user stated that the table is a map; otherwise a table of one or two rows or columns is refused
         as a profile, unless it is an ESRI grid
@@ -225,7 +225,10 @@ def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
 
 
 def _may_be_decimal_commas(body: str) -> bool:
-    """Return True if commas may be decimal marks, in rows without other delimiters between numbers."""
+    """Return True if commas may be decimal marks, in rows without other delimiters between numbers.
+
+    body : all rows as one text
+    """
     has_spaces = re.search(r", | ,", body) is not None
     if "." in body:  # points and commas as decimal marks, such as "1.5, 2,5"
         return has_spaces and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body) is not None
@@ -270,7 +273,7 @@ def _fill_empty_cells(text: str, delimiter: str) -> str:
 def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) -> str:
     """Describe the fault of the first line that is no row of numbers, or that is longer or shorter than the first row.
 
-    numbers : numbers of the lines in the file
+    numbers : line numbers in the file
 
     Return "" if no line has such a fault.
     """
@@ -407,7 +410,11 @@ def _esri(lines: Sequence[str]) -> dict[str, float]:
 
 
 def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
-    """Return the Scan of an ESRI grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value."""
+    """Return the heights and spacing of an ESRI grid, as a Scan.
+
+    table : numbers of the grid, shape (rows, columns)
+    esri : {key: number} in the header, with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value
+    """
     columns, rows = esri["ncols"], esri["nrows"]
     if table.shape != (rows, columns):
         text = f"{len(table)} lines of {table.shape[1]} numbers contradict {rows:g} rows and {columns:g} columns"

@@ -29,7 +29,7 @@ logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 
 def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
-    """Read the Scan in a TIFF file.
+    """Read a map of heights from a TIFF file, as a Scan with its spacing and units.
 
     A file with a tag of GeoTIFF or GDAL, a mask, or a companion file of GDAL is read as an elevation model.
 
@@ -52,8 +52,9 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
 
 
 def _scan(file: Any, pages: list[Any], channel: str | None) -> Scan:
-    """Return the Scan in the page of a tifffile.TiffFile that `channel` selects.
+    """Return heights and spacing, as a Scan, from the page that `channel` selects.
 
+    file : tifffile.TiffFile
     pages : the pages with a picture in full resolution
     """
     page = _page(pages, channel)
@@ -79,7 +80,7 @@ def _page(pages: list[Any], channel: str | None) -> Any:
 
 
 def _heights(page: Any) -> NDArray[Any]:
-    """Return the numbers of a page. Raises ValueError if a package is missing that decompresses them."""
+    """Return the numbers of a page. Raises ValueError if the package that can decompress them is not installed."""
     try:
         return page.asarray()
     except (ImportError, ValueError) as error:

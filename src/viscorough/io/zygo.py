@@ -8,7 +8,7 @@ from viscorough.io.scan import Scan
 
 
 def zygo_scan(lines: Sequence[str]) -> Scan:
-    """Return the Scan in the lines of an XYZ data file of Format 1.
+    """Return heights and spacing, as a Scan, from the lines of an XYZ data file of Format 1.
 
     Line 4 of the header holds the origin and size of the map in points. The seventh number of line 8 is the spacing in
     metres, 0 if it is not known. Heights are commonly in micrometres, but the file does not state their unit. Points

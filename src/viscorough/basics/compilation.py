@@ -160,7 +160,7 @@ def njit(
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": fastmath}
     options |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": inner}  # no function is called from C
     compiled: Any = numba.njit(function, **options)
-    if compiled is function:  # NUMBA_DISABLE_JIT is set
+    if compiled is function:  # numba does not compile, since NUMBA_DISABLE_JIT is set
         return function
     if inner:
 

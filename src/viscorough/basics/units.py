@@ -207,7 +207,7 @@ def counts_points(unit: str) -> bool:
 
 
 def metres(unit: str) -> float:
-    """Return a unit of length in metres. Raises ValueError for other units, and for "1"."""
+    """Return a unit of length in metres. Raises ValueError for units that are no lengths, and for "1" (not known)."""
     return factor(length_unit(unit), "m")
 
 

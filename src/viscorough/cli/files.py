@@ -77,7 +77,7 @@ def check_opens(path: Path) -> None:
 
 
 def read_content(path: Path) -> Content:
-    """Return the io.netcdf.Content of a NetCDF file."""
+    """Read a NetCDF file as an io.netcdf.Content, after checking that the file can be opened."""
     from viscorough.io import netcdf
 
     check_opens(path)

@@ -85,10 +85,10 @@ def indent(
     level, and force_grid_error the error of the force at the depth of each level. area_change is the relative change of
     the contact area if the spacing is halved.
 
-    With --error 5% the curve is computed on every n-th point of the map. The largest n and the loosest tolerance are
-    chosen that keep the estimated error of the velocity within 5 % of the curve of all points, as root mean square over
-    the forces F/G from h L/25 on (h the rms height, L the diameter of a disc of the same area). The closing line states
-    the choice.
+    With --error 5% the curve is computed on every n-th point of the map. n and the tolerance are chosen as large as
+    possible, so that the estimated error of the velocity, compared with the curve of all points, is at most 5 %. This
+    error is the root mean square over the forces F/G from h L/25 on (h the rms height, L the diameter of a disc of the
+    same area). The closing line states the choice.
 
     Several files of HEIGHTS need a table, -o TABLE.csv. The table has one row for each file and level, with lengths in
     um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or

@@ -48,9 +48,9 @@ def kinetics(
     KIN.nc holds time, depth, velocity, force and contact fraction.
 
     Without --times, the output has the times of the history. A history of few rows, such as a ramp and a hold, thus
-    needs --times to give a smooth curve. Under a constant force, the output has a hundred times at equal ratios. They
-    reach from the first to the last level of the curve, or until creep has almost ended. They start after time 0 if the
-    medium responds elastically at t = 0.
+    needs --times to give a smooth curve. Under a constant force, the output has a hundred times at equal ratios. These
+    times reach from the first to the last level of the curve, or until creep has almost ended. They start after time 0
+    if the medium responds elastically at t = 0.
 
     While the contact grows, the depth is read from the curve at F/G equal to the creep response, the integral of
     J(t - s) dF(s) with the creep compliance J. On a linearly viscous half-space this integral is the impulse divided by

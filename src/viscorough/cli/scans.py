@@ -211,7 +211,9 @@ def _in_a_process(scan: Scan) -> LoadRows:
 
 
 def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
-    """Yield the rows or the error of each file, in the order in which they are finished.
+    """Evaluate files in parallel, and yield the rows or the error of each file as soon as it is finished.
+
+    jobs : number of processes
 
     If a process dies, the files that are not finished are evaluated one at a time, each in a new process.
     """

@@ -96,7 +96,7 @@ def _attributes(owner: netCDF4.Dataset | netCDF4.Variable) -> list[Any]:
 
 
 def _parts(variable: netCDF4.Variable) -> Iterator[NDArray[Any]]:
-    """Yield the stored values of a variable, a few rows at a time if there are many."""
+    """Yield the stored values of a variable in parts of whole rows, with about _VALUES_AT_A_TIME values at most."""
     variable.set_auto_maskandscale(False)
     rows = variable.shape[0] if variable.ndim else 1
     step = max(1, _VALUES_AT_A_TIME * rows // max(1, variable.size))

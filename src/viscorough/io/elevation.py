@@ -152,7 +152,7 @@ def _units(system: Any) -> tuple[str, str]:
         return units.UNKNOWN, units.UNKNOWN
     definition = system.to_dict(projjson=True)
     if definition["type"] == "EngineeringCRS" and definition["name"] == "unnamed":
-        # GDAL then returns metres, although the file may state another unit.
+        # GDAL returns metres for such an incomplete system, although the file may state another unit.
         text = "its coordinate reference system is incomplete, so that the unit of x and y is not certain"
         raise ValueError(f"{text}; a complete one is needed, as 'rio edit-info --crs EPSG:CODE FILE' writes into it")
     lateral = vertical = units.UNKNOWN

@@ -19,8 +19,8 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
     """Return (heights, (dx, dy)) of points on a grid of equal spacing.
 
     points : x, y, z, shape (points, 3)
-    required : True if the points are certainly x, y, z. ValueError is then raised if the points form no grid. If False,
-        None is returned in this case
+    required : True if the points are certainly x, y, z. For points that form no grid, ValueError is raised if this is
+        True, and None is returned if this is False
 
     The heights have the shape (rows, columns), with y increasing from row to row and x from column to column. They are
     nan at missing points.

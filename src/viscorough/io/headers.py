@@ -277,7 +277,7 @@ def _heading(line: str) -> str:
 
 
 def _cells(heading: str) -> list[str]:
-    """Split a heading at commas, semicolons and tabs, or at spaces if it has none of these."""
+    """Split a heading at commas, semicolons and tabs, or at spaces if the heading contains none of these."""
     return [cell.strip() for cell in re.split(r"[,;\t]" if re.search(r"[,;\t]", heading) else r"\s+", heading)]
 
 

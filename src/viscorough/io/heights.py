@@ -326,7 +326,7 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
 
 
 def _are_indices(positions: Array, unit: str) -> bool:
-    """Return True if positions only number the points, from 0 or 1, so that they state no distance."""
+    """Return True if positions only number the points, from 0 or 1, and therefore state no distance."""
     counts = (np.arange(first, first + positions.size) for first in (0, 1))
     counts_up = not np.ma.is_masked(positions) and any(np.array_equal(positions, count) for count in counts)
     return units.counts_points(unit) or (unit == "1" and counts_up)

@@ -155,7 +155,7 @@ def _holds_heights(channel: Any) -> bool:
 
 
 def _nms_spacing(spacing: tuple[float, float], unit: str, shape: tuple[int, ...]) -> tuple[float, float]:
-    """Return the spacing of a NanoFocus file, whose header states it in nanometres or in millimetres.
+    """Return the spacing of a NanoFocus file. The header states the spacing in nanometres or in millimetres.
 
     SurfaceTopography assumes millimetres. Fields of confocal microscopes are far smaller than 1 m, and a spacing in
     nanometres that is read as millimetres gives a field far above 1 m.

@@ -88,7 +88,7 @@ SI_COLUMNS: dict[str, tuple[str, str | None]] = {
 _COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")
 
 Row = dict[str, float | int]
-Rows = tuple[Sequence[Row], dict[str, str]]  # rows and {column: unit}
+Rows = tuple[Sequence[Row], dict[str, str]]  # rows of a table, and {column: unit}
 
 
 class LoadRows(NamedTuple):

@@ -136,7 +136,7 @@ def write(content: Content, path: FilePath) -> None:
 def opened(path: FilePath, *, checked: bool = True) -> Iterator[netCDF4.Dataset]:
     """Yield the netCDF4.Dataset of a file. Every fault of the file becomes a one-line ValueError.
 
-    checked : True to read the whole file, and to refuse it if its content does not match its digest (io.digest)
+    checked : True to read the whole file, and to refuse a file whose content does not match its digest (io.digest)
     """
     with reading(path, "a whole NetCDF file is needed"), netCDF4.Dataset(path) as file:
         if checked:

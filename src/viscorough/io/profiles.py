@@ -55,7 +55,9 @@ def read_profile(path: FilePath) -> Scan:
 
 
 def holds_profile(path: FilePath) -> bool:
-    """Return True if a text file holds a profile and not a map: one or two rows or columns, or a heading of x and z.
+    """Return True if a text file holds a profile and not a map.
+
+    A profile has one or two rows or columns, or a heading that names columns x and z.
 
     Raises a one-line ValueError if the file does not certainly hold a table.
     """

@@ -106,7 +106,7 @@ def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
 
 
 def parsed(lines: Sequence[str]) -> Table:
-    """Return the Table in the lines of a file. Raises a one-line ValueError unless they certainly hold a table."""
+    """Return the Table in the lines of a file. Raises a one-line ValueError unless the lines certainly hold a table."""
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
         almost = [f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)]
@@ -127,7 +127,7 @@ def is_own_table(lines: Sequence[str]) -> bool:
 
 
 def is_binary(path: FilePath) -> bool:
-    """Return True if a file has control characters, unlike text. Raises a one-line ValueError if it is unreadable."""
+    """Return True if a file contains control characters, unlike a text. Raises ValueError for an unreadable file."""
     start = _content(path, 4096)
     return len(start.translate(None, _CONTROLS)) < len(start) and _utf16(start) is None
 

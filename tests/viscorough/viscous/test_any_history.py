@@ -21,6 +21,7 @@ from viscorough import (
     AccuracyWarning,
     Indenter,
     Load,
+    Prony,
     Springpot,
     StandardLinearSolid,
     indent,
@@ -29,6 +30,7 @@ from viscorough import (
     reference,
     self_affine_disc,
 )
+from viscorough.viscous.kinetics import row_motion
 
 BODIES = {"sphere": reference.sphere(1.7), "cone": reference.cone(0.3)}
 SPEED, TURN = 0.1, 1.0
@@ -231,6 +233,18 @@ def test_samples_of_a_linear_history_do_not_matter(name, control):
     for name in ("depth", "force", "velocity", "contact_fraction"):
         values = getattr(few, name)
         np.testing.assert_allclose(getattr(many, name), values, rtol=0, atol=1e-9 * np.abs(values).max())
+
+
+@pytest.mark.parametrize("name", ["prony", "springpot"])
+def test_forces_fall_along_the_row_after_a_long_rest(name):
+    """The first springs are soft and touch at once, closer in time than the rounding of the time since the start."""
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-9, 0.2, 301))
+    medium = Prony(0.0, [300.0, 3.0, 600.0, 60.0], [2e-3, 1e-4, 0.2, 1e-3]) if name == "prony" else Springpot(1.0, 0.4)
+    rest, ramp = 100.0, 1e-4
+    force = 0.05 * curve.force[-1] / float(medium.creep_compliance(ramp))
+    load = Load([0.0, rest, rest + ramp, rest + 2 * ramp], force=[0.0, 0.0, force, 0.3 * force])
+    _, moved = row_motion(curve, medium, load)
+    assert np.diff(moved.pressures).max() <= 1e-12 * moved.pressures.max()
 
 
 @pytest.mark.parametrize("exponent", [0.3, 0.955])

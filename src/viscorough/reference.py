@@ -3,10 +3,12 @@
 Elastic quantities are normalised with the shear modulus G of an incompressible half-space (ν = 1/2, E* = 4G):
 force is F/G [length²], stiffness is k/G = d(F/G)/du [length]. The contact is frictionless and non-adhesive.
 
-The laws are dimensionless: X = F/(4GhL) (elastic) or Ft/(4ηhL) (viscous), κ = k/(4GL), with rms height h and
-indenter diameter L. Laws with a printed factor 1/Γ(2−α) exist in two forms. With `gamma=False` they result from
-integrating Eq. 1 with Eq. 3. With `gamma=True` they are the printed laws, which result from a Laplace transform of a
-relation that is nonlinear in F/G.
+The paper's laws are dimensionless: X = F/(4GhL) is the elastic force, X = Ft/(4ηhL) the viscous force or time, and
+κ = k/(4GL) the stiffness, with rms height h and indenter diameter L. H is the Hurst exponent.
+
+The paper prints some of its laws with a factor 1/Γ(2−α). The functions give such a law in two forms. `gamma=True` is
+the printed law, which the paper derives by a Laplace transform although the depth is not linear in F/G. `gamma=False`
+is the law without the factor, which follows from Eqs. 1 and 3 by integration.
 
 Sources: Hertz 1882; Love 1929 and 1939 (square element, cone); Sneddon 1965 (bodies of revolution);
 Johnson 1985, Contact Mechanics (flat ellipse); Popov and Heß 2015 (method of dimensionality reduction, MDR).
@@ -23,7 +25,9 @@ from viscorough.basics.elasticity import one_element_stiffness as one_element_st
 from viscorough.basics.types import Array, Numbers
 from viscorough.surfaces.indenter import Indenter
 
-COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E*·L/2; region (c): vt/h = X
+# Dimensionless stiffness κ of a disc in complete contact, which is a flat punch of radius L/2 with k = 2E*·L/2. In
+# region (c) of the paper the stiffness has this value, so that vt/h = X.
+COMPLETE_CONTACT_STIFFNESS = 1.0
 
 
 # ---- exact elastic solutions
@@ -31,19 +35,22 @@ COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E
 
 @dataclass(frozen=True)
 class PowerLawBody:
-    """Body of revolution with the profile z = c rⁿ (Sneddon): u = κₙ c aⁿ, F = 2E*·n/(n+1)·u a, k = 2E*a.
+    """Body of revolution with the profile z = c rⁿ, with r the distance from its axis.
+
+    At contact radius a the depth is u = κₙ c aⁿ (κₙ: see `mdr_profile`), the force F = 2E*·n/(n+1)·u a, and the
+    stiffness k = 2E*a (Sneddon).
 
     Parameters
     ----------
     coefficient : float
         Coefficient c > 0 [length^(1−n)].
     exponent : float
-        Exponent n > 0 [1]; 1 is a cone, 2 a sphere (as a paraboloid).
+        Exponent n > 0 [1]: 1 for a cone, 2 for a paraboloid, which approximates a sphere.
 
     Raises
     ------
     ValueError
-        Unless both are finite and positive.
+        Unless coefficient and exponent are finite and positive.
 
     Examples
     --------
@@ -61,30 +68,33 @@ class PowerLawBody:
             object.__setattr__(self, name, positive(f"{name} of a power-law body", getattr(self, name)))
 
     def mdr_profile(self, x: Numbers) -> Numbers:
-        """Return the one-dimensional profile `g(x) = κₙ c |x|ⁿ` with κₙ = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
+        """Return the profile g(x) = κₙ c |x|ⁿ of the line that is equivalent to this body in the MDR.
+
+        κₙ = √π Γ(n/2+1)/Γ((n+1)/2). The profile has the unit of x.
+        """
         n = self.exponent
         kappa = np.sqrt(np.pi) * gamma_function(n / 2 + 1) / gamma_function((n + 1) / 2)
         return kappa * self.coefficient * np.abs(x) ** n
 
     def contact_radius(self, depth: Numbers) -> Numbers:
-        """Return the contact radius a at depth u, the root of g(a) = u; the depth at radius a is `mdr_profile(a)`."""
+        """Return the contact radius a at depth u, which solves `mdr_profile(a)` = u."""
         return (depth / self.mdr_profile(1.0)) ** (1 / self.exponent)
 
     def force(self, depth: Numbers) -> Numbers:
-        """Return F/G at depth u [length²]."""
+        """Return the force F/G [length²] at depth u [length]."""
         return 8 * self.exponent / (self.exponent + 1) * depth * self.contact_radius(depth)
 
     def depth(self, force: Numbers) -> Numbers:
-        """Return the depth u at F/G [length], the inverse of `force`."""
+        """Return the depth u [length] at the force F/G [length²]: the inverse of `force`."""
         n = self.exponent
         return self.mdr_profile((force * (n + 1) / (8 * n * self.mdr_profile(1.0))) ** (1 / (n + 1)))
 
     def stiffness(self, depth: Numbers) -> Numbers:
-        """Return k/G = 8a at depth u [length]."""
+        """Return the stiffness k/G = 8a [length] at depth u [length], with a the contact radius."""
         return 8 * self.contact_radius(depth)
 
     def indenter(self, elements_across: int, width: float = 1.0, rows: int | None = None) -> Indenter:
-        """Return a map of this body on a square, with its tip (height 0) at the centre.
+        """Return a map of the heights of this body on a square, with the tip (height 0) at the centre.
 
         Parameters
         ----------
@@ -101,12 +111,14 @@ class PowerLawBody:
         return Indenter(heights, width / elements_across, width / rows)
 
     def mdr_line(self, points: int, width: float = 1.0) -> Indenter:
-        """Return the line of the given width that represents this body in the MDR."""
+        """Return the line that is equivalent to this body in the MDR, with the given width and number of points."""
         return Indenter(np.negative(self.mdr_profile(_element_centres(points, width))), width / points)
 
 
 def sphere(radius: float) -> PowerLawBody:
-    """Return the sphere z = r²/(2R), R = `radius`: F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz).
+    """Return the paraboloid z = r²/(2R) that approximates a sphere of radius R.
+
+    At depth u the force is F = (4/3)E*√R u^(3/2), and the contact radius a = √(Ru) (Hertz).
 
     Examples
     --------
@@ -118,7 +130,9 @@ def sphere(radius: float) -> PowerLawBody:
 
 
 def cone(slope: float) -> PowerLawBody:
-    """Return the cone z = r tanθ with `slope` = tanθ: F = 2E*u²/(π tanθ), u = (π/2) a tanθ (Love).
+    """Return the cone z = r tanθ, with tanθ = `slope`.
+
+    At depth u the force is F = 2E*u²/(π tanθ). At contact radius a the depth is u = (π/2) a tanθ (Love).
 
     Examples
     --------
@@ -130,15 +144,15 @@ def cone(slope: float) -> PowerLawBody:
 
 
 def flat_ellipse_stiffness(major: float, minor: float) -> float:
-    """Return k/G of a flat elliptical punch with semi-axes a = `major` ≥ b = `minor` (Johnson): k = πE*a/K(m) [length].
+    """Return the stiffness k/G [length] of a flat elliptical punch with semi-axes a = `major` ≥ b = `minor`.
 
-    K is the complete elliptic integral of the first kind of parameter m = 1 − b²/a². The force is k u at every depth u.
-    Equal semi-axes give the flat disc, k = 2E*a.
+    k = πE*a/K(m) (Johnson), with the complete elliptic integral of the first kind K of parameter m = 1 − b²/a². The
+    force is k u at every depth u. Equal semi-axes give the flat disc, with k = 2E*a.
 
     Raises
     ------
     ValueError
-        Unless major ≥ minor > 0 and both are finite.
+        Unless major ≥ minor > 0, with finite semi-axes.
 
     Examples
     --------
@@ -153,7 +167,7 @@ def flat_ellipse_stiffness(major: float, minor: float) -> float:
 
 
 def flat_disc_stiffness(radius: float) -> float:
-    """Return k/G = 8a of a flat disc of radius a [length]; the force is k u at every depth u.
+    """Return the stiffness k/G = 8a [length] of a flat disc of radius a. The force is k u at every depth u.
 
     Examples
     --------
@@ -168,7 +182,7 @@ def flat_disc_stiffness(radius: float) -> float:
 
 
 def zeta_elastic(hurst: Numbers) -> Numbers:
-    """Return ζ ≈ π(3 − H)/10, the paper's fit to elastic contact (Eq. 4).
+    """Return the prefactor ζ ≈ π(3 − H)/10 of κ = ζ X^α, the paper's fit to elastic contact (Eq. 4).
 
     Examples
     --------
@@ -180,7 +194,7 @@ def zeta_elastic(hurst: Numbers) -> Numbers:
 
 
 def exponent_alpha(hurst: Numbers) -> Numbers:
-    """Return α = 1/(1 + H), which the paper states for H in (0.4, 1) (Eq. 5).
+    """Return the exponent α = 1/(1 + H) of κ = ζ X^α, which the paper states for H in (0.4, 1) (Eq. 5).
 
     Examples
     --------
@@ -192,7 +206,7 @@ def exponent_alpha(hurst: Numbers) -> Numbers:
 
 
 def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
-    """Return u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8).
+    """Return the depth u/h = X^(1−α)/(ζ(1−α)) (Eq. 6), divided by Γ(2−α) if `gamma` is true (Eq. 8).
 
     Raises
     ------
@@ -212,7 +226,9 @@ def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False)
 
 
 def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
-    """Return vt/h = X^(1−α)/ζ = X/κ (Eq. 1), since κ = ζ X^α (Eq. 3); with `gamma` divided by Γ(2−α) (Eq. 9).
+    """Return the velocity vt/h = X^(1−α)/ζ, divided by Γ(2−α) if `gamma` is true (Eq. 9).
+
+    Without the factor it is vt/h = X/κ (Eq. 1) with the stiffness κ = ζ X^α (Eq. 3).
 
     Examples
     --------
@@ -227,7 +243,7 @@ def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = Fal
 
 
 def exponent_beta(hurst: Numbers) -> Numbers:
-    """Return β = 1 − α = H/(1 + H) (Eq. 10).
+    """Return the exponent β = 1 − α = H/(1 + H) of the velocity, vt/h ∝ X^β (Eq. 10).
 
     Examples
     --------
@@ -240,7 +256,9 @@ def exponent_beta(hurst: Numbers) -> Numbers:
 
 
 def zeta_viscous(hurst: Numbers) -> Numbers:
-    """Return ζ ≈ 2 − H, the paper's fit of the law with the factor 1/Γ(2−α) to viscous indentation (Eq. 11).
+    """Return the prefactor ζ ≈ 2 − H, which the paper fits to viscous indentation (Eq. 11).
+
+    The fitted law is vt/h = X^(1−α)/(ζ Γ(2−α)), with the factor 1/Γ(2−α).
 
     Examples
     --------
@@ -252,7 +270,9 @@ def zeta_viscous(hurst: Numbers) -> Numbers:
 
 
 def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
-    """Return vt/h with Eqs. 5 and 11 for α and ζ; with `gamma` this is Eq. 12, Γ(2−α) = Γ((1+2H)/(1+H)).
+    """Return the velocity vt/h with the exponent α from Eq. 5 and the prefactor ζ from Eq. 11.
+
+    If `gamma` is true, this is Eq. 12, with Γ(2−α) = Γ((1+2H)/(1+H)).
 
     Examples
     --------
@@ -264,9 +284,10 @@ def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
 
 
 def line_spectrum(wavenumber: Numbers, spectrum: Numbers, transfer: Numbers = np.pi) -> Numbers:
-    """Return C1D(q) = λ q C2D(q), the two-sided spectrum of a line that represents a surface; λ = `transfer`.
+    """Return the two-sided spectrum C1D(q) = λ q C2D(q) of the line that represents a surface in the MDR.
 
-    λ = π (Eq. 13) gives line and surface the same rms height; in general λ = π (h1D/h2D)².
+    q is the wavenumber, C2D the spectrum of the surface, and λ = `transfer`. λ = π (Eq. 13) gives line and surface the
+    same rms height. In general λ = π (h1D/h2D)², with the rms heights h1D of the line and h2D of the surface.
 
     Examples
     --------
@@ -279,7 +300,7 @@ def line_spectrum(wavenumber: Numbers, spectrum: Numbers, transfer: Numbers = np
 
 
 def _hurst_exponent(hurst: Numbers) -> Numbers:
-    """Return H as a float or an array. Raises ValueError for negative numbers."""
+    """Return the Hurst exponent as a float or an array. Raises ValueError for negative numbers."""
     exponent = float_or_array("hurst", hurst)
     if np.any(np.asarray(exponent) < 0):
         raise ValueError(f"hurst: {shown(hurst)}; allowed: numbers of at least 0")

@@ -1,1 +1,1 @@
-"""The calibrated penetration law, and the depths that it gives."""
+"""Calibrated penetration law of rough discs, and estimates of depth and velocity from this law."""

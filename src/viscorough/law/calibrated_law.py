@@ -1,26 +1,37 @@
-"""The recommended penetration law, calibrated with boundary elements on the paper's grid: region (b) and beyond.
+"""Penetration law of rough discs, calibrated with boundary-element computations on the paper's grid.
 
-Interface and flat punch of the whole disc are two springs in series, so vt/h = X + g(X) with X = Ft/(4ηhL). The
-contribution of the interface is
+The law covers region (b) of the paper, where the velocity follows a power law, and larger X up to complete contact. A
+rough disc acts like two springs in series, the rough interface and the flat punch of the whole disc. Their compliances
+add, so that
+
+    vt/h = X + g(X),    X = Ft/(4ηhL),
+
+with the term X of the punch and the term g of the interface,
 
     g = (g₁^(−3/2) + (cX)^(−3/2))^(−2/3),    g₁ = A X^b (1 + X/s)^(−m) (1 + (X/d)²)^(−4).
 
-At small X, g₁ is a power law with the exponent b. Around X = 1 it has a broad maximum: the stiffness of the interface
-is then proportional to the force, as in elastic contacts with a force that is exponential in the separation. At larger
-X it falls, and it vanishes at complete contact, so that vt/h = X. While a single element touches (region a), g = cX,
-with a constant c that depends only on the number of elements across.
+- While a single element touches (region a), g = cX. The constant c depends only on the number of elements across the
+  disc.
+- At small X beyond region (a), g follows g₁, a power law with the exponent b.
+- Around X = 1, g has a broad maximum. The stiffness of the interface is then proportional to the force, as in elastic
+  contacts whose force is exponential in the separation of the surfaces.
+- At larger X, g falls. It vanishes at complete contact, so that vt/h = X.
 
-The constants A, b, s, m, d are in data/law.csv, a copy of results/tables/law.csv from `make law`. With them the two
-integrals of g over ln X and over X equal the means of the exact integrals (sum_rules), and g is closest to the mean of
-curves to complete contact. The table also has the range of X with g within 5 % of the mean over other discs. The
-interval of single surfaces, data/law_scatter.csv, is a copy of results/tables/law_scatter.csv from `make law-errors`. β
-and ζ of the paper's power law in region (b) are in data/calibration.csv, a copy of results/tables/calibration.csv from
-`make paper`.
+Sources of the numbers:
 
-Conventions: h is the rms height of the disc and L its diameter; there is no factor Γ. The law describes arithmetic
-means at fixed X, since compliances in series add. The power law is fitted to geometric means over the whole region (b),
-like in the figures. The grids have 257 elements across. At small X their finest waves determine the law, so b is the
-exponent of these curves and not of an infinitely fine grid.
+- The constants A, b, s, m and d are in data/law.csv, a copy of results/tables/law.csv from `make law`. They are chosen
+  so that the integrals ∫g d ln X and ∫g dX equal the means of the exact integrals (viscorough.contact.sum_rules), and
+  so that g is as close as possible to the mean over computed curves up to complete contact. The table also has the
+  range of X in which g is within 5 % of the mean over other discs.
+- The intervals that contain single surfaces are in data/law_scatter.csv, a copy of results/tables/law_scatter.csv from
+  `make law-errors`.
+- β and ζ of the paper's power law in region (b) are in data/calibration.csv, a copy of
+  results/tables/calibration.csv from `make paper`.
+
+Conventions: h is the rms height of the disc, and L its diameter. The law has no factor 1/Γ(2−α). It describes
+arithmetic means over surfaces at fixed X, since compliances in series add. The power law of region (b) is fitted to
+geometric means over the whole region, as in the figures. The grids have 257 elements across. At small X their finest
+waves determine the law, so b is the exponent for this grid, not for an infinitely fine grid.
 """
 
 import csv
@@ -38,13 +49,15 @@ from viscorough.basics.arrays import real_number, real_numbers
 from viscorough.basics.elasticity import one_element_stiffness
 from viscorough.basics.types import Array, Numbers
 
-# Elements across the discs of the calibration.
+# Number of elements across the discs with which the law was calibrated.
 ACROSS = 257
-# Largest deviation of g from its mean over discs outside the calibration, within the range of the law.
+# Within its range, the law's g deviates by at most this share from the mean g of discs that were not used to calibrate
+# the law.
 LARGEST_DEVIATION = 0.05
-# Exponents that are common to all H: 3/2 of the transition from region (a), and 4 of the last factor of g₁.
+# Exponents of the law that do not depend on H: 3/2 at the transition from region (a), and 4 in the last factor of g₁.
 _ONSET, _LAST = 1.5, 4.0
-# Length and number of steps in ln X for the integral of g: it starts at e^-40 X, far inside region (a).
+# The integral of g up to X has this length and this number of steps in ln X. So it starts at e^-40 X, far inside region
+# (a).
 _STEP, _STEPS = 0.05, 800
 CONSTANTS = {
     "amplitude": "A of the law of g",
@@ -80,9 +93,10 @@ SCATTER_COLUMNS = {
 def interface_velocity(
     x: Numbers, amplitude: float, exponent: float, bend: float, fall: float, cutoff: float, *, across: int = ACROSS
 ) -> Array:
-    """Return g(X), the interface's part of vt/h, X > 0 of any shape; the module has the formula and its constants.
+    """Return g(X), the term of the interface in vt/h, for X > 0 of any shape.
 
-    across : elements across the disc, which determine region (a)
+    amplitude, exponent, bend, fall, cutoff : constants A, b, s, m and d of the formula in the module's docstring
+    across : number of elements across the disc, which determines g in region (a)
     """
     x = np.asarray(x, dtype=float)
     interface = amplitude * x**exponent * (1 + x / bend) ** -fall * (1 + (x / cutoff) ** 2) ** -_LAST
@@ -91,7 +105,7 @@ def interface_velocity(
 
 
 def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Array:
-    """Return ∫₀^X g dX/X, the interface's part of u/h, by Simpson's rule.
+    """Return ∫₀^X g dX/X, the term of the interface in the depth u/h, by Simpson's rule.
 
     constants, across : arguments of `interface_velocity`
     """
@@ -104,21 +118,21 @@ def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Arra
 
 @dataclass(frozen=True)
 class PenetrationLaw:
-    """vt/h = X + g(X) for x_low <= X <= x_high, X = Ft/(4ηhL), and X^beta/zeta in region (b) (paper, Eqs. 1 to 3, 10).
+    """Law vt/h = X + g(X) for x_low <= X <= x_high, with X = Ft/(4ηhL), and power law vt/h = X^beta/zeta.
 
-    All quantities are dimensionless. Means over surfaces are arithmetic, at fixed X. The range was chosen so that g is
-    within 5 % of its mean over discs that were not used for the calibration; see `penetration_law` for its error on
-    further discs.
+    The power law holds in region (b) (paper, Eqs. 1 to 3, 10). All quantities are dimensionless. The law gives
+    arithmetic means over surfaces at fixed X. Its range of X was chosen so that g is within 5 % of the mean g of discs
+    that were not used for the calibration. `penetration_law` states the errors for yet another sample of discs.
 
     hurst : Hurst exponent H
     beta, zeta : exponent β and prefactor ζ of the power law in region (b), independent of all other attributes
-    beta_interval, zeta_interval : (lower, upper) ends of their 95 % confidence intervals, from the ensembles of the
-        calibration
-    region : (lower, upper) end of region (b) in X
+    beta_interval, zeta_interval : (lower, upper) ends of the 95 % confidence intervals of β and ζ, from the ensembles
+        of the calibration
+    region : (lower, upper) ends of region (b) in X
     amplitude, exponent, bend, fall, cutoff : constants A, b, s, m and d of g, see `interface_velocity`
-    velocity_error, depth_error : largest relative distances of vt/h and u/h from the ends of the 95 % intervals of
-        their means over discs that were not used for the calibration
-    x_low, x_high : range of the law in X
+    velocity_error, depth_error : largest relative error of vt/h and u/h. For discs that were not used for the
+        calibration, the mean has a 95 % interval; the error is the distance of the law from its farther end
+    x_low, x_high : ends of the range of X in which the law holds
     """
 
     hurst: float
@@ -138,7 +152,7 @@ class PenetrationLaw:
     x_high: float
 
     def __repr__(self) -> str:
-        """Show H, range and power law instead of all constants."""
+        """Return two lines: H and the range of the law, and the power law. The constants are left out."""
         (low, high), (least, most), (begin, end) = self.beta_interval, self.zeta_interval, self.region
         return (
             f"Penetration law vt/h = X + g(X) for H = {self.hurst:g}, X from {self.x_low:.3g} to {self.x_high:.3g}\n"
@@ -147,38 +161,38 @@ class PenetrationLaw:
         )
 
     def velocity(self, x: "ArrayLike") -> Array:
-        """Return vt/h at X, any shape. Raises ValueError outside the calibrated range of X."""
+        """Return the velocity vt/h at X, an array of any shape. Raises ValueError outside the range of the law."""
         x = self._inside(x)
         return x + interface_velocity(x, *self.constants)
 
     def depth(self, x: "ArrayLike") -> Array:
-        """Return u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError like `velocity`."""
+        """Return the depth u/h = ∫ (vt/h) dX/X at X, an array of any shape. Raises ValueError like `velocity`."""
         x = self._inside(x)
         return x + interface_depth(x, *self.constants)
 
     def velocity_interval(self, x: "ArrayLike") -> Array:
-        """Return (lower, upper) ends of vt/h at X for 95 % of single surfaces, shape (2, shape of X).
+        """Return (lower, upper) ends of the interval that contains vt/h of 95 % of single surfaces.
 
-        Raises ValueError like `velocity`.
+        The shape is (2, shape of X). Raises ValueError like `velocity`.
         """
         x = self._inside(x)
         return self.velocity(x) * relative_interval(scatter_calibration(), "velocity", self.hurst, x)
 
     def depth_interval(self, x: "ArrayLike") -> Array:
-        """Return (lower, upper) ends of u/h at X for 95 % of single surfaces, shape (2, shape of X).
+        """Return (lower, upper) ends of the interval that contains u/h of 95 % of single surfaces.
 
-        Raises ValueError like `velocity`.
+        The shape is (2, shape of X). Raises ValueError like `velocity`.
         """
         x = self._inside(x)
         return self.depth(x) * relative_interval(scatter_calibration(), "depth", self.hurst, x)
 
     @property
     def constants(self) -> tuple[float, ...]:
-        """Return A, b, s, m and d of g, in the order of `CONSTANTS`."""
+        """Return the constants A, b, s, m and d of g, in the order of `CONSTANTS`."""
         return self.amplitude, self.exponent, self.bend, self.fall, self.cutoff
 
     def _inside(self, x: "ArrayLike") -> Array:
-        """Return X as an array. Raises ValueError outside the range of the law."""
+        """Return X as an array. Raises ValueError if a value lies outside the range of the law."""
         x = real_numbers("X of the law", x)
         if not np.all((x >= self.x_low) & (x <= self.x_high)):
             raise ValueError(
@@ -189,7 +203,12 @@ class PenetrationLaw:
 
 
 def _read(name: str, chosen: Callable[[dict[str, str]], bool], numbers: Sequence[str]) -> dict[str, Array]:
-    """Return columns of a table in data/, {name: array over ascending H}, of the chosen rows."""
+    """Return columns of a table in the folder data/: {name: array of numbers}.
+
+    name : name of the file
+    chosen : function of a row that returns whether the row is used; used rows are sorted by increasing H
+    numbers : names of the columns
+    """
     with resources.files("viscorough.law").joinpath(f"data/{name}").open(encoding="utf-8") as file:
         rows = sorted(filter(chosen, csv.DictReader(file)), key=lambda row: float(row["hurst"]))
     return {name: np.array([float(row[name] or "nan") for row in rows]) for name in numbers}
@@ -197,30 +216,40 @@ def _read(name: str, chosen: Callable[[dict[str, str]], bool], numbers: Sequence
 
 @cache
 def calibration() -> dict[str, Array]:
-    """Return the power law of discs in region (b), {column of COLUMNS except the source: array over ascending H}."""
+    """Return the power law of discs in region (b): {name: array with a number for each H, in increasing order}.
+
+    The names are the keys of COLUMNS, except "source".
+    """
     names = [name for name in COLUMNS if name != "source"]
     return _read("calibration.csv", lambda row: row["source"] == "discs", names)
 
 
 @cache
 def interface_calibration() -> dict[str, Array]:
-    """Return the law beyond region (b), {column of data/law.csv: array over the H of `calibration`}."""
+    """Return the constants, errors and range of the law: {column of data/law.csv: array}.
+
+    Each array has a number for each Hurst exponent of `calibration`.
+    """
     names = ("hurst", *CONSTANTS, "velocity_error", "depth_error", "x_low", "x_high")
     return _read("law.csv", lambda row: int(row["across"]) == ACROSS, names)
 
 
 @cache
 def scatter_calibration() -> dict[str, Array]:
-    """Return the intervals of single surfaces, {column of SCATTER_COLUMNS: array over ascending H, then X}."""
+    """Return the intervals that contain single surfaces: {key of SCATTER_COLUMNS: array}.
+
+    Each array has a number for each pair of H and X. H increases, and X increases for each H.
+    """
     return _read("law_scatter.csv", lambda row: True, list(SCATTER_COLUMNS))
 
 
 def relative_interval(table: Mapping[str, Any], quantity: str, hurst: float, x: Numbers) -> Array:
-    """Return the ends of the interval of single surfaces, each divided by the law, shape (2, shape of X).
+    """Return the lower and upper end of the interval of single surfaces, each divided by the value of the law.
 
-    table : columns of SCATTER_COLUMNS; quantity : "velocity" (vt/h) or "depth" (u/h)
+    The shape is (2, shape of X). The logarithms of the ends are interpolated linearly in H and in ln X.
 
-    The logarithms of the ends are interpolated linearly in H and in ln X.
+    table : {key of SCATTER_COLUMNS: array}, as `scatter_calibration` returns it
+    quantity : "velocity" (vt/h) or "depth" (u/h)
     """
     hursts, abscissae = np.unique(table["hurst"]), np.unique(table["x"])
     ends = []
@@ -234,13 +263,13 @@ def relative_interval(table: Mapping[str, Any], quantity: str, hurst: float, x: 
 def penetration_law(hurst: float) -> PenetrationLaw:
     """Return the PenetrationLaw of a self-affine surface with Hurst exponent H.
 
-    Between the calibrated exponents all constants and intervals are interpolated linearly in H; for positions in X the
-    logarithms are interpolated.
+    Between the calibrated Hurst exponents, constants and intervals are interpolated linearly in H. For constants that
+    are values of X, the logarithms are interpolated.
 
-    A further sample of discs of 257 elements across, also at exponents in between, had means of vt/h within 12 % of
-    the law, of g within 16 % and of u/h within 7 %, with standard errors of 5 % at small X. The depth depends on the
-    grid: at X = 0.003 the law exceeds the mean u/h of discs of 129 elements across by 12 % at H = 0.85 and by 37 % at
-    H = 0.1 (docs/verification.md).
+    The law was tested on a further sample of discs of 257 elements across, also at Hurst exponents between the
+    calibrated exponents. The means of this sample differed from the law by at most 12 % in vt/h, 16 % in g, and 7 % in
+    u/h; their standard errors are 5 % at small X. The depth depends on the grid: at X = 0.003 the law exceeds the mean
+    u/h of discs of 129 elements across by 12 % at H = 0.85 and by 37 % at H = 0.1 (docs/verification.md).
 
     Parameters
     ----------
@@ -277,7 +306,8 @@ def penetration_law(hurst: float) -> PenetrationLaw:
         place = np.interp(hurst, columns["hurst"], np.arange(len(columns["hurst"])))
         first = min(int(place), len(columns["hurst"]) - 2)
         below, above = columns[name][first : first + 2]
-        return float(below * (above / below) ** (place - first))  # exactly the same value if both ends have it
+        # If below == above, this is exactly that value, without rounding.
+        return float(below * (above / below) ** (place - first))
 
     return PenetrationLaw(
         hurst=hurst,

@@ -1,4 +1,4 @@
-"""The depth and the velocity of a rough indenter over time, as the calibrated penetration law gives them."""
+"""Result type of an estimate: depth and velocity of a rough indenter, by the calibrated penetration law."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -13,15 +13,18 @@ from viscorough.law.calibrated_law import PenetrationLaw
 
 @dataclass(frozen=True)
 class Estimate(ReadOnlyArrays):
-    """Depth and velocity over time by the penetration law, arrays of shape (times,); nan outside the range of the law.
+    """Depth and velocity by the penetration law, as functions of time; arrays of shape (times,).
+
+    Depths and velocities are nan at times when X lies outside the range of the law.
 
     time : times t
-    x : dimensionless force X = F·J(t)/(4hL)
-    depth, velocity : u and v = du/dt, arithmetic means over many surfaces at the same X, with h of each surface in X;
-        u in the unit of the rms height, v in that unit per unit of time
-    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that contain 95 % of single surfaces
-    law : PenetrationLaw, which holds from law.x_low to law.x_high. The relative differences between its depth and
-        velocity and the means over many surfaces are at most law.depth_error and law.velocity_error
+    x : dimensionless force X = F·J(t)/(4hL), with force F, creep compliance J, rms height h and diameter L
+    depth, velocity : u and v = du/dt, as arithmetic means over many surfaces at the same X, each surface with its own
+        h in X. u has the unit of the rms height, and v this unit per unit of time
+    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that contain the depth and the velocity
+        of 95 % of single surfaces
+    law : PenetrationLaw, which holds for X from law.x_low to law.x_high. Its depth and velocity differ from the means
+        over many surfaces by at most the relative errors law.depth_error and law.velocity_error
     """
 
     time: np.ndarray
@@ -36,16 +39,19 @@ class Estimate(ReadOnlyArrays):
 
     @property
     def where(self) -> NDArray[Any]:
-        """Return for every time "" in the range of the law, "below" or "above" outside it."""
+        """Return for every time "" if X is within the range of the law, else "below" or "above"."""
         return np.select([self.x < self.law.x_low, self.x > self.law.x_high], ["below", "above"], "")
 
     def __repr__(self) -> str:
-        """Return the number of times, and the ranges of times, X, depths and velocities."""
+        """Return a line with the number of times and the ranges of times, X, depths and velocities."""
         ranges = (f"{name} {span(getattr(self, name))}" for name in ("time", "x", "depth", "velocity"))
         return f"Estimate at {self.time.size} times, {', '.join(ranges)}"
 
     def __str__(self) -> str:
-        """Return a table of time, X, depth and velocity with intervals of single surfaces, and the errors of means."""
+        """Return a table with a row for each time, and a last line with the errors of the law.
+
+        Columns are time, X, depth and velocity, with the intervals of single surfaces.
+        """
         head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
         columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)
         columns += (self.velocity, self.velocity_low, self.velocity_high)

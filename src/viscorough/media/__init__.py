@@ -1,1 +1,1 @@
-"""Linear viscoelastic media, and the histories of force or depth that act on them."""
+"""Linear viscoelastic media, and loads: forces or depths of an indenter as functions of time."""

@@ -1,7 +1,10 @@
-"""Creep response Φ(t) = ∫ J(t − s) dF(s) of a medium to a force that is linear between samples and may have steps.
+"""Creep response Φ(t) = ∫ J(t − s) dF(s) of a medium to a force F that is linear between samples and may have steps.
 
-For media of springs and dashpots Φ is a sum of states that are carried from sample to sample, at a cost of samples ×
-branches. For others every sample is summed over all before it, at a cost of samples². Either way the integral is exact.
+J is the creep compliance. The integral is computed exactly, in two ways:
+
+- In a medium of springs and dashpots, Φ is a sum of one state per retardation time. The states are advanced from sample
+  to sample, at a cost of samples × retardation times.
+- In any other medium, Φ at each sample is a sum over all earlier samples, at a cost of samples².
 """
 
 from collections.abc import Callable
@@ -18,16 +21,20 @@ from viscorough.media.first_decrease import ROUNDING, Terms, first_decrease, rat
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium, RetardationSpectrum
 
-_CHUNK = 2**20  # pairs of samples at a time
-_SERIES_BELOW, _SERIES_TERMS = 0.3, 12  # the series of (exp(−x) − 1 + x)/x, and its number of terms
+# Number of pairs of samples that sums over the past hold in memory at a time.
+_CHUNK = 2**20
+# Below this x, (exp(−x) − 1 + x)/x is computed by a series with this number of terms, because the formula would lose
+# digits.
+_SERIES_BELOW, _SERIES_TERMS = 0.3, 12
 
 
 class CreepResponse(NamedTuple):
-    """Creep response to a force history, and the first time at which it decreases.
+    """Creep response Φ to a force history, and the first time at which Φ decreases.
 
-    creep, rate : Φ and dΦ/dt at the samples, shape (samples,). At a step (one time in two samples) these are the limits
-        from either side; elsewhere dΦ/dt is the limit after the sample, and before it at the last one
-    receding_from : time from which Φ decreases: at a sample, at a step or in between; nan if it does not
+    creep, rate : Φ and dΦ/dt at the samples, shape (samples,). At a step, which has two samples, the first sample has
+        the limits before the step, and the second has the limits after it. At all other samples dΦ/dt is the limit
+        after the sample, except at the last sample, where it is the limit before it
+    receding_from : first time from which Φ decreases, at or between samples; nan if Φ never decreases
     """
 
     creep: Array
@@ -36,10 +43,10 @@ class CreepResponse(NamedTuple):
 
 
 def creep_response(medium: Medium, load: Load) -> CreepResponse:
-    """Return the CreepResponse of a medium to a force; before its first sample the force is 0."""
+    """Return the CreepResponse of a medium to a load of a force, which is 0 before the first sample of the load."""
     times, force = load.time, load.values
     creep, terms = by_sums(medium, load) if medium.retardation is None else by_states(medium.retardation, load)
-    # Of a downward step to which the medium responds instantaneously.
+    # If the medium responds instantaneously, Φ decreases at every downward step of the force.
     with np.errstate(over="ignore"):
         responds = medium.creep_compliance(0.0) > 0 or np.isinf(medium.creep_rate(0.0))
     down = times[responds & (jumps_and_slopes(times, force)[0] < -ROUNDING * force)]
@@ -48,7 +55,7 @@ def creep_response(medium: Medium, load: Load) -> CreepResponse:
 
 
 def constant_creep(force: float, medium: Medium, times: Array) -> tuple[Array, Array]:
-    """Return Φ and dΦ/dt at times under a force that is constant from time 0 on."""
+    """Return the creep response Φ and dΦ/dt at `times` under a force that is constant from time 0 on."""
     if times[-1] > medium.last_time:
         allowed = f"allowed: up to the last time of the table, {medium.last_time:g}"
         raise ValueError(f"{argument('times')}: up to {times[-1]:g}; {allowed}")
@@ -57,10 +64,10 @@ def constant_creep(force: float, medium: Medium, times: Array) -> tuple[Array, A
 
 
 def by_states(retardation: RetardationSpectrum, load: Load) -> tuple[Array, Terms]:
-    """Φ at the samples, and the terms of dΦ/dt, of springs and dashpots.
+    """Return the creep response Φ at the samples, and a function for the terms of dΦ/dt, of springs and dashpots.
 
-    Its states are the delayed response y of every retardation time θ, θ y' + y = F, and the remainder z = F − y; both
-    are exact for a force linear in time, and computed without cancellation where it is positive.
+    The state of each retardation time θ is the delayed response y, with θ y' + y = F, and the remainder z = F − y. Both
+    are exact for a force that is linear in time. If the force is positive, they are computed without cancellation.
     """
     instantaneous, fluidity, compliances, times = retardation
     _, slopes = jumps_and_slopes(load.time, load.values)
@@ -80,9 +87,10 @@ def by_states(retardation: RetardationSpectrum, load: Load) -> tuple[Array, Term
 
 
 def by_sums(medium: Medium, load: Load) -> tuple[Array, Terms]:
-    """Φ at the samples, and the terms of dΦ/dt, of media without a discrete spectrum: sums over the past.
+    """Return the creep response Φ at the samples, and a function for the terms of dΦ/dt, by sums over the past.
 
-    J is concave, so that positive contributions of the past decrease with time.
+    This serves media that do not consist of springs and dashpots. J is concave, so dJ/dt decreases. Therefore, in
+    dΦ/dt, the positive responses to the past fall with time, and the negative responses rise.
     """
     _, slopes = jumps_and_slopes(load.time, load.values)
     sums = partial(sums_over_the_past, load.time, load.values)
@@ -106,12 +114,15 @@ def sums_over_the_past(
     jump_response: Callable[[Array], Array],
     ramp_response: Callable[[Array, Array], Array],
 ) -> tuple[Array, Array]:
-    """Sums of the positive and of the negative responses to a load, at times after samples; shape of `sample`.
+    """Return the sum of all positive and the sum of all negative responses to the past of a load.
 
-    times, load : as of `arrays.jumps_and_slopes`
-    sample, offset : indices of samples up to which the load counts, and times after them
-    jump_response : response to a unit jump, by the time since then
-    ramp_response : response to a unit slope, by the times since its end and since its start
+    Each returned array has the shape of `sample`, with one sum per output time. An output time lies `offset` after a
+    sample, and the load counts up to this sample.
+
+    times, load : times of the samples, and the load at the samples, as in `arrays.jumps_and_slopes`
+    sample, offset : index of the sample before each output time, and time since this sample
+    jump_response : response to a unit jump of the load, a function of the time since the jump
+    ramp_response : response to a unit slope within an interval, a function of the times since its end and its start
     """
     jumps, slopes = jumps_and_slopes(times, load)
     positive, negative = np.zeros(sample.size), np.zeros(sample.size)
@@ -130,9 +141,12 @@ def sums_over_the_past(
 
 @njit
 def branch_states(lengths, force, retardation_times):
-    """y and z = F − y at every sample, shape (samples, times), with θ y' + y = F and F = 0 before the first sample.
+    """Return, for each retardation time θ, the state y with θ y' + y = F, and z = F − y, at every sample.
 
-    lengths : of the intervals between samples; after one of length 0, F has jumped
+    Both arrays have the shape (samples, times). F is 0 before the first sample.
+
+    lengths : lengths of the intervals between samples; F jumps at an interval of length 0
+    force : F at the samples
     """
     samples, count = force.size, retardation_times.size
     delayed, left = np.zeros((samples, count)), np.zeros((samples, count))
@@ -145,7 +159,8 @@ def branch_states(lengths, force, retardation_times):
             else:
                 x = lengths[k] / retardation_times[j]
                 kept, gone = np.exp(-x), -np.expm1(-x)
-                # Weights of the forces at both ends in y: a + b = 1 − exp(−x), b = 1 − (1 − exp(−x))/x.
+                # Weights in y of the forces at the start (a) and the end (b) of the interval: a + b = 1 − exp(−x), and
+                # b = 1 − (1 − exp(−x))/x.
                 if x < _SERIES_BELOW:
                     b = 0.0
                     for n in range(_SERIES_TERMS, 0, -1):

@@ -1,4 +1,8 @@
-"""Rate of a response at the samples of a load, and its first decrease, from bounds of the rate between them."""
+"""Rate of the response to a load, and the first time from which the response decreases.
+
+The rate is known at any time between two samples of the load. Bounds of the rate within an interval between samples
+show whether the response may decrease there.
+"""
 
 from collections.abc import Callable
 
@@ -6,18 +10,26 @@ import numpy as np
 
 from viscorough.basics.types import Array
 
-ROUNDING = 1e-12  # of a rate, relative to its terms
-# Function of intervals between samples, times after their starts, and whether a kink counts as before it (`left`): the
-# terms of the rate that rise and those that fall within an interval, and the size of all.
+# Rounding error of a rate, relative to the sum of the sizes of its terms.
+ROUNDING = 1e-12
+# Type of a function that evaluates a rate. Its arguments are indices of intervals between samples, times after the
+# starts of these intervals, and the keyword `left`, for the rate before instead of after a kink. It returns three
+# arrays: the sum of the terms of the rate that rise within the interval, the sum of the terms that fall, and the sum of
+# the sizes of all terms.
 Terms = Callable[..., tuple[Array, Array, Array]]
-_HALVINGS = 60  # of an interval, enough to separate neighbouring numbers
+# An interval is halved at most so many times, which is enough to separate neighbouring floating-point numbers.
+_HALVINGS = 60
 
 
 def first_decrease(times: Array, terms: Terms, limit: float = np.inf) -> float:
-    """Return the first time when a response decreases, or the limit if that is earlier.
+    """Return the first time at which a response decreases, or `limit` if `limit` is earlier.
 
-    Its rate is a sum of terms that rise and terms that fall within an interval, so that it is nowhere below the sum of
-    the former at the start and the latter at the end. Intervals whose bound is negative are halved.
+    The rate of the response is a sum of terms that rise within an interval between samples and terms that fall. So it
+    is bounded from below by the rising terms at the start of the interval plus the falling terms at its end. Intervals
+    with a negative bound are halved until the sign of the rate is known.
+
+    times : times of the samples of the load
+    terms : function that evaluates the terms of the rate, see `Terms`
     """
     interval = np.flatnonzero(np.diff(times))
     start, end = np.zeros(interval.size), np.diff(times)[interval]
@@ -25,7 +37,7 @@ def first_decrease(times: Array, terms: Terms, limit: float = np.inf) -> float:
         rising, falling, size = terms(interval, start, left=False)
         rising_at_end, falling_at_end, size_at_end = terms(interval, end, left=True)
         begins = times[interval]
-        with np.errstate(invalid="ignore"):  # terms of both signs that are infinite decide nothing
+        with np.errstate(invalid="ignore"):  # ∞ − ∞ is nan, which does not count as negative
             negative = rising + falling < -ROUNDING * size
             negative_at_end = rising_at_end + falling_at_end < -ROUNDING * size_at_end
         for which, offset in ((negative, start), (negative_at_end, end)):
@@ -42,12 +54,17 @@ def first_decrease(times: Array, terms: Terms, limit: float = np.inf) -> float:
 
 
 def rate_at_samples(times: Array, terms: Terms) -> Array:
-    """Return the rate just after every sample; just before it at the last one and before a step."""
+    """Return the rate of a response just after every sample of the load, shape of `times`.
+
+    At the last sample, and at the first of two samples that make a step, this is the rate just before the sample.
+
+    terms : function that evaluates the terms of the rate, see `Terms`
+    """
     lengths, rate = np.diff(times), np.zeros(times.size)
     after = np.flatnonzero(lengths)
-    before = after[np.append(lengths, 0)[after + 1] == 0]  # intervals that end there
+    before = after[np.append(lengths, 0)[after + 1] == 0]  # intervals that end at a step or at the last sample
     for interval, shift in ((after, 0), (before, 1)):
         rising, falling, _ = terms(interval, shift * lengths[interval], left=bool(shift))
-        with np.errstate(invalid="ignore"):  # the rate of two infinite terms of both signs is not known
+        with np.errstate(invalid="ignore"):  # ∞ − ∞ is nan: the rate is not known
             rate[interval + shift] = rising + falling
     return rate

@@ -1,4 +1,4 @@
-"""The result of an identification: a medium, its intervals, and the errors of the zero of depth."""
+"""Result type of `identify_medium`: a medium, its confidence intervals, and the error of the zero of the depth."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -14,37 +14,40 @@ from viscorough.media.medium import Medium
 
 @dataclass(frozen=True)
 class IdentifiedMedium(ReadOnlyArrays):
-    """A medium identified from a record, as `identify_medium` returns it.
+    """A medium that `identify_medium` identified from a measured record.
 
     Attributes
     ----------
     medium : Medium
-        Of the kind that was asked for.
+        Medium of the requested kind: a table, a Prony series or a springpot.
     time : array
-        0 and the times where J or ψ was determined, shape (times,).
+        Time 0, and the times at which J or ψ was determined, shape (times,).
     compliance : array
-        Creep compliance J at these times, also if another kind than a table was fitted.
+        Creep compliance J at the times of `time`, for every kind of `medium`.
     relaxation_modulus : array or None
-        Relaxation modulus ψ at these times, if the force was measured; None if the depth was.
+        Relaxation modulus ψ at the times of `time` if the force was measured; None if the depth was measured.
     low, high : array
-        Ends of the 95 % interval at each time, of J if the depth was measured, of ψ if the force was. Before the first
-        row J has no lower limit but 0, and ψ no upper one. Both are nan if the scatter is not known.
+        Ends of the 95 % interval at each time: of J if the depth was measured, of ψ if the force was measured. At times
+        before the first row of the record, J has no lower limit but 0, and ψ has no upper limit. Both arrays are nan if
+        the scatter is not known.
     scatter : float
-        Standard deviation of the measured depth [length] or force, as given or as found from the record; nan if it is
-        not known.
+        Standard deviation of the measured depth [length] or force, as given by the user or as found from the record;
+        nan if it is not known.
     misfit : float
-        Root mean square of the difference between the measured values and those in `medium`.
+        Root mean square of the difference between the measured values and the values that follow from `medium`.
     offset, drift : float
-        Error of the zero of the depth [length] and its drift [length/time]; nan if they were not fitted.
+        Error of the zero of the depth [length], and the rate at which this error drifts [length/time]; nan if not
+        fitted.
     offset_interval, drift_interval : array
-        Ends of their 95 % intervals, shape (2,); nan if they are not known.
+        Ends of the 95 % intervals of `offset` and `drift`, shape (2,); nan if not known.
     assumed_offset : float
-        Error of the zero of the depth, which was not fitted, for which `offset_effect` is stated [length]: the scatter
-        of the depth, or 0.1 % of the largest depth if the scatter is not known; nan if the offset was fitted.
+        Error of the zero of the depth that is assumed for `offset_effect` if `offset` was not fitted [length]. It is
+        the scatter of the depth, or 0.1 % of the largest depth if the scatter is not known; nan if `offset` was fitted.
     offset_effect : float
-        Largest relative change of J between the first and the last row if the zero of the depth were off by this.
+        Largest relative change of J between the first and the last row if the zero of the depth were wrong by
+        `assumed_offset`.
     length_unit : str
-        Unit of the depth; if it is known, moduli are in Pa, times in s and forces in N.
+        Unit of the depth. If it is known, moduli are in Pa, times in s and forces in N.
 
     Examples
     --------
@@ -74,7 +77,7 @@ class IdentifiedMedium(ReadOnlyArrays):
     length_unit: str = units.UNKNOWN
 
     def __str__(self) -> str:
-        """Kind of medium, J over time, scatter, misfit, and errors of the zero of depth."""
+        """Return a summary: kind of medium, ranges of times and J (and ψ), scatter, misfit, and zero of the depth."""
         unit = self.length_unit
         text = (
             f"{type(self.medium).__name__} identified from a record of {self.measured}\n"
@@ -92,7 +95,7 @@ class IdentifiedMedium(ReadOnlyArrays):
 
     @property
     def quality(self) -> str:
-        """Return scatter and misfit in words, on one line."""
+        """Return one line that states the scatter of the record and the misfit of the medium."""
         name, shown = self.measured, "J" if self.measured == "depth" else "ψ"
         unit = self.length_unit if name == "depth" else si_unit("N", self.length_unit)
         if np.isnan(self.scatter):
@@ -103,7 +106,7 @@ class IdentifiedMedium(ReadOnlyArrays):
 
     @property
     def zero_of_depth(self) -> str:
-        """Return offset and drift of the depth in words, on one line."""
+        """Return one line that states offset and drift of the depth, or the effect of an offset that was not fitted."""
         unit = self.length_unit
         rate = unit if unit == units.UNKNOWN else f"{unit} s-1"
         texts = []

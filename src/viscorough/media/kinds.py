@@ -1,15 +1,16 @@
-"""Linear viscoelastic media, by their creep compliance J(t) and relaxation modulus ψ(t) in shear.
+"""Linear viscoelastic media, defined by their creep compliance J(t) and relaxation modulus ψ(t) in shear.
 
-Each is a `Medium` (viscorough.media.medium). A function that takes a medium also takes a number, the viscosity of a
-Newtonian one.
+Each class is a `Medium` (viscorough.media.medium). A function with an argument `medium` also accepts a number, the
+viscosity of a Newtonian medium.
 
-The half-space is incompressible at all times. Moduli are in one unit, times in another, viscosities in their product
-and compliances in the inverse of the modulus; a text with a unit, as "2 MPa", is converted to SI units. In all
-media J does not decrease and is concave, as in every medium that relaxes (ψ a sum of decaying exponentials with
-positive weights).
+The half-space is incompressible at all times. Numbers are in consistent units: viscosities are in the unit of modulus ×
+time, and compliances in the inverse of the unit of modulus. A text with a unit, such as "2 MPa", is converted to SI
+units. In all media J does not decrease and is concave. This holds for every medium that relaxes, where ψ is a sum of
+decaying exponentials with positive weights.
 
-Moduli are those in shear. Keywords of their own (`YOUNG`) take Young's moduli instead, E = 3 G. With a constant Poisson
-ratio other than 0.5 the medium is the incompressible one that responds in the same way (viscorough.basics.elasticity).
+Moduli are shear moduli G. Young's moduli E = 3 G are given by other keywords (`YOUNG`). A medium with a constant
+Poisson ratio other than 0.5 is replaced by the incompressible medium with the same response
+(viscorough.basics.elasticity).
 """
 
 from __future__ import annotations
@@ -43,25 +44,32 @@ from viscorough.media.medium import Medium, RelaxationSpectrum, RetardationSpect
 from viscorough.media.spectra import retardation_spectrum
 
 _NONE = np.array([])
-UNITS = {  # of values that are given with a unit, by the name of the parameter
+# SI unit of each parameter that may be given with a unit.
+UNITS = {
     **dict.fromkeys(("shear_modulus", "instantaneous_modulus", "relaxed_modulus", "moduli"), "Pa"),
     **dict.fromkeys(("relaxation_time", "relaxation_times"), "s"),
     "viscosity": "Pa s",
 }
-YOUNG = {  # Young's moduli, by the name of the modulus in shear that they replace
+# Keyword for Young's modulus that replaces each parameter that is a shear modulus.
+YOUNG = {
     "shear_modulus": "young_modulus",
     "instantaneous_modulus": "instantaneous_young_modulus",
     "relaxed_modulus": "relaxed_young_modulus",
     "moduli": "young_moduli",
     "modulus": "young_modulus",
 }
+# Names of the parameters that are lists of numbers.
 _LISTS = ("moduli", "relaxation_times")
-_TABLE_ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much
-_LAST_DIGITS = 1e-14  # relative; rounding of compliances, which their slopes show where J hardly grows
+# Relative increase of the slope of J from one interval of a table to the next that counts as rounding: in tables with
+# ten digits, slopes may increase by this share.
+_TABLE_ROUNDING = 1e-9
+# Relative rounding error of the compliances of a table. It adds to the allowed increase of slopes, because it matters
+# in intervals where J almost does not grow.
+_LAST_DIGITS = 1e-14
 
 
 class _Exponential(Medium):
-    """A medium of springs and dashpots, which has discrete spectra: `relaxation` and `retardation`."""
+    """Base class of media of springs and dashpots, which have the spectra `relaxation` and `retardation`."""
 
     @property
     @abstractmethod
@@ -72,18 +80,18 @@ class _Exponential(Medium):
         return retardation_spectrum(self.relaxation)
 
     def creep_compliance(self, time: ArrayLike) -> Array:
-        """J at times t ≥ 0, any shape; J(0+) at time 0."""
+        """Return the creep compliance J at times t ≥ 0, an array of any shape. At time 0 this is J(0+)."""
         instantaneous, fluidity, compliances, times = self.retardation
         delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
         return instantaneous + np.multiply(fluidity, time) + delayed
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
-        """dJ/dt at times t ≥ 0, any shape."""
+        """Return dJ/dt at times t ≥ 0, an array of any shape."""
         _, fluidity, compliances, times = self.retardation
         return fluidity + (compliances / times * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫J dt from start ≥ 0 to end ≥ start."""
+        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`."""
         instantaneous, fluidity, compliances, times = self.retardation
         length, before = np.subtract(end, start), np.divide.outer(start, times)
         x = np.divide.outer(length, times)
@@ -91,19 +99,22 @@ class _Exponential(Medium):
         return (instantaneous + 0.5 * fluidity * np.add(start, end)) * length + delayed.sum(axis=-1)
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
-        """ψ at times t > 0, any shape, and its limit at time 0, without the pulse η δ(t) of a dashpot."""
+        """Return the relaxation modulus ψ at times t ≥ 0, an array of any shape. At time 0 this is ψ(0+).
+
+        The pulse η δ(t) of a parallel dashpot is left out.
+        """
         _, relaxed, moduli, times = self.relaxation
         return relaxed + (moduli * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
 
     def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse η δ(t) of a dashpot."""
+        """Return the integral ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`, without the pulse η δ(t) of a dashpot."""
         _, relaxed, moduli, times = self.relaxation
         length = np.subtract(end, start)
         decayed = -np.expm1(-np.divide.outer(length, times)) * np.exp(-np.divide.outer(start, times))
         return relaxed * length + (moduli * times * decayed).sum(axis=-1)
 
     def _check_spectra(self) -> None:
-        """Raise ValueError if spectra cannot be held in double precision."""
+        """Raise ValueError if numbers of the spectra, or the rates of their times, are not finite."""
         with np.errstate(all="ignore"):
             rates = 1 / self.relaxation.times, 1 / self.retardation.times
             values = np.hstack([*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates])
@@ -114,12 +125,12 @@ class _Exponential(Medium):
 
 @dataclass(frozen=True)
 class Newtonian(_Exponential):
-    """A linearly viscous medium, that of the paper: J = t/η, ψ = η δ(t).
+    """The linearly viscous medium of the paper: creep compliance J = t/η, relaxation modulus ψ = η δ(t).
 
     Parameters
     ----------
     viscosity : float
-        η. Raises ValueError unless it is a finite number above 0.
+        Viscosity η. Raises ValueError unless it is a finite number above 0.
 
     Examples
     --------
@@ -158,24 +169,25 @@ class _SpringAndDashpot(_Exponential):
 
 
 class Maxwell(_SpringAndDashpot):
-    """A spring and a dashpot in series: J = 1/G + t/η, ψ = G exp(−t/τ), τ = η/G.
+    """A spring and a dashpot in series: J = 1/G + t/η, ψ = G exp(−t/τ), with τ = η/G.
 
     Parameters
     ----------
     shear_modulus : float or str
-        G, or a text as "2 MPa".
+        Shear modulus G of the spring; a number, or a text such as "2 MPa".
     viscosity : float or str
-        η in shear, or a text as "2 kPa s".
+        Viscosity η of the dashpot in shear; a number, or a text such as "2 kPa s".
     young_modulus : float or str, optional
         Young's modulus E instead of G: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
     poisson : float, optional
         Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5. The
-        medium then is the incompressible one of the same E(t)/(1 − ν²), so that also η is divided by 2(1 − ν).
+        medium is then replaced by the incompressible medium with the same E(t)/(1 − ν²). Therefore η, too, is divided
+        by 2(1 − ν).
 
     Raises
     ------
     ValueError
-        Unless both are finite numbers above 0, and for a Poisson ratio outside these limits.
+        Unless modulus and viscosity are finite numbers above 0, and for a Poisson ratio outside these limits.
 
     Examples
     --------
@@ -193,24 +205,25 @@ class Maxwell(_SpringAndDashpot):
 
 
 class KelvinVoigt(_SpringAndDashpot):
-    """A spring and a dashpot side by side: J = (1 − exp(−t/θ))/G, θ = η/G, ψ = G + η δ(t).
+    """A spring and a dashpot in parallel: J = (1 − exp(−t/θ))/G, ψ = G + η δ(t), with θ = η/G.
 
     Parameters
     ----------
     shear_modulus : float or str
-        G, or a text as "2 MPa".
+        Shear modulus G of the spring; a number, or a text such as "2 MPa".
     viscosity : float or str
-        η in shear, or a text as "2 kPa s".
+        Viscosity η of the dashpot in shear; a number, or a text such as "2 kPa s".
     young_modulus : float or str, optional
         Young's modulus E instead of G: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
     poisson : float, optional
         Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5. The
-        medium then is the incompressible one of the same E(t)/(1 − ν²), so that also η is divided by 2(1 − ν).
+        medium is then replaced by the incompressible medium with the same E(t)/(1 − ν²). Therefore η, too, is divided
+        by 2(1 − ν).
 
     Raises
     ------
     ValueError
-        Unless both are finite numbers above 0, and for a Poisson ratio outside these limits.
+        Unless modulus and viscosity are finite numbers above 0, and for a Poisson ratio outside these limits.
 
     Examples
     --------
@@ -226,16 +239,18 @@ class KelvinVoigt(_SpringAndDashpot):
 
 @dataclass(frozen=True, init=False)
 class StandardLinearSolid(_Exponential):
-    """J = 1/G∞ − (1/G∞ − 1/G₀) exp(−t/θ), θ = τ G₀/G∞; ψ = G∞ + (G₀ − G∞) exp(−t/τ).
+    """A solid that relaxes from the modulus G₀ to the modulus G∞ with one relaxation time τ.
+
+    ψ = G∞ + (G₀ − G∞) exp(−t/τ), and J = 1/G∞ − (1/G∞ − 1/G₀) exp(−t/θ) with the retardation time θ = τ G₀/G∞.
 
     Parameters
     ----------
     instantaneous_modulus : float or str
-        G₀, or a text as "2 MPa".
+        Shear modulus G₀ at time 0; a number, or a text such as "2 MPa".
     relaxed_modulus : float or str
-        G∞ < G₀.
+        Shear modulus G∞ < G₀ after a long time; a number, or a text such as "2 MPa".
     relaxation_time : float or str
-        τ, or a text as "20 ms".
+        Relaxation time τ; a number, or a text such as "20 ms".
     instantaneous_young_modulus, relaxed_young_modulus : float or str, optional
         Young's moduli instead of G₀ and G∞: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
     poisson : float, optional
@@ -244,7 +259,7 @@ class StandardLinearSolid(_Exponential):
     Raises
     ------
     ValueError
-        Unless all are finite numbers above 0 and G∞ < G₀, and for a Poisson ratio outside these limits.
+        Unless moduli and time are finite numbers above 0 and G∞ < G₀, and for a Poisson ratio outside these limits.
 
     Examples
     --------
@@ -286,27 +301,29 @@ class StandardLinearSolid(_Exponential):
 
 @dataclass(frozen=True, init=False)
 class Prony(_Exponential):
-    """A Prony series: ψ = G∞ + Σ G_i exp(−t/τ_i); J from the zeros of its relaxance, exactly.
+    """A Prony series: a spring and Maxwell branches in parallel, with ψ = G∞ + Σ G_i exp(−t/τ_i).
+
+    J is computed exactly from ψ, see `viscorough.media.spectra.retardation_spectrum`.
 
     Parameters
     ----------
     relaxed_modulus : float or str
-        G∞ ≥ 0, 0 for a medium that flows; or a text as "2 MPa".
+        Shear modulus G∞ ≥ 0 after a long time, 0 for a medium that flows; a number, or a text such as "2 MPa".
     moduli : list
-        G_i > 0, numbers or texts.
+        Shear modulus G_i > 0 of each branch; numbers, or texts such as "2 MPa".
     relaxation_times : list
-        τ_i > 0, numbers or texts as "20 ms", in any order.
+        Relaxation time τ_i > 0 of each branch, in any order; numbers, or texts such as "20 ms".
     relaxed_young_modulus : float or str, optional
         Young's modulus instead of G∞: G = E/(1 − ν²)/4, which is E/3 for ν = 0.5.
     young_moduli : list, optional
-        Young's moduli instead of G_i.
+        Young's modulus of each branch instead of G_i.
     poisson : float, optional
         Poisson ratio ν, constant in time, above −1 and at most 0.5; only with Young's moduli, by default 0.5.
 
     Raises
     ------
     ValueError
-        For values outside these ranges, and unless there are as many times as moduli, at least one.
+        For values outside these ranges, for empty lists, and if the numbers of times and moduli differ.
 
     Examples
     --------
@@ -343,7 +360,7 @@ class Prony(_Exponential):
     @cached_property
     def relaxation(self) -> RelaxationSpectrum:
         times = np.array(self.relaxation_times)
-        # Branches of one rate are one branch.
+        # Branches with the same rate are merged into one branch.
         _, first, branch = np.unique(1 / times, return_index=True, return_inverse=True)
         moduli = np.bincount(branch, self.moduli).astype(float)
         return RelaxationSpectrum(0.0, self.relaxed_modulus, moduli, times[first])
@@ -351,16 +368,17 @@ class Prony(_Exponential):
 
 @dataclass(frozen=True, init=False)
 class Springpot(Medium):
-    """Creep by a power law: J = t^a/(K Γ(1+a)), ψ = K t^(−a)/Γ(1−a).
+    """A medium that creeps by a power law of time: J = t^a/(K Γ(1+a)), ψ = K t^(−a)/Γ(1−a).
 
     Parameters
     ----------
     modulus : float
-        K [modulus · time^a].
+        Prefactor K of ψ [modulus · time^a].
     exponent : float
-        a.
+        Exponent a of J.
     young_modulus : float, optional
-        The same of Young's modulus, E = E₁ t^(−a)/Γ(1−a), instead of K: K = E₁/(1 − ν²)/4, which is E₁/3 for ν = 0.5.
+        Prefactor E₁ of Young's modulus E(t) = E₁ t^(−a)/Γ(1−a), instead of K: K = E₁/(1 − ν²)/4, which is E₁/3 for
+        ν = 0.5.
     poisson : float, optional
         Poisson ratio ν, constant in time, above −1 and at most 0.5; only with `young_modulus`, by default 0.5.
 
@@ -395,49 +413,50 @@ class Springpot(Medium):
             raise ValueError(f"Springpot: modulus {self.modulus:g}; allowed: numbers whose inverse is finite")
 
     def creep_compliance(self, time: ArrayLike) -> Array:
-        """J at times t ≥ 0, any shape."""
+        """Return the creep compliance J at times t ≥ 0, an array of any shape."""
         return np.asarray(time, dtype=float) ** self.exponent / (self.modulus * gamma(1 + self.exponent))
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
-        """dJ/dt at times t ≥ 0, any shape; infinite at time 0."""
+        """Return dJ/dt at times t ≥ 0, an array of any shape; infinite at time 0."""
         with np.errstate(divide="ignore"):
             return np.asarray(time, dtype=float) ** (self.exponent - 1) / (self.modulus * gamma(self.exponent))
 
     def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """J(end) − J(start) for 0 ≤ start ≤ end, to rounding."""
+        """Return J(end) − J(start) for 0 ≤ start ≤ end, to rounding also if the two times are close."""
         return _power_increment(start, end, self.exponent) / (self.modulus * gamma(1 + self.exponent))
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫J dt from start ≥ 0 to end ≥ start, to rounding."""
+        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`, to rounding."""
         return _power_increment(start, end, 1 + self.exponent) / (self.modulus * gamma(2 + self.exponent))
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
-        """ψ at times t ≥ 0, any shape; infinite at time 0."""
+        """Return the relaxation modulus ψ at times t ≥ 0, an array of any shape; infinite at time 0."""
         with np.errstate(divide="ignore"):
             return self.modulus * np.asarray(time, dtype=float) ** -self.exponent / gamma(1 - self.exponent)
 
     def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫ψ dt from start ≥ 0 to end ≥ start, to rounding."""
+        """Return the integral ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`, to rounding."""
         return self.modulus * _power_increment(start, end, 1 - self.exponent) / gamma(2 - self.exponent)
 
 
 @dataclass(frozen=True)
 class CreepTable(ReadOnlyArrays, Medium):
-    """A measured creep compliance, linear between its points.
+    """A medium with a measured creep compliance J, linear between the points of a table.
+
+    J is not known after the last time of the table. The arrays are copied.
 
     Parameters
     ----------
     times : array
-        0 and increasing.
+        Times of the points, which increase from 0, shape (points,).
     compliances : array
-        J at these times, J(0+) first; arrays of shape (points,), copied.
+        J at the times of the points, shape (points,); the first value is J(0+).
 
     Raises
     ------
     ValueError
-        Unless there are two points, all are finite and J is 0 or more, does not decrease and is concave, as the
-        compliance of every medium that relaxes is: noise has to be smoothed first. Beyond its last point nothing is
-        known.
+        Unless there are two or more points with finite values, and J is 0 or more, not 0 everywhere, does not decrease,
+        and is concave. The J of every medium that relaxes is concave, so noise has to be smoothed first.
 
     Examples
     --------
@@ -451,7 +470,7 @@ class CreepTable(ReadOnlyArrays, Medium):
     compliances: np.ndarray
 
     def __repr__(self) -> str:
-        """Number of points and their range, instead of all numbers."""
+        """Return the number of points and the ranges of times and J, instead of all numbers."""
         return f"CreepTable of {len(self.times)} points, t {span(self.times)}, J {span(self.compliances)}"
 
     def __post_init__(self) -> None:
@@ -482,23 +501,28 @@ class CreepTable(ReadOnlyArrays, Medium):
         return self.times[-1]
 
     def creep_compliance(self, time: ArrayLike) -> Array:
-        """J at times 0 ≤ t up to the last point, any shape; nan beyond it."""
+        """Return the creep compliance J at times t ≥ 0, an array of any shape; nan after the last point."""
         return np.interp(np.asarray(time, dtype=float), self.times, self.compliances, right=np.nan)
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
-        """dJ/dt at times 0 ≤ t up to the last point, any shape: that after each point, or with `left` before it."""
+        """Return dJ/dt at times t from 0 to the last point, an array of any shape.
+
+        left : at a time of the table, return the rate before the point instead of the rate after it
+        """
         place = np.searchsorted(self.times, time, side="left" if left else "right") - 1
         return self._slopes[np.clip(place, 0, self._slopes.size - 1)]
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫J dt from start ≥ 0 to end ≥ start."""
+        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`."""
         return integral(self.times, self.compliances, end) - integral(self.times, self.compliances, start)
 
 
 def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) -> Medium:
-    """The medium; a number, or a text as "2 kPa s", is the viscosity of a Newtonian one.
+    """Return `medium`, or the Newtonian medium if `medium` is a viscosity: a number, or a text such as "2 kPa s".
 
-    length_unit : of the indenter; where it is not known, a viscosity has no unit. Raises ValueError for anything else.
+    length_unit : unit of length of the indenter. If it is not known, the viscosity must not have a unit
+
+    Raises ValueError for anything that is neither a medium nor a viscosity.
     """
     if isinstance(medium, Medium):
         return medium
@@ -516,7 +540,7 @@ def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) ->
 
 
 def _power_increment(start: ArrayLike, end: ArrayLike, power: float) -> Array:
-    """end^power − start^power for 0 ≤ start ≤ end and power > 0, to rounding."""
+    """Return end^power − start^power for 0 ≤ start ≤ end and power > 0, to rounding also if the two are close."""
     start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     with np.errstate(divide="ignore", invalid="ignore"):
         increment = start**power * np.expm1(power * np.log1p((end - start) / start))
@@ -531,14 +555,16 @@ def _set_parameters(
     *,
     zero: str = "",
 ) -> None:
-    """Set the parameters of a medium: finite numbers above 0, in SI units if they have a unit.
+    """Check the arguments of a medium, and set them as its attributes.
 
-    given : {parameter: value}; a value is None if it is missing, or if Young's modulus is given instead
-    young : {modulus in shear: Young's modulus instead}, None if it is not given
-    poisson : Poisson ratio, with Young's moduli; None: 0.5
-    zero : parameter that may be 0
+    Values with a unit are converted to SI units, and Young's moduli to shear moduli.
 
-    Raises ValueError, which names medium and parameter.
+    given : {parameter: value}; the value is None if it is missing, or if Young's modulus is given instead
+    young : {parameter that is a shear modulus: Young's modulus, or None if it is not given}
+    poisson : Poisson ratio, only if Young's moduli are given; None means 0.5
+    zero : name of the parameter that may be 0; all other values must be above 0
+
+    Raises ValueError with the names of medium and parameter unless all values are finite numbers above 0.
     """
     name, young = type(medium).__name__, young or {}
     keywords = ", ".join(YOUNG[modulus] for modulus in young)
@@ -567,7 +593,7 @@ def _set_parameters(
 
 
 def _numbers(medium: str, name: str, values: Any, unit: str) -> list[float]:
-    """Return the values of a list as floats. Raises ValueError as `_number`, and for anything but a list."""
+    """Return the values of a list as floats. Raises ValueError like `_number`, and unless `values` is a list."""
     entries = list(values) if isinstance(values, list | tuple) or np.ndim(values) == 1 else []
     if not entries:
         raise ValueError(f"{medium}: {name} {shown(values)}; allowed: a list of one or more numbers above 0")
@@ -575,9 +601,13 @@ def _numbers(medium: str, name: str, values: Any, unit: str) -> list[float]:
 
 
 def _number(medium: str, name: str, value: Any, unit: str | None, *, zero: bool = False) -> float:
-    """Return the value as a float, of a text with a unit in SI units.
+    """Return a value as a float; a value with a unit is converted to SI units.
 
-    Raises ValueError unless it is a finite number above 0, or 0 where that is allowed.
+    medium, name : names of medium and parameter, for messages
+    unit : SI unit of the parameter; None for a parameter without a unit
+    zero : whether 0 is allowed
+
+    Raises ValueError unless the value is a finite number above 0, or 0 if `zero` is true.
     """
     if unit and (isinstance(value, str) or hasattr(value, "units")):
         value = units.number(value, unit, "m", f"{medium}: {name}")

@@ -1,4 +1,4 @@
-"""Load on an indenter: its depth or the force on it over time."""
+"""Load on an indenter: its depth, or the force on it, as a function of time."""
 
 from __future__ import annotations
 
@@ -13,33 +13,34 @@ from viscorough.basics.arrays import ReadOnlyArrays, increasing, integral, read_
 from viscorough.basics.summaries import span
 from viscorough.basics.types import Array, Integers
 
-# Times that differ by less than this share of them are the same to rounding: within a shorter interval the slope of a
-# load would be lost in rounding.
+# Two times that differ by less than this share of their value count as equal. Within a shorter interval, rounding
+# errors would be as large as the change of a load.
 _SAME_TIME = 1e-13
 
 
 @dataclass(frozen=True)
 class Load(ReadOnlyArrays):
-    """Force or depth over time, linear between samples; read-only arrays of shape (samples,).
+    """Force or depth as a function of time, linear between samples; read-only arrays of shape (samples,).
 
-    Before the first sample there is neither force nor depth, so that a first value above zero is a step. Numbers are
-    plain: in s, N and the unit of length of the indenter, or in consistent units if this unit is not known.
+    Before the first sample, force and depth are zero, so that a first value above zero is a step. Numbers have no unit
+    attached. Times are in s, forces in N, and depths in the indenter's unit of length. If this unit is not known, all
+    numbers are in consistent units.
 
     Parameters
     ----------
     time : array_like
-        Times t, increasing; a time given twice is a step from one value to the other.
+        Times t, increasing. A time given twice is a step from the first of its two values to the second.
     force : array_like, optional
-        Force F ≥ 0 at these times. Without adhesion no force pulls.
+        Force F ≥ 0 at the times of `time`. It cannot be negative, as there is no adhesion.
     depth : array_like, optional
-        Depth u at these times. Below zero the indenter is lifted above the plane of first contact. One of force and
-        depth is needed.
+        Depth u at the times of `time`. A negative depth lifts the indenter above the plane of first contact. Either the
+        force or the depth must be given.
 
     Raises
     ------
     ValueError
-        For times that decrease, values that are not finite, a negative force, and unless one of force and depth is
-        given.
+        For times that decrease, values that are not finite, a negative force, and if neither or both of force and depth
+        are given.
 
     Examples
     --------
@@ -53,12 +54,12 @@ class Load(ReadOnlyArrays):
     force: np.ndarray | None = None
     depth: np.ndarray | None = None
 
-    if TYPE_CHECKING:  # it takes lists, too, which become arrays
+    if TYPE_CHECKING:  # the constructor also accepts lists, which become arrays
 
         def __init__(self, time: ArrayLike, force: ArrayLike | None = None, depth: ArrayLike | None = None) -> None: ...
 
     def __repr__(self) -> str:
-        """Number of samples and their range, instead of all numbers."""
+        """Return the number of samples and the ranges of times and values, instead of all numbers."""
         name = "depth" if self.by_depth else "force"
         return f"Load of {self.time.size} samples, time {span(self.time)}, {name} {span(self.values)}"
 
@@ -82,26 +83,26 @@ class Load(ReadOnlyArrays):
 
     @property
     def by_depth(self) -> bool:
-        """True if the depth is prescribed, False if the force is."""
+        """Return True if the load prescribes the depth, False if it prescribes the force."""
         return self.force is None
 
     @property
     def values(self) -> Array:
-        """The depth or the force, shape (samples,)."""
+        """Return the samples of the prescribed depth or force, shape (samples,)."""
         values = self.depth if self.force is None else self.force
         assert values is not None
         return values
 
     @property
     def integral(self) -> Array:
-        """∫F dt or ∫u dt from the first sample to each sample, shape (samples,)."""
+        """Return ∫F dt or ∫u dt from the first sample to each sample, shape (samples,)."""
         return integral(self.time, self.values, self.time)
 
     def with_times(self, times: ArrayLike) -> tuple[Load, Integers]:
-        """Return the load with further samples at these times, and their indices; after a step at its time.
+        """Return the load with samples added at `times`, and the indices of the samples at `times`.
 
-        Times that are equal to rounding share a sample. Raises ValueError for times that do not increase or lie outside
-        the load.
+        If the load steps at a time, the index belongs to the sample after the step. Times that are equal within
+        rounding share a sample. Raises ValueError if `times` do not increase or lie outside the load.
         """
         times = increasing("times", times)
         rounding = _SAME_TIME * np.abs(times)
@@ -119,17 +120,18 @@ class Load(ReadOnlyArrays):
         return load, np.searchsorted(load.time, times + rounding, side="right") - 1
 
     def in_units_of(self, length_unit: str) -> Load:
-        """Return the load with forces in N divided by the area of a square of the unit of length, in m².
+        """Return the load with forces converted from N to units that are consistent with moduli in Pa and lengths.
 
-        Forces are then consistent with moduli in Pa and this unit. A load without forces, or of an unknown unit, is
-        returned unchanged.
+        length_unit : unit of length; forces are divided by the area of a square with this side in m²
+
+        A load of a depth is returned unchanged, and so is every load if the unit is not known.
         """
         area = units.square_metres(length_unit)
         return self if self.by_depth or area == 1 else Load(self.time, force=self.values / area)
 
 
 def _distance(times: Array, samples: Array) -> Array:
-    """Distance of each time from the nearest of the increasing samples."""
+    """Return the distance of each time from the nearest sample time; both arrays increase."""
     after = np.searchsorted(samples, times)
     before = np.abs(times - samples[np.maximum(after - 1, 0)])
     return np.minimum(before, np.abs(samples[np.minimum(after, samples.size - 1)] - times))
@@ -138,7 +140,11 @@ def _distance(times: Array, samples: Array) -> Array:
 def force_load(force: Any, times: Array, length_unit: str) -> Load:
     """Return a force as a Load in consistent units.
 
-    force : a Load of a force; samples at `times`; or a constant, also with a unit, from time 0 to the last of `times`
+    force : a Load of a force; or samples at `times`; or a constant that acts from time 0 to the last of `times`.
+        Samples and the constant may have a unit
+    length_unit : unit of length of the indenter
+
+    Raises ValueError for a Load of a depth, and for a constant that is not finite and above 0 or starts before time 0.
     """
     if isinstance(force, Load):
         if force.by_depth:

@@ -1,4 +1,4 @@
-"""What every linear viscoelastic medium answers, whatever is known of it."""
+"""Base class of linear viscoelastic media, and the spectra of media of springs and dashpots."""
 
 from __future__ import annotations
 
@@ -12,9 +12,13 @@ from viscorough.basics.types import Array
 
 
 class RelaxationSpectrum(NamedTuple):
-    """ψ(t) = η δ(t) + G∞ + Σ G_i exp(−t/τ_i): a dashpot, a spring and Maxwell branches side by side.
+    """Relaxation modulus ψ(t) = η δ(t) + G∞ + Σ G_i exp(−t/τ_i) of a dashpot, a spring and branches in parallel.
 
-    viscosity : η; relaxed_modulus : G∞; moduli, times : G_i > 0 and τ_i > 0, arrays of shape (branches,)
+    A branch consists of a spring and a dashpot in series (Maxwell).
+
+    viscosity : η of the parallel dashpot, 0 without a dashpot
+    relaxed_modulus : G∞ of the parallel spring, 0 without a spring
+    moduli, times : modulus G_i > 0 and relaxation time τ_i > 0 of each branch, arrays of shape (branches,)
     """
 
     viscosity: float
@@ -24,15 +28,18 @@ class RelaxationSpectrum(NamedTuple):
 
     @property
     def instantaneous_modulus(self) -> float:
-        """G∞ + Σ G_i, the modulus of a medium without a dashpot at time 0."""
+        """Return G∞ + Σ G_i, the modulus at time 0 of a medium without a parallel dashpot."""
         return self.relaxed_modulus + self.moduli.sum()
 
 
 class RetardationSpectrum(NamedTuple):
-    """J(t) = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)): a spring, a dashpot and Kelvin-Voigt elements in series.
+    """Creep compliance J(t) = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)) of a spring, a dashpot and elements in series.
 
-    instantaneous_compliance : J₀; fluidity : φ
-    compliances, times : J_j > 0 and θ_j > 0, arrays of shape (elements,)
+    An element consists of a spring and a dashpot in parallel (Kelvin-Voigt).
+
+    instantaneous_compliance : J₀ of the spring, 0 without a spring
+    fluidity : φ of the dashpot, the inverse of its viscosity; 0 without a dashpot
+    compliances, times : compliance J_j > 0 and retardation time θ_j > 0 of each element, arrays of shape (elements,)
     """
 
     instantaneous_compliance: float
@@ -42,10 +49,11 @@ class RetardationSpectrum(NamedTuple):
 
 
 class Medium(ABC):
-    """A linear viscoelastic medium: creep compliance J(t) and relaxation modulus ψ(t) in shear.
+    """Base class of linear viscoelastic media, with creep compliance J(t) and relaxation modulus ψ(t) in shear.
 
-    A subclass gives J, its rate and its integral. Where its ψ or its spectra are known it gives those as well: ψ is
-    what prescribed depths and pressures need, discrete spectra are what direct integration needs.
+    Every subclass defines J, the rate dJ/dt and the integral ∫J dt. If ψ is known, a subclass also defines ψ, which
+    prescribed depths and pressures need. If the medium consists of springs and dashpots, a subclass also defines the
+    two spectra, which direct integration in time needs.
 
     Examples
     --------
@@ -59,41 +67,50 @@ class Medium(ABC):
 
     @property
     def relaxation(self) -> RelaxationSpectrum | None:
-        """Spectrum of ψ; None unless the medium consists of springs and dashpots."""
+        """Return the spectrum of ψ, or None if the medium does not consist of springs and dashpots."""
         return None
 
     @property
     def retardation(self) -> RetardationSpectrum | None:
-        """Spectrum of J; None unless the medium consists of springs and dashpots."""
+        """Return the spectrum of J, or None if the medium does not consist of springs and dashpots."""
         return None
 
     @property
     def last_time(self) -> float:
-        """The time up to which J is known; infinite for all but measured media."""
+        """Return the time up to which J is known: infinite, except for a measured J."""
         return np.inf
 
     @abstractmethod
     def creep_compliance(self, time: ArrayLike) -> Array:
-        """J at times t ≥ 0, any shape; J(0+) at time 0."""
+        """Return the creep compliance J at times t ≥ 0, an array of any shape. At time 0 this is J(0+)."""
 
     @abstractmethod
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
-        """dJ/dt at times t ≥ 0, any shape; where J has a kink, the rate after it, or with `left` before it."""
+        """Return dJ/dt at times t ≥ 0, an array of any shape.
+
+        left : if J has a kink at a time, return the rate before the kink instead of the rate after it
+        """
 
     @abstractmethod
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫J dt from start ≥ 0 to end ≥ start."""
+        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`."""
 
     def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """J(end) − J(start) for 0 ≤ start ≤ end."""
+        """Return the rise of the creep compliance J(end) − J(start), for 0 ≤ start ≤ end."""
         return self.creep_compliance(end) - self.creep_compliance(start)
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
-        """ψ at times t ≥ 0, any shape, without the pulse η δ(t) of a dashpot. Raises ValueError if it is not known."""
+        """Return the relaxation modulus ψ at times t ≥ 0, an array of any shape.
+
+        The pulse η δ(t) of a parallel dashpot is left out. Raises ValueError if ψ is not known.
+        """
         raise self._without_modulus()
 
     def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse at time 0. Raises ValueError if it is not known."""
+        """Return the integral ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`.
+
+        The pulse η δ(t) of a parallel dashpot is left out. Raises ValueError if ψ is not known.
+        """
         raise self._without_modulus()
 
     def _without_modulus(self) -> ValueError:

@@ -1,7 +1,10 @@
-"""Discrete spectra of linear viscoelastic media, and the exact way from relaxation to retardation.
+"""Exact conversion between the relaxation spectrum and the retardation spectrum of springs and dashpots.
 
-With the relaxance Q(s) = s ψ̂(s) of a relaxation modulus ψ, the creep compliance has s Ĵ(s) = 1/Q(s): the retardation
-rates are the zeros of Q at s = −λ, which separate its poles, the relaxation rates (Gross 1953; Tschoegl 1989).
+With the Laplace transforms ψ̂ and Ĵ of relaxation modulus and creep compliance, the relaxance Q(s) = s ψ̂(s) satisfies
+s Ĵ(s) = 1/Q(s). Q has a pole at s = −r for every relaxation rate r. It has a zero at s = −λ for every retardation rate
+λ. Poles and zeros alternate (Gross 1953; Tschoegl 1989).
+
+A third function approximates the creep by a power law of a springpot with springs and dashpots.
 """
 
 from collections.abc import Callable
@@ -12,19 +15,28 @@ import numpy as np
 from viscorough.basics.types import Array
 from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 
+# Relative error of the springs and dashpots that approximate a power law.
 _POWER_LAW_ERROR = 1e-10
-# Rate of the slowest element of a power law, times the longest time: creep by slower ones is linear to 1e-10.
+# Rate of the slowest element of this approximation, multiplied by the longest time. Until then, the creep of still
+# slower elements is linear in time to 1e-10.
 _SLOWEST = 1e-10
-_BISECTIONS = 80  # ten halve the exponent of any bracket to a factor of 2; the rest halve the number to its rounding
+# Number of bisections of an interval that contains a zero. Ten of them reduce the ratio of its ends to a factor of 2;
+# the others find the zero to rounding.
+_BISECTIONS = 80
 
 
 def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
-    """The RetardationSpectrum of a RelaxationSpectrum: of a dashpot beside a spring or nothing, or with a branch.
+    """Return the RetardationSpectrum of the same medium as a RelaxationSpectrum.
 
-    The zeros of Q(−λ) = G∞ + Σ G_i λ/(λ − r_i), r_i = 1/τ_i, lie one between neighbouring poles and, if G∞ > 0, one
-    below the first; with G∞ = 0 the zero at λ = 0 is a dashpot with φ = 1/Σ G_i τ_i. Every zero is found as its
-    distance from the nearest pole, so that zeros close to poles, as of moduli many decades apart, lose no digits.
-    The strengths are J_j = 1/(λ_j Σ_i G_i r_i/(r_i − λ_j)²).
+    The medium is either a dashpot, alone or parallel to a spring, or it has at least one Maxwell branch and no parallel
+    dashpot.
+
+    With the relaxation rates r_i = 1/τ_i, the retardation rates λ are the zeros of Q(−λ) = G∞ + Σ G_i λ/(λ − r_i). One
+    zero lies between every two neighbouring r_i. If G∞ > 0, a further zero lies below the smallest r_i. If G∞ = 0, the
+    zero at λ = 0 is a dashpot with φ = 1/Σ G_i τ_i. The compliances are J_j = 1/(λ_j Σ_i G_i r_i/(r_i − λ_j)²).
+
+    The unknown is the distance of a zero from the nearest r_i. So a zero that is close to an r_i loses no digits.
+    Moduli that differ by many decades lead to such zeros.
     """
     viscosity, relaxed, moduli, times = relaxation
     if viscosity:
@@ -32,17 +44,18 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
         return RetardationSpectrum(0.0, 0.0 if relaxed else 1 / viscosity, compliance, viscosity * compliance)
     order = np.argsort(-times)
     rates, moduli = 1 / times[order], moduli[order]
-    below = rates[:-1] if relaxed == 0 else np.append(0.0, rates[:-1])  # the pole, or 0, below each zero
+    below = rates[:-1] if relaxed == 0 else np.append(0.0, rates[:-1])  # relaxation rate, or 0, below each zero
     above = rates[rates.size - below.size :]
-    from_rates = rates[:, None]  # relaxation rates down, zeros across
+    from_rates = rates[:, None]  # arrays below have a row per relaxation rate and a column per zero
 
     def relaxance(pole: Array, distance: Array) -> Array:
         rate = pole + distance
         return relaxed + (moduli[:, None] * rate / (pole - from_rates + distance)).sum(axis=0)
 
     half = 0.5 * (above - below)
-    # Q falls from +∞ (or G∞) to −∞ between poles: it is negative halfway if the zero is nearer to the lower one. Of 0,
-    # which is no pole, distances are taken as well: a small zero is then found to its own rounding.
+    # Between two poles, Q falls from +∞ to −∞. So if Q is negative halfway, the zero is nearer to the lower pole.
+    # Between 0, which is not a pole, and the first pole, Q falls from G∞ to −∞. There, too, the unknown is the distance
+    # from the nearer end, so that a small zero keeps all its digits.
     lower = relaxance(below, half) < 0
     pole, sign = np.where(lower, below, above), np.where(lower, 1.0, -1.0)
     distance = sign * zero_of_increasing(lambda size: -sign * relaxance(pole, sign * size), np.finfo(float).tiny, half)
@@ -53,10 +66,11 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
 
 
 def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
-    """Return the RelaxationSpectrum of a fluid with J₀ > 0 and φ > 0: the inverse of `retardation_spectrum`.
+    """Return the RelaxationSpectrum of the same fluid as a RetardationSpectrum with J₀ > 0 and φ > 0.
 
-    The zeros of s Ĵ(s) = J₀ + φ/s + Σ J_j λ_j/(s + λ_j) at s = −r lie one below each rate λ_j = 1/θ_j and one above
-    all of them. The moduli are G_i = 1/(φ/r + r Σ_j J_j λ_j/(r − λ_j)²).
+    This is the inverse of `retardation_spectrum`. With the retardation rates λ_j = 1/θ_j, the relaxation rates r are
+    the zeros of s Ĵ(s) = J₀ + φ/s + Σ J_j λ_j/(s + λ_j) at s = −r. One zero lies below each λ_j, above the next smaller
+    λ_j, and one zero lies above all λ_j. The moduli are G_i = 1/(φ/r_i + r_i Σ_j J_j λ_j/(r_i − λ_j)²).
     """
     instantaneous, fluidity, compliances, times = retardation
     decays = np.sort(1 / times)
@@ -74,11 +88,13 @@ def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
 
 
 def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest: float) -> RetardationSpectrum:
-    """Return springs and dashpots that creep by t^a/(K Γ(1 + a)) at times from `shortest` to `longest`.
+    """Return springs and dashpots with J = t^a/(K Γ(1 + a)) at times t from `shortest` to `longest`.
 
-    t^a/Γ(1 + a) = sin(πa)/π ∫(1 − exp(−t eˣ)) exp(−a x) dx is summed at equal steps of x. Elements that are faster than
-    `shortest` become a spring, and elements that are slower than `longest` a dashpot. Relative errors of J and ψ are
-    about 1e-10.
+    modulus, exponent : K and a of the springpot
+
+    The integral t^a/Γ(1 + a) = sin(πa)/π ∫(1 − exp(−t eˣ)) exp(−a x) dx is replaced by a sum at equal steps of x, with
+    one Kelvin-Voigt element per step. A spring replaces all elements that are much faster than `shortest`. A dashpot
+    replaces all elements that are much slower than `longest`. Relative errors of J and ψ are about 1e-10.
     """
     step = np.pi**2 / -np.log(_POWER_LAW_ERROR)
     start = np.log(_SLOWEST / longest)
@@ -92,9 +108,11 @@ def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest
 
 
 def zero_of_increasing(function: Callable[[Array], Array], low: Any, high: Any) -> Array:
-    """Zeros of an increasing function of arrays, entry by entry, between 0 < low < high, to rounding.
+    """Return the zeros of an increasing function between 0 < low < high, to rounding.
 
-    Bisection, of the exponent at first: zeros may be many decades from either end.
+    The function takes and returns an array, and each entry of the array is an unknown by itself. The zeros are found by
+    bisection. While the ends of an interval are far apart, their logarithms are bisected, because a zero may be many
+    decades from either end.
     """
     for _ in range(_BISECTIONS):
         middle = np.where(high > 2 * low, np.sqrt(low) * np.sqrt(high), low + 0.5 * (high - low))

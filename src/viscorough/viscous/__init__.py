@@ -1,1 +1,4 @@
-"""The linearly viscous half-space: the correspondence with the elastic one, and direct integration in time."""
+"""Indentation of linear viscoelastic half-spaces: motions from the elastic loading curve, and fits of media to records.
+
+The subpackage `integration` integrates the contact problem directly in time.
+"""

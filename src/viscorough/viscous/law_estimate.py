@@ -1,9 +1,11 @@
 """Estimate depth and velocity of a rough indenter from the calibrated penetration law, without a simulation.
 
-A constant force F on a medium of creep compliance J(t) acts as the elastic force F/G = F·J(t) (viscous.kinetics).
-With X = F·J(t)/(4hL) the law gives
+In a medium with creep compliance J(t), the depth at time t under a constant force F is the depth of an elastic contact
+at F/G = F·J(t) (viscous.kinetics). With X = F·J(t)/(4hL), rms height h and diameter L, depth and velocity are
 
-    u = h·(u/h)(X),    v = h·(J'(t)/J(t))·(vt/h)(X),    for a Newtonian medium J = t/η: v = (h/t)·(vt/h)(X).
+    u = h·D(X),    v = h·(J'(t)/J(t))·V(X),
+
+where the penetration law gives D = u/h and V = vt/h. In a Newtonian medium J = t/η, and so v = (h/t)·V(X).
 """
 
 import numpy as np
@@ -33,7 +35,8 @@ def estimate(
     diameter : float
         Diameter L of the indenter [length].
     force : float
-        Force F > 0, constant from time 0 on, in units such that F·J is a length².
+        Force F > 0, constant from time 0 on. It is in units such that F·J, with the creep compliance J of the medium,
+        is a length².
     medium : Medium or float
         Medium such as viscorough.Maxwell, or the viscosity of a Newtonian medium.
     times : array_like

@@ -1,19 +1,22 @@
-"""Row of independent springs with a given loading curve.
+"""Row of independent springs that has a given loading curve.
 
-The contact sets of a loading curve are nested, and its stiffness k never decreases, so that with s₊ = max(s, 0)
+Along a loading curve the contact only grows, and its stiffness k never decreases. With s₊ = max(s, 0), the elastic
+force at depth u is therefore
 
-    F_el(u)/G = ∫ (u − g)₊ dk(g)/G
+    F_el(u)/G = ∫ (u − g)₊ dk(g)/G.
 
-reads the curve as a row of springs: those with gaps from g to g + dg have the stiffness dk (docs/theory.md). The row
-that is made here has the force of the curve's own interpolant (LoadingCurve.at_force) at chosen depths, and chords of
-it in between:
+This is the force of a row of independent springs: the springs with initial gaps from g to g + dg have the stiffness dk
+(docs/theory.md). The row is finite, so its force is piecewise linear in the depth. At chosen depths it equals the force
+of the interpolated curve (LoadingCurve.at_force). The depths are chosen as follows:
 
-- Where at most one element joins between two levels the curve consists of two tangents. They meet at the gap of one
-  spring, whose stiffness is the jump of k. Such a row is exact.
-- Elsewhere the interpolant is cut into so many chords that their depth deviates by less than a twentieth of the
-  tolerance of the curve, and that k jumps by little.
-- Before a first level whose tangent misses the origin, the curve is taken for the power law with its force and tangent.
-- The greatest convex function below all these points makes k monotone, since dk ≥ 0.
+- If at most one element joins the contact between two levels, the curve between them consists of their two tangents.
+  The tangents meet at the gap of one spring, whose stiffness is the jump of k. This part of the row is exact.
+- Between other levels, the interpolated curve is divided into chords. There are so many chords that their depth
+  deviates by less than a twentieth of the tolerance of the curve, and that k jumps by little from chord to chord.
+- If the tangent of the first level misses the origin, the curve before this level is taken for a power law with the
+  same force and the same tangent at this level.
+- Finally, the points are replaced by the greatest convex function below all of them, so that no stiffness dk is
+  negative.
 """
 
 from typing import NamedTuple
@@ -26,27 +29,30 @@ from viscorough.basics.types import Array, Mask
 from viscorough.media.spectra import zero_of_increasing
 from viscorough.results.loading_curve import LoadingCurve
 
-# Largest deviation in depth of chords from the interpolant, over the tolerance of the curve, and the smallest tolerance
-# that counts: below it the interpolant is not known well enough.
+# The depth of a chord deviates from the interpolated curve by at most _DEVIATION times the tolerance of the curve,
+# relative to the depth. A tolerance below _FINEST counts as _FINEST, because the interpolated curve is not known
+# better.
 _DEVIATION, _FINEST = 0.03, 1e-7
-# Largest relative jump of the stiffness from one chord to the next; the velocity has an error of about half of it.
+# Largest relative jump of the stiffness from one chord to the next. The relative error of the velocity is about half of
+# this.
 _STIFFNESS_STEP = 2e-3
-# Largest number of chords between two levels, and of all, roughly.
+# Largest number of chords between two levels, and approximate largest number of all chords.
 _MOST_CHORDS, _MOST_SPRINGS = 2000, 100_000
-# Chords of the power law before the first level.
+# Number of chords of the power law before the first level.
 _EARLY_CHORDS = 64
-# Rounding by which a load may exceed the last level.
+# A load may exceed the last level of the curve by this relative rounding error.
 ROUNDING = 1e-10
 
 
 class RowOfSprings(NamedTuple):
-    """Independent springs with the force of a loading curve; arrays of shape (springs,).
+    """Row of independent springs that has the force of a loading curve; arrays of shape (springs,).
 
-    gap : increasing initial gaps [length]; the first one is 0
-    stiffness : dk/G > 0 [length]
-    contact_fraction : share of the elements in contact when this spring is the last one in contact [1]
-    limit : depth up to which the curve is known; infinite at complete contact
-    first_depth : depth below which the curve is not known, but taken for a power law; 0 if it is known
+    gap : initial gaps, which increase from 0 [length]
+    stiffness : stiffness dk/G > 0 of each spring [length]
+    contact_fraction : share of the elements of the indenter that are in contact while this spring is in contact and no
+        spring after it [1]
+    limit : depth up to which the curve is known; infinite if the curve reaches complete contact
+    first_depth : depth below which the curve is not known and is taken for a power law; 0 if all of the curve is known
     """
 
     gap: Array
@@ -57,9 +63,9 @@ class RowOfSprings(NamedTuple):
 
 
 def row_of_springs(curve: LoadingCurve, depths: ArrayLike = ()) -> RowOfSprings:
-    """Return the row of springs of a loading curve.
+    """Return the row of springs that has the force of a loading curve.
 
-    depths : at these, too, the row has the force of the interpolant, shape (n,) [length]
+    depths : further depths at which the row has exactly the force of the interpolated curve, shape (n,) [length]
     """
     parts = [_before_first_level(curve)]
     if curve.depth.size > 1:
@@ -77,7 +83,7 @@ def row_of_springs(curve: LoadingCurve, depths: ArrayLike = ()) -> RowOfSprings:
     chords = np.diff(force) / np.diff(depth)
     gap, limit = depth[:-1], curve.depth[-1] * (1 + ROUNDING)
     if curve.contact_count[-1] == curve.elements:
-        # Beyond complete contact the curve is straight.
+        # After complete contact the curve is a straight line.
         chords, gap, limit = np.append(chords, max(chords[-1], curve.stiffness[-1])), depth, np.inf
     jumps = np.diff(chords, prepend=0.0)
     first_depth = 0.0 if curve.starts_straight else float(curve.depth[0])
@@ -87,7 +93,10 @@ def row_of_springs(curve: LoadingCurve, depths: ArrayLike = ()) -> RowOfSprings:
 
 
 def _before_first_level(curve: LoadingCurve) -> Array:
-    """Depths, forces and numbers of elements in contact from the origin to the first level, as rows."""
+    """Return points of the curve from the origin to the first level, shape (3, points).
+
+    The rows are depths, forces and numbers of elements in contact.
+    """
     depth, force, stiffness, count = (x[0] for x in (curve.depth, curve.force, curve.stiffness, curve.contact_count))
     exponent = stiffness * depth / force
     if curve.starts_straight or exponent <= 1:
@@ -97,7 +106,10 @@ def _before_first_level(curve: LoadingCurve) -> Array:
 
 
 def _between_levels(curve: LoadingCurve) -> Array:
-    """Depths, forces and numbers of elements in contact after the first level, as rows; all levels are among them."""
+    """Return points of the curve after the first level, which include all further levels, shape (3, points).
+
+    The rows are depths, forces and numbers of elements in contact.
+    """
     depth, force, stiffness, count = curve.depth, curve.force, curve.stiffness, curve.contact_count
     joined, rise = np.diff(count), np.diff(depth)
     tangents = (joined >= 0) & (joined <= 1)
@@ -121,7 +133,7 @@ def _between_levels(curve: LoadingCurve) -> Array:
 
     meeting = _meeting_of_tangents(curve, tangents)
     between = np.flatnonzero(np.isfinite(meeting))
-    at = np.cumsum(chords)[between] - 1  # before the level that ends the interval
+    at = np.cumsum(chords)[between] - 1  # index of the level at the end of the interval; the new point precedes it
     depths = np.insert(depths, at, meeting[between])
     forces = np.insert(forces, at, force[between] + stiffness[between] * (meeting[between] - depth[between]))
     counts = np.insert(counts, at, count[between + 1].astype(float))
@@ -129,7 +141,11 @@ def _between_levels(curve: LoadingCurve) -> Array:
 
 
 def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
-    """Depths at which the tangents of neighbouring levels meet; nan unless it is between them and asked for."""
+    """Return the depth at which the tangents of two neighbouring levels meet, for each interval between levels.
+
+    tangents : intervals that consist of two tangents. For other intervals, and if the tangents do not meet within the
+        interval, the depth is nan
+    """
     depth, force, stiffness = curve.depth, curve.force, curve.stiffness
     jump, rise = np.diff(stiffness), np.diff(depth)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -139,9 +155,11 @@ def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
 
 
 def merged(gap: Array, stiffness: Array, depth: float, most: int) -> tuple[Array, Array]:
-    """Return gaps and stiffnesses of at most `most` springs with gaps below a depth, for fits that move the row often.
+    """Merge the springs of a row with gaps up to `depth` into at most `most` springs; return their gaps and
+    stiffnesses.
 
-    Neighbours are replaced by one spring at their mean gap. The springs are spread over the cube root of the gap.
+    Fits that move the row often use such a row. Neighbouring springs are replaced by one spring at their mean gap, with
+    the sum of their stiffnesses. The new springs are spread evenly over the cube root of the gap.
     """
     inside = gap < depth * (1 + 1e-9)
     gap, stiffness = gap[inside], stiffness[inside]
@@ -153,12 +171,15 @@ def merged(gap: Array, stiffness: Array, depth: float, most: int) -> tuple[Array
 
 @njit
 def _below_all(depth, force):
-    """Indices of the corners of the greatest convex function below points with increasing depths."""
+    """Return the indices of the points that are corners of the greatest convex function below all points.
+
+    depth, force : coordinates of the points, in the order of increasing depth
+    """
     corners = np.empty(depth.size, np.int64)
     count = 0
     for i in range(depth.size):
         if i > 0 and depth[i] <= depth[corners[count - 1]]:
-            continue  # the same depth to rounding
+            continue  # the depth equals that of the point before within rounding
         while count > 1:
             a, b = corners[count - 2], corners[count - 1]
             before = (force[b] - force[a]) / (depth[b] - depth[a])

@@ -1,30 +1,37 @@
 """Motion of a row of unilateral viscoelastic springs, exact in time for media of springs and dashpots.
 
-Every spring i has an initial gap g_i and a stiffness w_i (over a modulus) and follows the medium by itself: its
-deflection y_i and its force φ_i, over w_i, are related by
+A row consists of independent springs with initial gaps g_i, in increasing order. Spring i has the stiffness W_i per
+unit modulus. Its deflection y_i and its force divided by W_i, φ_i, are related by the law of the medium,
 
-    φ = G∞ y + Σ G_b w_b + η y',    w_b' = y' − r_b w_b,    r_b = 1/τ_b,
+    φ = G∞ y + Σ_b G_b w_b + η y',    w_b' = y' − r_b w_b,    r_b = 1/τ_b,
 
-with one internal variable w_b for each Maxwell branch. A pressed spring has y_i = u − g_i, a free one φ_i = 0. The
-springs in contact are always the first m of the row (docs/theory.md), so that only two events can come next: the last
-spring in contact lets go, or the first free one touches. The kernel moves from event to event:
+with one internal variable w_b for each Maxwell branch b. A spring in contact has y_i = u − g_i at the depth u. A free
+spring has φ_i = 0. The springs in contact are always the first springs of the row (docs/theory.md). So only two events
+can come next: the last spring in contact is released, or the first free spring touches. The kernel moves from event to
+event:
 
-1. Between events all springs in contact move alike. Their internal variables differ from a common variable D_b by
-   offsets that decay by exp(−r_b t). The contact is a stack: a spring that touches stores its offset and the sum of the
-   offsets up to it, and a spring that lets go restores the sum before it, so that nothing is subtracted.
-2. Under a prescribed depth u is linear in time, and D_b and the force follow at once. Under a prescribed force the
-   remainders R_j = ΣF − Z_j of the Kelvin-Voigt elements of the medium have R_j' = F' − λ_j R_j, and
+1. Between two events, all springs in contact move by the same distance. So the internal variable w_b of a spring in
+   contact is the sum of a variable D_b, which is common to all these springs, and of an offset, which decays by
+   exp(−r_b t). The springs in contact are a stack: a spring that touches stores its offset, and the sum Σ W_i × offset
+   up to itself. When the spring is released, the sum stored by the spring before it is valid again. So no offset is
+   ever subtracted.
+2. Under a prescribed depth, u is linear in time, and D_b and the force follow directly. Under a prescribed force F, the
+   medium is regarded as a series of a spring J₀, a dashpot φ₀ and Kelvin-Voigt elements with compliance J_j and rate
+   λ_j = 1/θ_j. Let R_j be the part of F that the dashpot of element j carries, summed over the springs in contact. Then
+   R_j' = F' − λ_j R_j, and
 
-       u' Σw = J₀ F' + φ₀ F + Σ J_j λ_j R_j,    Σ w_i w_ib = φ₀ τ_b F + Σ_j J_j λ_j/(r_b − λ_j) R_j.
+       u' ΣW = J₀ F' + φ₀ F + Σ_j J_j λ_j R_j,    Σ_i W_i w_ib = φ₀ τ_b F + Σ_j J_j λ_j/(r_b − λ_j) R_j.
 
-3. A free spring recovers by y(t) = y + Σ J_j r_j (1 − exp(−λ_j t)), with its own remainders
-   r_j = Σ_b G_b r_b/(r_b − λ_j) w_b, which decay by exp(−λ_j t). It is evaluated only when it can touch next.
-4. The force of the last spring and the overlap of the next one are sums of exponentials and a parabola. The first time
-   at which such a function becomes positive is bracketed by bounds of its curvature, then found by Newton's method.
-5. At a step of the load every spring responds with G₀ = G∞ + Σ G_b, and events follow in their order at this time. A
-   parallel dashpot does not move at a step.
+3. A spring that is released at deflection y recovers by y(t) = y + Σ_j J_j ρ_j (1 − exp(−λ_j t)). Its remainders
+   ρ_j = Σ_b G_b r_b/(r_b − λ_j) w_b are the R_j of this spring alone, divided by W_i; they decay by exp(−λ_j t). They
+   are evaluated only when this spring can touch next.
+4. The force of the last spring in contact, and the overlap of the indenter with the first free spring, are sums of
+   exponentials and a parabola in time. The first time at which such a function becomes positive is bracketed by bounds
+   of its curvature, and then found by Newton's method.
+5. At a step of the load, every spring responds elastically with the modulus G₀ = G∞ + Σ G_b. The events that happen at
+   this time are followed in their order. A dashpot parallel to the medium does not move at a step.
 
-Every event costs a few evaluations of these sums. The cost does not depend on the number of springs in contact.
+An event costs a few evaluations of these sums. The cost does not depend on the number of springs in contact.
 """
 
 from typing import NamedTuple
@@ -36,35 +43,47 @@ from viscorough.basics.interrupts import uninterrupted
 from viscorough.basics.types import Array, Integers, Mask
 from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 
-# Rounding error of a force or of an overlap, relative to its terms: events within it do not happen.
+# Rounding error of a force or an overlap, relative to its terms. A spring is released, or touches, only if the tension
+# or the overlap exceeds this error.
 _ROUNDING = 1e-14
-# A time of an event is found if the function is this close to zero, over its rounding.
+# Newton's method for the time of an event ends when the function is within this multiple of its rounding error of 0.
 _CLOSE = 0.2
-# Events within this share of the time, or of the first interval, belong to the sample before them.
+# An event belongs to the sample before it if the time since this sample is at most this share of the sample's time or,
+# in the first interval, of the length of the interval.
 _AT_ONCE = 1e-11
-# The force of a spring is a sum of exponentials from the start of an interval. Branches that have relaxed since then
-# were large, and their rounding errors remain. If a release lies more relaxation times of the fastest branch ahead than
-# the first number, the row first moves by this share of the time, from where the sum is taken again.
+# The force of a spring is a sum of exponentials of the time since the last event or sample. Branches that have relaxed
+# since then were large, and their rounding errors remain in the sum. If a release lies more than _FORGOTTEN relaxation
+# times of the fastest branch ahead, the row first moves by the share _APPROACH of the time until then, and the sum
+# starts anew.
 _FORGOTTEN, _APPROACH = 5.0, 0.999
-# Halvings of an interval in search of an event, and Newton steps: enough to reach the rounding of a number.
+# Largest number of halvings of the interval that contains an event, and of Newton steps. Both are enough to find the
+# time to rounding.
 _HALVINGS, _NEWTON_STEPS = 64, 60
-# Below this x the functions of exp(−x) are computed by series with this many terms.
+# Below this x, `_second_mean` uses a series with this number of terms.
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
-# Events at one time, over the number of springs, that cannot happen: every spring can let go and touch once.
+# More events than this at one time, per spring, cannot happen: at one time, a spring can be released once and touch
+# once.
 _MOST_AT_ONCE = 4
-# Length of the first pause without events in an interval, over the time since the beginning, and largest number of
-# pauses. Their length doubles from the rounding of a time to 1e-9 of it.
+# If events at one time do not end, the row moves on for a short pause without events. As a share of the time since the
+# start of the motion, the n-th pause in an interval between samples has the length _PAUSE · 2^n: from the rounding
+# error of a time to 1e-9 of the time. The second number is the largest n.
 _PAUSE, _MOST_PAUSES = 5e-16, 21
 
-SETTLED, BEYOND, INFINITE, RESTLESS = 0, 1, 2, 3  # how a motion ended
+# How a motion ends: at the last sample, at the limit of the depth, at a step that takes an infinite force, or because
+# events at one time do not end.
+SETTLED, BEYOND, INFINITE, RESTLESS = 0, 1, 2, 3
 
 
 class Law(NamedTuple):
-    """Both spectra of a medium and the matrices between their internal variables.
+    """Both spectra of a medium, and matrices that convert their internal variables; symbols: see the module docstring.
 
-    viscosity, relaxed, moduli, rates : η, G∞, G_b and r_b
-    instantaneous, fluidity, flows, decays : J₀, φ₀, J_j λ_j and λ_j
-    remainders : G_b r_b/(r_b − λ_j), shape (decays, rates); branches : J_j λ_j/(r_b − λ_j), shape (rates, decays)
+    viscosity, relaxed : η of the parallel dashpot and G∞ of the parallel spring
+    moduli, rates : moduli G_b and rates r_b of the Maxwell branches, shape (branches,)
+    instantaneous, fluidity : J₀ of the spring and φ₀ of the dashpot in series
+    flows, decays : J_j λ_j and rates λ_j of the Kelvin-Voigt elements with compliances J_j, shape (elements,)
+    remainders : matrix G_b r_b/(r_b − λ_j) from internal variables w_b of branches to remainders ρ_j of elements, shape
+        (elements, branches)
+    branches : matrix J_j λ_j/(r_b − λ_j) from remainders ρ_j to internal variables w_b, shape (branches, elements)
     """
 
     viscosity: float
@@ -80,14 +99,16 @@ class Law(NamedTuple):
 
 
 class RowMotion(NamedTuple):
-    """Motion of a row of springs; arrays of shape (times,) unless stated.
+    """Motion of a row of springs; arrays of shape (times,) unless stated. Symbols: see the module docstring.
 
-    depth, force, velocity : u, ΣφW and u'; the limit after each time, except before a step and at the last time
+    depth, force, velocity : depth u, force F = Σ W φ, and velocity u', as limits after each time. At the first of two
+        samples that make a step, and at the last time, they are limits before the time
     in_contact : number of springs in contact
-    deflection : Σ w y of the springs in contact
-    largest : whether the contact is larger than, or as large as, ever before
-    receding_from : the time at which the first spring lets go; nan if none does
-    pressures, surface : φ and g + y of every spring at the last time, shape (springs,)
+    deflection : sum of stiffness × deflection, Σ W y, of the springs in contact
+    largest : whether there are at least as many springs in contact as at any earlier time
+    receding_from : time of the first release of a spring; nan if no spring is released
+    pressures, surface : force divided by stiffness, φ, and initial gap plus deflection, g + y, of every spring at the
+        last time, shape (springs,)
     """
 
     depth: Array
@@ -102,7 +123,12 @@ class RowMotion(NamedTuple):
 
 
 class _Row(NamedTuple):
-    """Springs, and Σw and Σwg of the first ones of them, shape (springs + 1,); see move_row."""
+    """Springs of a row, and sums over its first springs.
+
+    gaps, weights, limit : arguments of `move_row`
+    stiffness, moment : sums of stiffness and of stiffness × gap of the first n springs, n = 0, 1, …, shape (springs +
+    1,)
+    """
 
     gaps: Array
     weights: Array
@@ -112,12 +138,18 @@ class _Row(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Internal variables of the row; arrays that the kernel changes in place.
+    """State of the row, in arrays that the kernel changes in place; symbols: see the module docstring.
 
-    common : D_b
-    joined : time at which each spring touched; offset, total : its offset, and the sum of offsets, at that time
-    left : time at which each spring let go; rest, remainder : its y and r_j at that time
-    most : largest number of springs in contact so far; receding : time at which the first one let go; shape (1,)
+    common : internal variables D_b that are common to the springs in contact, shape (branches,)
+    joined : time of the last touch of each spring, shape (springs,)
+    offset : offset of the internal variables of each spring from the D_b at the time `joined`, shape (springs,
+        branches)
+    total : sum of W × offset up to each spring at its time `joined`, shape (springs, branches)
+    left : time of the last release of each spring, shape (springs,)
+    rest : deflection y of each spring at the time `left`, shape (springs,)
+    remainder : remainders ρ_j of each spring at the time `left`, shape (springs, elements)
+    most : largest number of springs in contact so far, shape (1,)
+    receding : time of the first release of a spring, nan before it; shape (1,)
     """
 
     common: Array
@@ -132,14 +164,14 @@ class _State(NamedTuple):
 
 
 def law_of(relaxation: RelaxationSpectrum, retardation: RetardationSpectrum) -> Law:
-    """Return the Law of a medium with these spectra."""
+    """Return the Law of a medium with the given spectra."""
     rates, decays = 1 / relaxation.times, 1 / retardation.times
     flows = retardation.compliances * decays
     if relaxation.viscosity:
         remainders, branches = np.zeros((decays.size, 0)), np.zeros((0, decays.size))
     else:
         apart = rates - decays[:, None]
-        # A branch whose rate is a retardation rate to rounding has no strength.
+        # If a relaxation rate equals a retardation rate within rounding, the branch has no strength.
         inverse = np.divide(1.0, apart, out=np.zeros_like(apart), where=apart != 0)
         remainders, branches = relaxation.moduli * rates * inverse, np.ascontiguousarray((flows[:, None] * inverse).T)
     return Law(
@@ -151,13 +183,17 @@ def law_of(relaxation: RelaxationSpectrum, retardation: RetardationSpectrum) -> 
 def move_row(
     gaps: Array, weights: Array, limit: float, law: Law, times: Array, load: Array, *, by_depth: bool
 ) -> tuple[RowMotion, int, float]:
-    """Return the motion of a row of springs, how it ended, and when.
+    """Return the motion of a row of springs, how it ended (SETTLED, BEYOND, INFINITE or RESTLESS), and its end time.
 
-    gaps : increasing initial gaps, shape (springs,); weights : stiffnesses > 0; limit : depth that may not be reached
-    times, load : depth or force at increasing times, linear in between; a time given twice is a step; shape (times,)
+    gaps : increasing initial gaps g of the springs, shape (springs,)
+    weights : stiffnesses W > 0 of the springs per unit modulus, shape (springs,)
+    limit : depth that the motion may not reach
+    times, load : depth or force at increasing times, linear in between, shape (times,); a time given twice is a step
+    by_depth : whether `load` is a depth instead of a force
 
-    The motion ends early, with BEYOND, where u reaches the limit; with INFINITE, where a step of the depth presses on a
-    parallel dashpot; and with RESTLESS if events do not end, which would be a fault.
+    A motion that does not end early is SETTLED. It ends early with BEYOND if the depth reaches the limit, with INFINITE
+    if a step of the depth presses on a parallel dashpot, and with RESTLESS if events at one time do not end, which
+    would be a fault.
     """
     with uninterrupted():
         *motion, ended, until = _march(gaps, weights, limit, law, times - times[0], load, by_depth)
@@ -167,13 +203,13 @@ def move_row(
 
 @njit(inner=True)
 def _mean_decay(x):
-    """(1 − exp(−x))/x."""
+    """Return (1 − exp(−x))/x, the mean of exp(−s) for s from 0 to x."""
     return -np.expm1(-x) / x if x > 0 else 1.0
 
 
 @njit(inner=True)
 def _second_mean(x):
-    """(x − 1 + exp(−x))/x²."""
+    """Return (x − 1 + exp(−x))/x², the double integral of exp(−s) from 0 to x, divided by x²."""
     if x > _SERIES_BELOW:
         return (x + np.expm1(-x)) / (x * x)
     value = 0.0
@@ -184,9 +220,9 @@ def _second_mean(x):
 
 @njit(inner=True)
 def _evaluate(s, value, slope, bend, first, second, rates):
-    """f, f' and upper bounds of f'' and −f'' from here on, of f = value + slope s + bend s² + Σ∫x_k.
+    """Return f(s), f'(s), and upper bounds of f'' and −f'' at all times after s.
 
-    x_k' = second_k − rates_k x_k, with x_k(0) = first_k.
+    f(s) = value + slope s + bend s² + Σ_k ∫x_k ds, where x_k' = second_k − rates_k x_k and x_k(0) = first_k.
     """
     f, rate = value + s * (slope + s * bend), slope + 2 * bend * s
     up, down = max(2 * bend, 0.0), max(-2 * bend, 0.0)
@@ -206,9 +242,10 @@ def _evaluate(s, value, slope, bend, first, second, rates):
 
 @njit(inner=True)
 def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
-    """The first s in [0, end] at which f (see _evaluate) exceeds the rounding; infinite if there is none.
+    """Return the first s in [0, end] at which the function f of `_evaluate` exceeds `rounding`; infinite if none.
 
-    An event waits until f is above its rounding: a spring that has just let go would otherwise touch again at once.
+    rounding : rounding error of f. If a smaller f counted as an event, a spring that was just released would touch
+        again at once
     """
     value -= rounding
     if value > 0:
@@ -225,7 +262,8 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
         b, fb, db = stack[top, 0], stack[top, 1], stack[top, 2]
         h = b - a
         curved = 0.5 * up * h * h
-        # f lies below parabolas through both ends, and below their chord by at most the curvature.
+        # In the interval from a to b, f lies below a parabola through either end. It exceeds the chord by at most
+        # max(−f'') h²/8. If one of these bounds is not positive, the interval has no event.
         if (
             max(fa, fa + da * h + curved) <= 0
             or max(fb, fb - db * h + curved) <= 0
@@ -252,7 +290,10 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
 
 @njit(inner=True)
 def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
-    """The zero of f, up to a value of `close`, where f increases from a to b and is positive at b."""
+    """Return a zero of the function f of `_evaluate`, which increases from a to b and is positive at b.
+
+    close : the search ends if |f| is at most this
+    """
     s = a
     for _ in range(_NEWTON_STEPS):
         f, rate, _, _ = _evaluate(s, value, slope, bend, first, second, rates)
@@ -273,7 +314,11 @@ def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
 
 @njit(inner=True)
 def _release(row, law, state, t, u, force, rate, count, by_depth, first):
-    """Value, slope and rounding of −φ of the last spring in contact; its terms `first` are set in place."""
+    """Return value, slope and rounding error of −φ, the tension of the last spring in contact.
+
+    Together with the amplitudes `first` of the exponentials, which are set in place, these are arguments of
+    `_first_crossing`: the spring is released when −φ becomes positive.
+    """
     top, gap = count - 1, row.gaps[count - 1]
     since = t - state.joined[top]
     if by_depth:
@@ -300,7 +345,7 @@ def _release(row, law, state, t, u, force, rate, count, by_depth, first):
 
 @njit(inner=True)
 def _gap_now(state, law, gap, t, i):
-    """The gap g + y of a free spring from the undeformed surface."""
+    """Return the present g + y of the free spring i: an indenter at this depth touches the spring."""
     since = t - state.left[i]
     for j in range(law.decays.size):
         if state.remainder[i, j] != 0:
@@ -310,7 +355,7 @@ def _gap_now(state, law, gap, t, i):
 
 @njit(inner=True)
 def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
-    """R_j of the springs in contact, in place."""
+    """Set `remainders` to the R_j of the springs in contact (see the module docstring), in place."""
     stiffness, top = row.stiffness[count], count - 1
     if law.viscosity > 0:
         remainders[:] = force - law.relaxed * (stiffness * u - row.moment[count])
@@ -325,7 +370,7 @@ def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
 
 @njit(inner=True)
 def _let_go(row, law, state, t, u, count):
-    """Store the state of the last of `count` springs in contact, which lets go, and return how many are left."""
+    """Release the last of `count` springs in contact, store its state, and return the number that is left."""
     top = count - 1
     if np.isnan(state.receding[0]):
         state.receding[0] = t
@@ -344,16 +389,17 @@ def _let_go(row, law, state, t, u, count):
 
 @njit(inner=True)
 def _touch(row, law, state, t, u, force, count, by_depth):
-    """Add the first free spring to the `count` springs in contact, and return how many there are.
+    """Add the first free spring to the `count` springs in contact, and return the new number.
 
-    Its force is then zero by the formula of `_release`, so that rounding does not make it let go at once.
+    The stored offset of the spring makes its force exactly zero in the formula of `_release`. So rounding does not
+    release the spring again at once.
     """
     i, gap, stiffness = count, row.gaps[count], row.stiffness[count]
     state.joined[i], state.most[0] = t, max(state.most[0], count + 1)
     if law.viscosity > 0:
         return count + 1
     if i == 0:
-        state.common[:] = 0.0  # no spring refers to it
+        state.common[:] = 0.0  # no other spring has an offset from the common variables
     from_balance = not by_depth and i > 0
     excess = law.relaxed * (u - gap)
     if from_balance:
@@ -379,7 +425,10 @@ def _touch(row, law, state, t, u, force, count, by_depth):
 
 @njit(inner=True)
 def _carried(row, law, state, t, u, count):
-    """Force of the springs in contact from their deflections and internal variables, without a parallel dashpot."""
+    """Return the force of the springs in contact from their deflections and internal variables.
+
+    The force of a parallel dashpot is left out.
+    """
     stiffness, moment = row.stiffness[count], row.moment[count]
     force = law.relaxed * (stiffness * u - moment)
     for b in range(law.rates.size):
@@ -391,10 +440,13 @@ def _carried(row, law, state, t, u, count):
 
 @njit(inner=True)
 def _balanced(row, law, state, t, u, force, count):
-    """Return u after a step at which the springs in contact carry the force; the common variables step with it.
+    """Correct the depth by a small step, so that the springs in contact carry exactly the force; return the new depth.
 
-    A spring lets go with a force of zero to rounding only. Springs of much less stiffness would have to carry the rest.
-    In a fluid the force does not depend on u itself, and with a parallel dashpot u follows from the force.
+    The common variables are changed by the same step, in place. The step is needed because a released spring had a
+    force of zero only within rounding, and springs of much less stiffness may have to carry this rounding error.
+
+    In a fluid without a parallel spring the force does not depend on the depth itself, and with a parallel dashpot the
+    depth follows from the force. In both cases the depth is returned unchanged.
     """
     if law.viscosity > 0 or law.relaxed == 0:
         return u
@@ -405,9 +457,11 @@ def _balanced(row, law, state, t, u, force, count):
 
 @njit(inner=True)
 def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
-    """Force and velocity at a time; `remainders` is set in place, but that of a parallel dashpot is kept.
+    """Return force and velocity at time t.
 
-    From u and F it would lose all digits when creep has nearly ended.
+    Under a prescribed force, the R_j in `remainders` are set in place, except in a medium with a parallel dashpot. Its
+    R_j is advanced from event to event instead. If it were computed from u and F, it would lose all digits when creep
+    has almost ended.
     """
     stiffness = row.stiffness[count]
     if by_depth:
@@ -425,15 +479,16 @@ def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
 
 @njit(inner=True)
 def _gap_of_next(row, law, state, t, count):
-    """The gap of the first free spring from the undeformed surface; the limit of the depth if there is none."""
+    """Return the depth of an indenter that touches the first free spring now; row.limit if no spring is free."""
     return _gap_now(state, law, row.gaps[count], t, count) if count < row.gaps.size else row.limit
 
 
 @njit(inner=True)
 def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts):
-    """Step of the load to `target` at a time; returns u, F, the number of springs in contact, and how it ended."""
+    """Step the load to `target` at time t. Return depth, force, number of springs in contact, and how the step
+    ended."""
     if law.viscosity > 0 and not by_depth:
-        # The surface stays, and springs that would be pulled let go.
+        # The indenter does not move, because of the dashpot. Springs that the new force would pull are released.
         while count > 1:
             value, _, rounding = _release(row, law, state, t, u, target, 0.0, count, by_depth, release_amounts)
             if value <= rounding:
@@ -441,14 +496,15 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts
             count = _let_go(row, law, state, t, u, count)
         return u, target, count, SETTLED
     if law.viscosity > 0:
-        # The surface stays: all springs let go at once, or none is touched.
+        # The surface does not move, because of the dashpot. If the indenter steps up, all springs are released. If it
+        # steps down into the surface, the force is infinite.
         rises = count > 0 and target > u
         while count > 0 and target < u:
             count = _let_go(row, law, state, t, u, count)
         overlap = target - _gap_of_next(row, law, state, t, count)
         return target, force, count, INFINITE if rises or overlap > _ROUNDING * abs(target) else SETTLED
     modulus = law.relaxed + law.moduli.sum()
-    # The path from one load to the other, along which springs touch or let go in their order.
+    # Follow the elastic path from the old load to the new load. Springs touch, or are released, one after another.
     for _ in range(_MOST_AT_ONCE * row.gaps.size + 8):
         rises = target > (u if by_depth else force)
         step, reaches = 0.0, True
@@ -479,7 +535,10 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts
 
 @njit(inner=True)
 def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders, until, touch_amounts, drive):
-    """Time from now on at which the first free spring is touched; infinite if it is not, until then."""
+    """Return the time from now until the indenter touches the first free spring; infinite if it is longer than `until`.
+
+    touch_amounts, drive : work arrays for the terms of `_first_crossing`, changed in place
+    """
     reached = _gap_of_next(row, law, state, t, count)
     if not np.isfinite(reached):
         return np.inf
@@ -504,9 +563,10 @@ def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders,
 
 @njit(inner=True)
 def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
-    """Move by a time s without events, to the time `end`, and return u; common variables and remainders are changed.
+    """Move the row by a time s without events, and return the depth. Common variables and R_j are changed in place.
 
-    The end is passed because it is rounded: offsets of springs that touch there must decay from the same time.
+    end : time after the move. It is rounded, so it is not computed from s here: the offset of a spring that touches at
+        this time decays from the same rounded time
     """
     if by_depth:
         for b in range(law.rates.size):
@@ -531,7 +591,7 @@ def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
 
 @njit
 def _march(gaps, weights, limit, law, times, load, by_depth):
-    """See move_row; times start at 0."""
+    """Return the fields of a RowMotion, how the motion ended, and when; see `move_row`. Times start at 0."""
     springs, samples = gaps.size, times.size
     branches, elements = law.rates.size, law.decays.size
     row = _Row(gaps, weights, np.zeros(springs + 1), np.zeros(springs + 1), limit)
@@ -574,7 +634,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     release = _first_crossing(end, rounding, value, slope, 0.0, release_amounts, none, law.rates)
                 event = min(touch, release)
                 if events > _MOST_AT_ONCE * springs + 8:
-                    # Equal contacts alternate within rounding, where a force vanishes: move on without an event.
+                    # The force of a spring is zero within rounding, so that touch and release alternate. Move on for a
+                    # short time without an event.
                     events, event, pauses = 0, np.inf, pauses + 1
                     s = min(_PAUSE * times[k] * 2.0**pauses, length - passed)
                     paused, arrives = True, s == length - passed
@@ -588,15 +649,17 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 if k and not started and passed + s > _AT_ONCE * (last if last > 0 else length):
                     started = True
                     velocity[k - 1] = speed
-                    # At a prescribed depth a force changes at once with the rate only in a parallel dashpot. The fast
-                    # branches of a springpot release springs soon after the sample, but not at it.
+                    # Under a prescribed depth, the force jumps with the velocity only in media with a parallel dashpot.
+                    # The fast branches that replace a springpot release springs soon after the sample, but not at the
+                    # sample.
                     if law.viscosity > 0 or not by_depth:
                         force[k - 1], in_contact[k - 1] = now, count
                         largest[k - 1] = count >= state.most[0]
                 passed = length if arrives else passed + s
                 t = times[k] if arrives else last + passed
                 u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
-                # From the end of the interval with the smaller load, so that a load that vanishes keeps its digits.
+                # Interpolate from the end of the interval with the smaller load, so that a load that approaches zero
+                # keeps its digits.
                 f = before + rate * passed if abs(before) < abs(load[k]) else load[k] - rate * (length - passed)
                 if arrives:
                     break
@@ -628,7 +691,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
         if ended != SETTLED:
             until = t
             break
-        # The state at this sample, or just before it. The next interval replaces what changes at its start.
+        # Record the state at this sample. Events at the start of the next interval belong to this sample, too: the next
+        # interval then overwrites force, velocity and contact.
         force[k], velocity[k] = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
         depth[k], in_contact[k], largest[k] = u, count, count >= state.most[0]
         deflection[k] = row.stiffness[count] * u - row.moment[count]

@@ -1,12 +1,13 @@
-"""Motion of a row of unilateral springs by steps in time, for media that are known by their creep compliance alone.
+"""Motion of a row of unilateral springs by steps in time, for media of which only the creep compliance J is known.
 
-The force φ_m of a spring is constant within step m and jumps at its start, so that its deflection is
+The force of a spring, divided by its stiffness, is a constant φ_m within step m, and jumps at the start of the step. So
+the deflection of the spring at the end t_n of step n is
 
     y_n = J(0) φ_n + Σ_{m≤n} φ_m (J(t_n − t_{m−1}) − J(t_n − t_m)).
 
-A step solves for the springs that are pressed at its end. The error is of first order in the steps. Steps between two
-samples are halved, every motion is extrapolated with the one before it, and this is repeated until extrapolated motions
-differ by less than the tolerance.
+Each step is solved for the springs that are in contact at its end. The error of the motion is proportional to the
+length of the steps. So the steps are halved, and the motion is extrapolated from the last two motions to steps of zero
+length. This is repeated until two successive extrapolated motions differ by less than the tolerance.
 """
 
 import warnings
@@ -20,20 +21,21 @@ from viscorough.media.medium import Medium
 from viscorough.viscous.springs import RowOfSprings
 from viscorough.viscous.unilateral import RowMotion
 
-# Tolerance of depth and force, relative to the largest one.
+# Tolerance of depth and force, relative to the largest depth and force of the motion.
 _TOLERANCE = 1e-4
-# Largest number of steps, and of springs: the cost is steps² × springs.
+# Largest numbers of steps and of springs. The cost is steps² × springs.
 _MOST_STEPS, _MOST_SPRINGS = 3000, 400
-# Intervals of time over which a concave J rises less and less, and the rounding of these rises.
+# To check that J is concave, its rise is compared in this number of equal intervals of time. It may increase from one
+# interval to the next by _BEND times the largest rise, because of rounding.
 _LAGS, _BEND = 256, 1e-9
-# Overlap that counts as none, relative to the depth.
+# A smaller overlap of indenter and spring, relative to the depth, does not count as contact.
 _ROUNDING = 1e-13
 
 
 def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion:
-    """Return the motion of a row of springs; depth and force are nan from where the depth reaches the limit.
+    """Return the motion of a row of springs. Depth and force are nan from the time on when the depth reaches row.limit.
 
-    Warns with AccuracyWarning if the largest number of steps does not reach the tolerance. Raises ValueError for a
+    Warns with AccuracyWarning if the tolerance is not reached with the largest number of steps. Raises ValueError for a
     medium whose creep compliance is not concave.
     """
     _check_concave(medium, float(load.time[-1] - load.time[0]))
@@ -65,7 +67,7 @@ def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion
 
 
 def _check_concave(medium: Medium, duration: float) -> None:
-    """Raise ValueError if J grows faster later on: contact that recedes is then no row of springs."""
+    """Raise ValueError if the creep compliance is not concave: a row of springs then gives a wrong receding contact."""
     lags = np.linspace(0.0, duration, _LAGS + 1)
     rises = medium.creep_increment(lags[:-1], lags[1:])
     faster = np.diff(rises) > _BEND * np.abs(rises).max()
@@ -78,13 +80,13 @@ def _check_concave(medium: Medium, duration: float) -> None:
 
 
 def _difference(one: RowMotion, other: RowMotion, *, by_depth: bool) -> float:
-    """Largest difference of two motions, over the largest value."""
+    """Return the largest difference in force (if `by_depth`) or depth of two motions, relative to its largest value."""
     values = (one.force, other.force) if by_depth else (one.depth, other.depth)
     return float(np.nanmax(np.abs(values[0] - values[1])) / max(np.nanmax(np.abs(values[1])), np.finfo(float).tiny))
 
 
 def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
-    """The limit of a motion with an error in proportion to the steps."""
+    """Return the extrapolation of two motions, with long and half as long steps, to steps of zero length."""
     return fine._replace(
         depth=2 * fine.depth - coarse.depth,
         force=np.maximum(2 * fine.force - coarse.force, 0.0),
@@ -96,10 +98,13 @@ def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
 
 
 def _with_fewer_springs(row: RowOfSprings) -> tuple[Array, Array, Integers]:
-    """Gaps and stiffnesses of at most _MOST_SPRINGS groups of neighbouring springs, and the last index of each."""
+    """Merge neighbouring springs into at most _MOST_SPRINGS springs.
+
+    Return gaps and stiffnesses of the merged springs, and the index of the last spring of the row in each of them.
+    """
     if row.gap.size <= _MOST_SPRINGS:
         return row.gap, row.stiffness, np.arange(row.gap.size)
-    # Equal steps of the logarithm of the summed stiffness.
+    # From one merged spring to the next, the logarithm of the summed stiffness grows by equal steps.
     sums = np.log(np.cumsum(row.stiffness))
     edges = np.searchsorted(sums, np.linspace(sums[0], sums[-1], _MOST_SPRINGS + 1)[1:-1], side="right")
     starts = np.unique(np.append(0, edges))
@@ -110,7 +115,10 @@ def _with_fewer_springs(row: RowOfSprings) -> tuple[Array, Array, Integers]:
 
 
 def _refined(load: Load, parts: int) -> tuple[Array, Array, Array]:
-    """Times and loads with so many steps between samples, and the indices of the samples."""
+    """Return times and loads at the ends of the steps, and the indices of the samples among them.
+
+    parts : number of steps between two samples
+    """
     share = np.arange(1, parts + 1) / parts
     times, values, place = [load.time[:1]], [load.values[:1]], [0]
     for k in range(1, load.time.size):
@@ -123,7 +131,7 @@ def _refined(load: Load, parts: int) -> tuple[Array, Array, Array]:
 
 
 def step_row(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMotion:
-    """The motion by so many steps between samples."""
+    """Return the motion of a row at the samples of the load, computed with `parts` steps between two samples."""
     gap, stiffness, last_of_group = _with_fewer_springs(row)
     times, values, place = _refined(load, parts)
     steps, at_once = times.size, float(medium.creep_compliance(0.0))
@@ -141,7 +149,7 @@ def step_row(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMo
         pressed[n] = np.count_nonzero(overlap > _ROUNDING * abs(u))
         if compliance > 0:
             pressures[n] = overlap / compliance
-        elif not load.by_depth and n:  # a step of the force, under which the medium does not move at once
+        elif not load.by_depth and n:  # the force steps, and the medium does not respond instantaneously
             pressed[n] = pressed[n - 1]
         depth[n] = u
         force[n] = stiffness @ pressures[n] if load.by_depth else values[n]
@@ -167,7 +175,10 @@ def step_row(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMo
 
 
 def _depth_under(surface: Array, stiffness: Array, target: float) -> float:
-    """The u with Σ w (u − s)₊ = target; the lowest s if the target is 0."""
+    """Return the depth u with Σ w (u − s)₊ = target, or the lowest s if the target is 0.
+
+    surface, stiffness : position s and stiffness w of each spring, shape (springs,)
+    """
     order = np.argsort(surface, kind="stable")
     heights, sums = surface[order], np.cumsum(stiffness[order])
     moments = np.cumsum(stiffness[order] * heights)

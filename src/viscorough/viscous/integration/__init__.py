@@ -1,1 +1,1 @@
-"""Direct integration in time: contacts that follow the motion of the medium, without the correspondence."""
+"""Direct integration of viscoelastic contact in time, without the correspondence with the elastic problem."""

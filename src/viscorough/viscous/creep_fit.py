@@ -1,21 +1,24 @@
 """Fit of a medium to the measured depth of a contact that only grows, under a known force.
 
-By the correspondence (viscous.kinetics) the elastic force at the depth is the creep,
+While the contact grows, the elastic force at the measured depth is the creep response Φ (viscous.kinetics),
 
-    F_el(u(t))/G = Φ(t) = ∫₀ᵗ J(t − s) dF(s),
+    F_el(u(t))/G = Φ(t) = ∫₀ᵗ J(t − s) dF(s).
 
-which for a step of force is F J(t), and otherwise a Volterra equation of the first kind for J. Two families of
-compliances are fitted to the depth by least squares:
+For a step of the force this is F J(t). For any other force it is a Volterra equation of the first kind for J. Two
+families of creep compliances J are fitted to the depth by least squares:
 
-1. Media of springs and dashpots, J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)) with amounts ≥ 0. Their grid of retardation times
-   is refined about those found. Few of the amounts are positive, so that the residuals show the scatter of the record.
-2. All compliances that do not decrease and are concave, which those of media that relax are. Such a J is a sum
-   J₀ + Σ c_k min(t, τ_k) with J₀, c_k ≥ 0, and under the impulse I(t) = ∫F dt min(t, τ) creeps by I(t) − I(t − τ).
-   It can pass through every row of a short or precise record, so that its own residuals show nothing. The intervals
-   of J are taken in this family, at the scatter found with the first one or given by the user.
+1. Media of springs and dashpots, J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with unknown amounts J₀, φ, J_j ≥ 0. The grid
+   of retardation times θ_j is refined around the times with J_j > 0. Few of the amounts are positive, so that the
+   residuals of this fit show the scatter of the record.
+2. All J that are concave and do not decrease, as in every medium that relaxes. Such a J is a sum
+   J₀ + Σ c_k min(t, τ_k) with unknown J₀, c_k ≥ 0. The creep response of min(t, τ) is I(t) − I(t − τ), with the impulse
+   I(t) = ∫₀ᵗ F dt. This family can pass through every row of a short or precise record, so its residuals do not show
+   the scatter. The intervals of J are the intervals within this family. They use the scatter of the fit of the first
+   family, or the scatter that the user stated.
 
-Between its knots τ_k the second family is straight. The creep due to the difference between the first family and its
-chords is subtracted from the record, so that the chords do not shift the fit.
+J of the second family is straight between the knots τ_k. In the fit, the difference in creep between the fit of the
+first family and its chords between the knots is added to the creep of the second family. So the straight lines do not
+shift the fit.
 """
 
 import numpy as np
@@ -42,12 +45,16 @@ from viscorough.viscous.record_fit import (
     spread_times,
 )
 
-_KNOTS = 60  # of J, at most
-_EARLIER = 64  # ratio of the first row to the first knot under a ramp of force
-# Largest numbers of iterations of Gauss and Newton: the elastic curve bends little over the scatter of the depth, but
-# more over its offset. They end if the depth changes by less than this share of the largest depth.
+# Largest number of knots, which are the times with a value of J.
+_KNOTS = 60
+# Ratio of the time of the first row to the first knot if the force starts with a ramp.
+_EARLIER = 64
+# Largest numbers of Gauss-Newton iterations: without, and with an offset or a drift. Within the scatter of the depth
+# the loading curve is almost straight, so that few iterations are needed; within an offset it is not. The iterations
+# end if the residuals change by less than the share _CLOSE of the largest depth.
 _ITERATIONS, _ITERATIONS_OF_SHIFT, _CLOSE = 6, 60, 1e-13
-_HALVINGS = 12  # of a step that does not make the sum of squares smaller
+# Largest number of trials with a halved step if the sum of squares does not decrease.
+_HALVINGS = 12
 
 
 def fit_growing_depth(
@@ -55,12 +62,13 @@ def fit_growing_depth(
 ) -> RecordFit:
     """Fit a medium to the measured depth of a contact that grows.
 
-    load : force over time in consistent units, with samples at the rows of the record
-    place : index of the sample of each row
+    curve : loading curve of the indenter
+    load : force as a function of time in consistent units, with a sample at the time of each row of the record
+    place : index of the sample of the load for each row, shape (rows,)
     depth : measured depth, shape (rows,)
-    kind : "table", "prony" or "springpot"
-    scatter : standard deviation of the depth; None to find it; nan for a fit without intervals
-    shift : which errors of the zero of depth are fitted
+    kind : kind of medium: "table", "prony" or "springpot"
+    scatter : standard deviation of the depth; None to find it from the record; nan for a fit without intervals
+    shift : choice of the errors of the zero of the depth that are fitted
     """
     lags = load.time[place] - load.time[0]
     record = _Record(curve, depth, shift.columns(lags))
@@ -102,45 +110,65 @@ def fit_growing_depth(
 def spectrum_of_growth(
     curve: LoadingCurve, load: Load, place: Integers, depth: Array, times: Array, signed: Array
 ) -> tuple[Array, Array]:
-    """Return the amounts J₀, φ and J_j of these retardation times, and offset and drift, that fit a growing contact.
+    """Return the amounts J₀, φ and J_j, and the offset and drift, that fit the depth of a growing contact best.
 
-    load, place, depth : as in fit_growing_depth; signed : as in _Record
+    curve, load, place, depth : arguments of fit_growing_depth
+    times : retardation times θ_j, shape (elements,)
+    signed : change of the measured depth by a unit of offset and of drift, if they are fitted, shape (rows, 0 to 2)
     """
     return _Record(curve, depth, signed).fit(_spectral_responses(load, place, times))
 
 
 def _spectral_responses(load: Load, place: Integers, times: Array) -> Array:
-    """Return the creep responses of J = 1, t and 1 − exp(−t/θ_j), shape (rows, 2 + times)."""
+    """Return the creep responses of J = 1, J = t and J = 1 − exp(−t/θ_j) at the rows, shape (rows, 2 + elements).
+
+    times : retardation times θ_j, shape (elements,)
+    """
     delayed, _ = branch_states(np.diff(load.time), load.values, times)
     return np.column_stack([load.values[place], load.integral[place], delayed[place]])
 
 
 def first_lag(load: Load, lags: Array) -> float:
-    """Return the time after the start of the load of the first row that shows J."""
+    """Return the time of the first row that shows J, counted from the start of the load.
+
+    This is the first row after the start, or the row at the start if the force steps there.
+
+    lags : times of the rows after the start of the load
+    """
     return 0.0 if lags[0] == 0 < load.values[0] else float(lags[lags > 0][0])
 
 
 def knots_of(load: Load, lags: Array) -> Array:
-    """Return the times at which J is given: those of the rows, at most _KNOTS of them."""
+    """Return the knots of J, which are times after the start of the load: the times of the rows, at most _KNOTS.
+
+    If the force starts with a ramp, the knots are _KNOTS times at equal ratios, which start before the first row.
+
+    lags : times of the rows after the start of the load
+    """
     knots = lags[lags > 0]
-    if load.values[0] == 0:  # a ramp shows J before the first row, too
+    if load.values[0] == 0:  # the response to a ramp depends on J before the first row, too
         return np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
-    if knots.size > _KNOTS:  # a subset at equal ratios
+    if knots.size > _KNOTS:  # choose times of rows at about equal ratios
         spread = np.geomspace(knots[0], knots[-1], _KNOTS)
         knots = knots[np.unique(np.clip(np.searchsorted(knots, spread * (1 - 1e-12)), 0, knots.size - 1))]
     return knots
 
 
 def _amounts(compliance: Array, knots: Array) -> Array:
-    """Return J₀ and c_k of the J that has these values at time 0 and at the knots, and is straight in between."""
+    """Return J₀ and c_k of J = J₀ + Σ c_k min(t, τ_k) with given values at time 0 and at the knots τ_k.
+
+    compliance : values of J, shape (1 + knots,)
+    """
     slopes = np.diff(compliance) / np.diff(knots, prepend=0.0)
     return np.append(compliance[0], slopes - np.append(slopes[1:], 0.0))
 
 
 class _Record:
-    """Least squares in depth: the creep of non-negative amounts of given compliances against the measured depth.
+    """A record of a growing contact, and least-squares fits of J, as a sum of given functions of time, to its depth.
 
-    signed : change of the measured depth by a unit of offset and drift, shape (rows, 0 to 2)
+    The unknown amounts of these functions in J are non-negative.
+
+    signed : change of the measured depth by a unit of offset and of drift, if they are fitted, shape (rows, 0 to 2)
     """
 
     def __init__(self, curve: LoadingCurve, depth: Array, signed: Array) -> None:
@@ -148,12 +176,12 @@ class _Record:
         self.creep, self.stiffness = elastic_force(curve, depth)  # F/G and k/G at the measured depth
 
     def fit(self, responses: Array, bend: Array | float = 0.0) -> tuple[Array, Array]:
-        """Return amounts ≥ 0 of compliances with these creep responses, and offset and drift, by Gauss and Newton.
+        """Return the amounts ≥ 0, and the offset and drift, that fit the depth best, by the Gauss-Newton method.
 
-        responses : shape (rows, amounts)
-        bend : creep that is added, shape (rows,)
+        responses : creep response at each row to a unit of each amount, shape (rows, amounts)
+        bend : known creep that is added to the creep of the amounts, shape (rows,)
         """
-        # At first the elastic curve is replaced by its tangents at the measured depth, without offset and drift.
+        # First guess: the curve is replaced by its tangent at each measured depth, and offset and drift are 0.
         amounts, _ = non_negative(responses / self.stiffness[:, None], (self.creep - bend) / self.stiffness)
         shift = np.zeros(self.signed.shape[1])
         count = amounts.size
@@ -178,7 +206,10 @@ class _Record:
         return unknowns[:count], unknowns[count:]
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
-        """Return depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
+        """Return depth and stiffness k/G of the curve at the force F/G = creep.
+
+        Before the first level the curve is taken for a straight line from the origin.
+        """
         curve = self.curve
         creep = np.minimum(creep, curve.force[-1])
         depth, stiffness = curve.at_force(creep)
@@ -189,10 +220,14 @@ class _Record:
     def intervals(
         self, amounts: Array, responses: Array, bend: Array, values: Array, distance: float
     ) -> tuple[Array, Array]:
-        """Return the ends of the intervals of J, rows of `values` @ amounts: there the best fit is worse by distance².
+        """Return the lower and upper ends of the intervals of J, followed by the intervals of offset and drift.
 
-        Intervals of offset and drift follow. Each holds the intervals in two families: concave compliances, and all
-        compliances that do not decrease. If J is nearly straight, as in a fluid, concave fits lie above it.
+        At the end of an interval, the sum of squared residuals of the best fit exceeds its minimum by distance². An
+        interval is the union of the intervals in two families: all concave J, and all J that do not decrease. The
+        second family is needed because concave fits of a J that is almost straight, as in a fluid, lie above J.
+
+        amounts, responses, bend : result and arguments of `fit` for concave J
+        values : J at the times of the intervals due to a unit of each amount, shape (times, amounts)
         """
         creep = responses @ amounts
         elastic_depth, stiffness = self._elastic(creep + bend)
@@ -207,16 +242,20 @@ class _Record:
         return low, high
 
     def shift(self, creep: Array) -> Array:
-        """Return the offset and drift that fit best at the given creep."""
+        """Return the offset and drift that fit the measured depth best if the creep at the rows is given."""
         return np.linalg.lstsq(self.signed, self.depth - self._elastic(creep)[0])[0]
 
     def residual(self, creep: Array) -> Array:
-        """Return the measured depth less the depth at the given creep, with the best offset and drift."""
+        """Return the measured depth less the depth that follows from the given creep and the best offset and drift."""
         return self.depth - self._elastic(creep)[0] - self.signed @ self.shift(creep)
 
 
 class _Spectrum:
-    """The medium of springs and dashpots that fits a record best; its amounts are J₀, φ and J_j of the times θ_j."""
+    """Medium of springs and dashpots that fits a record of a growing contact best.
+
+    times, amounts : retardation times θ_j, and the amounts J₀, φ and J_j
+    creep : creep response of the medium at the rows of the record
+    """
 
     def __init__(self, record: _Record, load: Load, place: Integers, lags: Array) -> None:
         times = spread_times(lags[0], lags[-1])
@@ -230,14 +269,14 @@ class _Spectrum:
         self.creep = responses @ self.amounts
 
     def compliance(self, time: Array) -> Array:
-        """Return J at these times."""
+        """Return the creep compliance J of the medium at given times."""
         delayed = -np.expm1(-np.divide.outer(time, self.times)) @ self.amounts[2:]
         return self.amounts[0] + self.amounts[1] * time + delayed
 
     def prony(self, force: float) -> Prony:
-        """Return it as a Prony series. Raises ValueError where it has no compliance at once or no creep.
+        """Return the medium as a Prony series. Raises ValueError if J₀ is 0, or if φ and all J_j are 0.
 
-        force : largest force of the record
+        force : largest force of the record; a J₀ of a tiny share of the creep at this force counts as 0
         """
         instantaneous, fluidity, strengths = self.amounts[0], self.amounts[1], self.amounts[2:]
         if instantaneous * force <= ROUNDING * self.creep.max() or not (fluidity or strengths.any()):
@@ -250,8 +289,8 @@ def prony_series(instantaneous: float, fluidity: float, strengths: Array, times:
 
     instantaneous, fluidity : J₀ > 0 and φ ≥ 0; strengths, times : J_j ≥ 0 and θ_j, shape (elements,)
 
-    It is exact: the rates of relaxation are the eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j),
-    and the moduli (b·q)²/(λ J₀²), q the eigenvectors.
+    The conversion is exact. The relaxation rates are the eigenvalues λ of D + b bᵀ/J₀, with D = diag(0, ρ_j) and the
+    squares of the entries of b equal to (φ, J_j ρ_j). The moduli are (b·q)²/(λ J₀²), with the eigenvectors q of norm 1.
     """
     kept = strengths > 0
     strengths, rates = strengths[kept], 1 / times[kept]
@@ -266,11 +305,12 @@ def prony_series(instantaneous: float, fluidity: float, strengths: Array, times:
 
 
 def _springpot(record: _Record, load: Load, place: Integers) -> Springpot:
-    """Return the springpot that fits best."""
-    from scipy.optimize import minimize_scalar  # takes long to import
+    """Return the springpot that fits the depth of a record best."""
+    from scipy.optimize import minimize_scalar  # this import takes long
 
     def response(exponent: float) -> Array:
-        return by_sums(Springpot(1 / gamma(1 + exponent), exponent), load)[0][place, None]  # of J = t^a
+        # Creep response of J = t^exponent at the rows.
+        return by_sums(Springpot(1 / gamma(1 + exponent), exponent), load)[0][place, None]
 
     def squares(exponent: float) -> float:
         column = response(exponent)
@@ -282,7 +322,10 @@ def _springpot(record: _Record, load: Load, place: Integers) -> Springpot:
 
 
 def elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
-    """Return F_el/G and k/G at depths up to the last level; before the first one the curve is taken for straight."""
+    """Return force F_el/G and stiffness k/G of the curve at depths up to its last level.
+
+    Before the first level the curve is taken for a straight line from the origin.
+    """
     stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
     force = depth * stiffness
     inside = depth >= curve.depth[0]

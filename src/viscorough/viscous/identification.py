@@ -1,10 +1,11 @@
-"""The medium from a measured indentation of a body with a known loading curve.
+"""Identification of the medium of a half-space from a measured indentation by a body with a known loading curve.
 
-A record is the depth under a known force, or the force at a known depth. Three fits cover all of them:
+A record is a measured depth under a known force, or a measured force at a known depth. One of three modules fits a
+medium to it:
 
-1. `creep_fit`: the depth of a contact that only grows, which shows the creep compliance J.
-2. `receding_fit`: the depth of a contact that recedes when the force decreases. It shows J, too.
-3. `relaxation_fit`: the force at a depth of any history, which shows the relaxation modulus ψ.
+1. `creep_fit` fits the creep compliance J to the depth of a contact that only grows.
+2. `receding_fit` fits J to the depth of a contact that recedes because the force decreases.
+3. `relaxation_fit` fits the relaxation modulus ψ to the force at a depth of any history.
 """
 
 from __future__ import annotations
@@ -31,15 +32,19 @@ from viscorough.viscous.record_fit import ROUNDING, RecordFit, Shift
 from viscorough.viscous.relaxation_fit import fit_force
 
 KINDS = ("table", "prony", "springpot")
-# Standard deviations by which the mean depth of some rows may lie below that of earlier rows: 3 + √(2 ln n) for n
-# means, times 1 + 13/(rows - 4), because few rows show their own standard deviation badly. In records of noise alone,
-# without creep, about one of ten thousand exceeds them.
+# A depth counts as decreasing if the mean depth of a few neighbouring rows is lower than the mean of earlier rows by
+# too many standard deviations. Allowed are 3 + √(2 ln n) for n means, multiplied by 1 + 13/(rows - 4), because a record
+# of few rows does not determine the standard deviation well. Among records that consist of noise without creep, about
+# one in ten thousand exceeds this limit.
 _LARGEST_DROP, _LARGER_FOR_FEW_ROWS = 3.0, 13.0
-_FIRST_LEVEL = 1e-3  # of the largest depth: up to there the curve may be taken for straight
-# A misfit is larger than the scatter if the chance of it is below 1 - this; without known scatter, if it is larger than
-# this share of the largest value.
+# If the first level of the curve is at most at this share of the largest depth, the curve before it is taken for a
+# straight line.
+_FIRST_LEVEL = 1e-3
+# Limits above which the misfit of a medium gives a warning. With a known scatter, a smaller misfit would occur by
+# chance with this probability; without, the limit is this share of the largest value.
 _SIGNIFICANT, _SMALL_MISFIT = 0.999, 1e-3
-_ASSUMED_OFFSET = 1e-3  # of the largest depth, where the scatter of the depth is not known
+# Assumed error of the zero of the depth, as a share of the largest depth, if the scatter of the depth is not known.
+_ASSUMED_OFFSET = 1e-3
 
 
 def identify_medium(
@@ -58,44 +63,47 @@ def identify_medium(
     Parameters
     ----------
     curve : LoadingCurve
-        LoadingCurve of the indenter, to the largest depth of the record.
+        Loading curve of the indenter. It must reach the largest depth of the record.
     load : array_like or Load
-        What was prescribed, or measured exactly: the constant force applied at time 0, samples of the force at `times`,
-        or a Load of a force or of a depth. It may hold and unload, as in creep, relaxation, and force curves.
+        Prescribed force or depth, which counts as exact: a constant force that is applied at time 0, samples of the
+        force at `times`, or a Load of a force or of a depth. The load may hold and unload, as in creep tests,
+        relaxation tests, and force curves.
     times, measured : array_like
-        The record, shape (rows,); times increase. It holds the depth if the load is a force, and the force if the load
-        is a depth. Its scatter is taken for independent from row to row and of one size.
+        Times and measured values of the record, shape (rows,). Times increase. The values are depths if the load is a
+        force, and forces if the load is a depth. Their errors are assumed to be independent from row to row and of the
+        same size in all rows.
     kind : str, optional
-        "table": a CreepTable of the J that fits best; "prony" or "springpot": that medium, fitted by least squares.
+        Kind of medium that is fitted by least squares: "table" for a CreepTable, "prony", or "springpot".
     scatter : float or str, optional
-        Standard deviation of the measured depth [length] or force, or a text as "2 nm". State it if it is known from
-        the instrument: short or very precise records do not determine it, and without it there are no intervals then.
+        Standard deviation of the measured depth [length] or force; a number, or a text such as "2 nm". State it if it
+        is known from the instrument. Short or very precise records do not determine it, and then there are no
+        intervals.
     fit_offset, fit_drift : bool, optional
-        Fit an error of the zero of the depth, and a drift of the depth that is linear in time. A zero that is off by
-        2 % of the last depth changes J of a sphere by 3 % there, and by more at smaller depths and for rough indenters.
-        Fit them if the point of first contact is not known, or if the instrument drifts. Intervals then grow, because
-        both resemble creep.
+        Whether to fit an error of the zero of the depth, and a drift of the depth that is linear in time. Fit the
+        offset if the point of first contact is not known, and the drift if the instrument drifts. Intervals then grow,
+        because offset and drift resemble creep. A zero that is wrong by 2 % of the last depth changes J of a sphere by
+        3 % at the last time, and by more at smaller depths and for rough indenters.
 
     Returns
     -------
     IdentifiedMedium
-        Medium in Pa and s if the curve's unit of length is known. The interval at a time holds all values for which the
-        best fit with that value is not significantly worse than the best of all (profile likelihood, 95 %). If the
-        depth of a growing contact was measured, fits are the concave J and all J that do not decrease; otherwise they
-        are springs and dashpots. Between two times J is at least the chord of `low`.
+        Identified medium, in Pa and s if the curve's unit of length is known. The interval at a time contains a value
+        if the best fit with this value is not significantly worse than the best fit of all (profile likelihood, 95 %).
+        If the depth of a growing contact was measured, the fits are all J that do not decrease, and all concave J.
+        Otherwise the fits are media of springs and dashpots. Between two times, J is at least the chord of `low`.
 
     Raises
     ------
     ValueError
-        For a record of fewer than five rows, or that leaves the curve, or whose depth recedes by more than its scatter
-        explains although the force does not decrease, for a kind that the record does not determine, and for a scatter
-        that is not above 0.
+        For a record that has fewer than five rows or leaves the curve, for a depth that decreases by more than the
+        scatter explains although the force does not decrease, for a kind that the record does not determine, and for a
+        scatter that is not above 0.
 
     Warns
     -----
     AccuracyWarning
-        If a Prony series or a springpot misses the record by more than the scatter, or by more than 0.1 % of the
-        largest value if the scatter is not known (rms).
+        If the misfit (rms) of a Prony series or a springpot is larger than the scatter explains, or, with unknown
+        scatter, larger than 0.1 % of the largest value.
 
     Examples
     --------
@@ -125,7 +133,7 @@ def identify_medium(
     scatter = _checked_scatter(scatter, value_unit, unit)
     times, measured = _checked_record(curve, times, measured, value_unit)
     prescribed = load if isinstance(load, Load) and load.by_depth else force_load(load, times, unit)
-    # Measured forces are divided by this area, as those of a Load are (Load.in_units_of).
+    # Measured forces are divided by this area, like the forces of a Load (Load.in_units_of).
     area = units.square_metres(unit) if by_depth else 1.0
     scatter = None if scatter is None else scatter / area
     record = _Record(curve, *prescribed.with_times(times), times, measured / area, scatter, shift)
@@ -140,11 +148,12 @@ def identify_medium(
 class _Record(NamedTuple):
     """A record in consistent units.
 
-    load : what was prescribed, the force or the depth, with samples at the rows of the record
-    place : index of the sample of each row
-    measured : the depth if the force was prescribed, else the force, shape (rows,)
-    scatter : standard deviation of `measured`; None if it is not stated
-    shift : which errors of the zero of depth are fitted
+    curve : loading curve of the indenter
+    load : prescribed force or depth, with a sample at the time of each row of the record
+    place : index of the sample of the load for each row, shape (rows,)
+    times, measured : times, and depths if the force was prescribed, else forces, shape (rows,)
+    scatter : standard deviation of `measured`; None if the user did not state it
+    shift : choice of the errors of the zero of the depth that are fitted
     """
 
     curve: LoadingCurve
@@ -157,7 +166,7 @@ class _Record(NamedTuple):
 
 
 def _check_depths(record: _Record) -> None:
-    """Raise ValueError for depths, prescribed or measured, that the loading curve does not hold."""
+    """Raise ValueError for prescribed or measured depths that lie outside the loading curve."""
     curve, load, times = record.curve, record.load, record.times
     if load.by_depth:
         _check_within(curve, load.time, load.values)
@@ -168,9 +177,9 @@ def _check_depths(record: _Record) -> None:
 
 
 def _fitting_function(record: _Record) -> Callable[..., RecordFit]:
-    """Return the function that fits a medium to a record of this kind.
+    """Return the function that fits a medium to this record: fit_force, fit_growing_depth or fit_receding_depth.
 
-    Raises ValueError for a depth that recedes although neither the force decreases nor a drift is fitted.
+    Raises ValueError for a depth that decreases although the force does not decrease and no drift is fitted.
     """
     load = record.load
     if load.by_depth:
@@ -186,9 +195,9 @@ def _fitting_function(record: _Record) -> Callable[..., RecordFit]:
 
 
 def _effect_of_offset(record: _Record, fit: RecordFit) -> tuple[float, float]:
-    """Return an error of the zero of the depth, and the largest relative change of J that it causes.
+    """Return an assumed error of the zero of the depth, and the largest relative change of J that this error causes.
 
-    The error is the scatter of the depth, or a share of the largest depth if that is not known.
+    The error is the scatter of the depth, or a share of the largest depth if the scatter is not known.
     """
     load, measured = record.load, record.measured
     scatter = np.nan if load.by_depth else fit.scatter
@@ -206,9 +215,12 @@ def _effect_of_offset(record: _Record, fit: RecordFit) -> tuple[float, float]:
 
 
 def _result(fit: RecordFit, shift: Shift, assumed: float, effect: float, unit: str, area: float) -> IdentifiedMedium:
-    """Return a fit as an IdentifiedMedium.
+    """Return the result of a fit as an IdentifiedMedium.
 
-    assumed, effect : assumed_offset and offset_effect; area : factor of scatter and misfit
+    shift : choice of the errors of the zero of the depth that were fitted
+    assumed, effect : fields assumed_offset and offset_effect of the IdentifiedMedium
+    unit : unit of length
+    area : factor that converts scatter and misfit to the unit of the measured values
     """
     ends = np.column_stack([fit.shift_low, fit.shift_high])
     unknown = np.nan, np.full(2, np.nan)
@@ -221,7 +233,11 @@ def _result(fit: RecordFit, shift: Shift, assumed: float, effect: float, unit: s
 
 
 def _checked_scatter(scatter: float | str | None, value_unit: str, unit: str) -> float | None:
-    """Return a stated scatter as a number in `value_unit`, "N" or the unit of length; None if it is not stated."""
+    """Return the scatter that the user stated as a number in the unit `value_unit`; None if the user stated none.
+
+    value_unit : unit of the measured values: "N" for a force, the unit of length for a depth
+    unit : unit of length
+    """
     if scatter is None:
         return None
     scatter = units.number(scatter, value_unit, unit, "scatter")
@@ -232,9 +248,9 @@ def _checked_scatter(scatter: float | str | None, value_unit: str, unit: str) ->
 
 
 def _check_misfit(fit: RecordFit, measured: Array, factor: float) -> None:
-    """Give an AccuracyWarning for a misfit of the medium that is larger than the scatter explains.
+    """Give an AccuracyWarning if the misfit of the medium is larger than the scatter explains.
 
-    factor : from the numbers of the fit to those of the user
+    factor : factor that converts numbers of the fit to the unit of the user's values, for the message
     """
     size, values = np.abs(measured).max(), measured.size
     largest = _SMALL_MISFIT * size
@@ -249,7 +265,10 @@ def _check_misfit(fit: RecordFit, measured: Array, factor: float) -> None:
 
 
 def _checked_record(curve: LoadingCurve, times: ArrayLike, values: ArrayLike, unit: str) -> tuple[Array, Array]:
-    """Return the record as arrays of floats."""
+    """Return times and measured values as arrays of floats. Raises ValueError unless there are five or more rows.
+
+    unit : unit of the measured values
+    """
     times = increasing("times", units.numbers(times, "s", curve.length_unit, "times"))
     values = units.numbers(values, unit, curve.length_unit, "measured")
     if values.shape != times.shape or values.size < 5 or not np.isfinite(values).all():
@@ -260,7 +279,7 @@ def _checked_record(curve: LoadingCurve, times: ArrayLike, values: ArrayLike, un
 
 
 def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
-    """Raise ValueError for a depth beyond the last level."""
+    """Raise ValueError if a depth lies beyond the last level of the curve."""
     if depth.max() > curve.depth[-1]:
         where = int(np.argmax(depth > curve.depth[-1]))
         raise ValueError(
@@ -271,7 +290,10 @@ def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
 
 
 def _check_first_level(curve: LoadingCurve, times: Array, depth: Array) -> None:
-    """Raise ValueError for a row before the curve's first level, unless the curve may be taken for straight there."""
+    """Raise ValueError if a depth lies before the first level of the curve, unless the curve is a straight line there.
+
+    A curve whose first level lies at a tiny share of the largest depth counts as straight.
+    """
     undetermined = np.isnan(curve.at_force(curve.force[0] / 2)[0]) and curve.depth[0] > _FIRST_LEVEL * depth.max()
     if undetermined and (before := (depth < curve.depth[0]) & (depth != 0)).any():
         where = int(np.argmax(before))
@@ -282,9 +304,12 @@ def _check_first_level(curve: LoadingCurve, times: Array, depth: Array) -> None:
 
 
 def _decrease(times: Array, depth: Array, scatter: float) -> str | None:
-    """Return where the depth decreases by more than scatter and resolution of the record explain; None if nowhere.
+    """Return a text that states where the depth decreases by more than its errors explain; None if it does not.
 
-    scatter : stated scatter of the depth, 0 if none is; the scatter of the second differences counts if it is larger
+    The errors are the scatter of the depth, and the resolution of the record, which is the smallest step of the depth.
+
+    scatter : scatter of the depth that the user stated, or 0. If the scatter that follows from the second differences
+        of the depth is larger, it is used instead
     """
     steps = np.diff(depth)
     found = 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6)

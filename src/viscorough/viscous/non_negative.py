@@ -1,10 +1,12 @@
-"""Least squares with non-negative unknowns, and the extreme values of linear functions of them.
+"""Least squares with non-negative unknowns, and extreme values of linear functions of these unknowns near the best fit.
 
-Let x ≥ 0 minimise ½ ‖A x − b‖². An extreme value of r·x over all x ≥ 0 with ‖A x − b‖² ≤ least + distance² is found at
-the minimiser of ½ ‖A x − b‖² − λ r·x, with λ adjusted to the distance. An active-set method finds this minimiser
-(Lawson and Hanson 1974). It starts from the unknowns that were positive before, since few of them change with λ or r.
+The best fit is the x ≥ 0 that minimises ‖A x − b‖². Near the best fit means that x ≥ 0 and that ‖A x − b‖² exceeds its
+minimum by at most distance². Under this condition a linear function r·x is largest (λ > 0) or smallest (λ < 0) at the
+minimiser of ½ ‖A x − b‖² − λ r·x, where λ is adjusted until the excess is distance². An active-set method finds the
+minimiser (Lawson and Hanson 1974). It starts from the unknowns that were positive for the last λ, since few of them
+change with λ.
 
-Further unknowns may have any sign. Each is replaced by its difference from a bound that lies far below it.
+Additional unknowns may have any sign. Such an unknown is replaced by its difference from a bound far below its value.
 """
 
 from typing import Any
@@ -14,19 +16,25 @@ import numpy as np
 from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array
 
-_TRIALS, _CLOSE = 12, 0.01  # values of λ, and relative accuracy of the distance
-_LARGEST_FACTOR, _LEAST_SHARE = 4.0, 1e-3  # of λ from one trial to the next; of the distance, to limit this factor
-_ROUNDING = 1e-11  # of gradients, relative to the target; columns have norm 1
-_FAR = 10.0  # bound of an unknown of any sign: its column would then be so many times as long as the target
-_SINGULAR = 1e-13  # a column is taken for dependent on others if its remainder is shorter
+# Largest number of values of λ that are tried, and relative accuracy to which the distance is met.
+_TRIALS, _CLOSE = 12, 0.01
+# Largest factor between two successive λ. A distance that was reached with the last λ counts as at least the share
+# _LEAST_SHARE of the required distance, so that the factor is finite.
+_LARGEST_FACTOR, _LEAST_SHARE = 4.0, 1e-3
+# Rounding error of gradients, relative to the norm of b. Columns of A have the norm 1.
+_ROUNDING = 1e-11
+# The bound of an unknown of any sign is the negative number at which its column has this multiple of the length of b.
+_FAR = 10.0
+# A column of A counts as a combination of other columns if its part perpendicular to them is shorter than this.
+_SINGULAR = 1e-13
 
 
 def non_negative(matrix: Array, target: Array, signed: Array | None = None) -> tuple[Array, Array]:
-    """Return x ≥ 0 and z that minimise ‖matrix x + signed z − target‖.
+    """Return x ≥ 0, and z of any sign, that minimise ‖matrix x + signed z − target‖.
 
-    matrix, signed : columns of non-negative unknowns, and of unknowns of any sign, shape (rows, unknowns)
+    matrix, signed : columns of the unknowns x and of the unknowns z, each of shape (rows, number of unknowns)
     """
-    from scipy.optimize import nnls  # takes long to import
+    from scipy.optimize import nnls  # this import takes long
 
     unknowns = matrix.shape[1]
     matrix, target, bounds = _with_signed(matrix, target, signed)
@@ -41,7 +49,10 @@ def non_negative(matrix: Array, target: Array, signed: Array | None = None) -> t
 
 
 def _with_signed(matrix: Array, target: Array, signed: Array | None) -> tuple[Array, Array, Array]:
-    """Return the problem for x and z − bounds, all of them non-negative, and these bounds."""
+    """Replace unknowns z of any sign by the non-negative unknowns z − bounds.
+
+    Return the matrix with the columns `signed` appended, the target for the new unknowns, and the bounds.
+    """
     if signed is None or not signed.shape[1]:
         return matrix, target, np.empty(0)
     bounds = -_FAR * np.linalg.norm(target) / np.linalg.norm(signed, axis=0)
@@ -51,17 +62,18 @@ def _with_signed(matrix: Array, target: Array, signed: Array | None) -> tuple[Ar
 def extremes(
     matrix: Array, target: Array, functions: Array, distance: float, signed: Array | None = None
 ) -> tuple[Array, Array]:
-    """Return the least and largest values of linear functions of x ≥ 0 near the minimiser of ‖matrix x − target‖.
+    """Return the smallest and the largest value of linear functions of x ≥ 0 near the best fit of matrix x to target.
 
-    functions : coefficients of the functions, shape (functions, unknowns)
-    distance : the squared residual may exceed its least value by distance²
-    signed : columns of further unknowns, of any sign; each of these is a further function, after the others
+    functions : coefficients r of each function r·x, shape (functions, unknowns)
+    distance : near the best fit, ‖matrix x − target‖² exceeds its minimum by at most distance²
+    signed : columns of additional unknowns, which may have any sign. The extreme values of these unknowns are returned,
+        too, after the values of `functions`
     """
-    from scipy.optimize import nnls  # takes long to import
+    from scipy.optimize import nnls  # this import takes long
 
     given, unknowns = functions.shape
     matrix, target, bounds = _with_signed(matrix, target, signed)
-    # The values of signed unknowns are further functions.
+    # Each unknown of any sign is appended to the functions.
     functions = np.pad(functions, [(0, bounds.size), (0, bounds.size)])
     functions[given:, unknowns:] = np.eye(bounds.size)
     scale = np.linalg.norm(matrix, axis=0)
@@ -70,7 +82,7 @@ def extremes(
     columns, target = np.ascontiguousarray(reduced[:, :-1].T), np.ascontiguousarray(reduced[:, -1])
     best = nnls(columns.T, target, maxiter=30 * columns.shape[0])[0]
     functions = np.ascontiguousarray(functions / scale)
-    # λ if no unknown were bounded, of the solution of least norm.
+    # First guess of λ: the exact value if the unknowns were not bounded, for the solution of least norm.
     multiplier = distance / np.linalg.norm(np.linalg.lstsq(columns, functions.T, rcond=1e-10)[0], axis=0)
     shift = np.append(np.zeros(given), bounds)
     low, high = (
@@ -81,7 +93,12 @@ def extremes(
 
 @njit
 def _extremes(columns, target, functions, best, multipliers, distance):
-    """Extreme values of functions, of the sign of the multipliers, which are first guesses."""
+    """Return the largest (multiplier > 0) or smallest (multiplier < 0) value of each function near the best fit.
+
+    columns : columns of A as rows, of norm 1
+    best : x of the best fit
+    multipliers : first guesses of λ for each function
+    """
     least, values = _square(columns, target, best), np.empty(functions.shape[0])
     for k in range(values.size):
         x, multiplier = best.copy(), multipliers[k]
@@ -98,7 +115,7 @@ def _extremes(columns, target, functions, best, multipliers, distance):
 
 @njit(inner=True)
 def _square(columns, target, x):
-    """‖A x − b‖²."""
+    """Return ‖A x − b‖², with the columns of A as rows of `columns`, and b = `target`."""
     residual = target.copy()
     for j in range(x.size):
         if x[j] > 0:
@@ -108,9 +125,10 @@ def _square(columns, target, x):
 
 @njit(inner=True)
 def _minimise(columns, target, tilt, x):
-    """Change x ≥ 0 into the minimiser of ½ ‖A x − b‖² − tilt·x.
+    """Replace x ≥ 0, in place, by the minimiser of ½ ‖A x − b‖² − tilt·x.
 
-    columns : columns of A as rows, of norm 1; the columns of positive x are independent
+    columns : columns of A as rows, of norm 1. Columns whose x is above 0 at first are linearly independent
+    target, tilt : b, and λ r
     """
     count, rounding = x.size, _ROUNDING * np.sqrt(target @ target)
     passive = x > 0
@@ -148,7 +166,10 @@ def _minimise(columns, target, tilt, x):
 
 @njit(inner=True)
 def _unbounded(columns, target, tilt, members):
-    """Minimiser with these members alone, of any sign, by the modified Gram-Schmidt method."""
+    """Return the minimiser of ½ ‖A x − b‖² − tilt·x if only the unknowns `members` are not 0, and may have any sign.
+
+    It is found by the modified Gram-Schmidt method, A = Q R.
+    """
     count = members.size
     basis, triangle = np.empty((count, target.size)), np.zeros((count, count))
     residual, solution = target.copy(), np.empty(count)
@@ -161,7 +182,7 @@ def _unbounded(columns, target, tilt, members):
         basis[j] /= triangle[j, j]
         solution[j] = basis[j] @ residual
         residual -= solution[j] * basis[j]
-    # The solution of R s = Qᵀ b + R⁻ᵀ tilt.
+    # Solve R x = Qᵀ b + R⁻ᵀ tilt: `solution` is Qᵀ b, and `forward` becomes R⁻ᵀ tilt.
     forward = np.empty(count)
     for j in range(count):
         value = tilt[members[j]]

@@ -1,17 +1,22 @@
 """Pressures on an indenter in a viscoelastic half-space at any time of any history, from elastic contacts.
 
-With the forces φ(g, t) of the springs of the loading curve, per unit stiffness (docs/theory.md), the pressure is
+The loading curve is equivalent to a row of independent springs (docs/theory.md). The spring with initial gap g has the
+force φ(g, t) per unit stiffness, and the last spring in contact has the gap g*. Let A(g) be the set of elements in
+contact in the elastic problem at depth g, and q(x; A) = dp_el/du the pressure of a flat punch of the shape A at unit
+depth. Then the pressure at point x is
 
-    p(x, t) = −∫ q(x; A(g)) dφ(g, t)    [with a jump from φ(g*) to 0 at the last spring in contact, g*],
+    p(x, t) = −∫ q(x; A(g)) dφ(g, t),
 
-a sum of flat punches q = dp_el/du over the contact sets A(g) of loading. All springs that are pressed let go in the
-reverse order, so that every weight is positive and the contact is A(g*).
+where φ jumps from φ(g*) to 0 at g*. This is a sum of pressures of flat punches with the weights −dφ. Springs are
+released in the reverse order of touching, so every weight is positive, and the contact set is A(g*). The sum is
+computed in three steps:
 
-1. The loading curve is computed up to the largest contact of the history, and its row of springs is moved.
-2. Between two elastic contacts p_el is taken as linear in the force, so that each interval adds its part of the force
-   times the difference of their pressures over that of their forces. The sum of the pressures is then F(t) exactly.
-3. The force φ(g*) on the whole contact is distributed as q(A(g*)). In media with a parallel dashpot the rest of φ is
-   linear in g, so that one further contact is enough.
+1. Compute the loading curve up to the largest contact of the history, and move its row of springs.
+2. Choose some elastic contacts, and take p_el as linear in the force between two successive contacts. Each such
+   interval then adds its share of the force F, multiplied by the ratio of the differences of p_el and F_el between the
+   two contacts. So the sum of all pressures is exactly F(t).
+3. Distribute the force due to φ(g*), which acts on the whole contact, like q(x; A(g*)). In media with a parallel
+   dashpot φ is linear in g apart from this force, so that one contact more is enough.
 """
 
 import numpy as np
@@ -33,12 +38,14 @@ from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.kinetics import row_motion
 
-# An interval between contacts is short if the force increases by less than this multiple of the tolerance of the
-# contacts, of which at least _FINEST counts: the difference of two computed pressures would consist of their errors.
+# An interval between two elastic contacts is short if the relative increase of the force is below _SHORT times the
+# tolerance of the contacts, or below _SHORT · _FINEST. In a short interval, the difference of the two pressures would
+# consist of their errors.
 _SHORT, _FINEST = 10.0, 1e-6
-# The curve ends at this multiple of the largest elastic force of the history: steps in time may go beyond it at first.
+# The loading curve is computed up to this multiple of the largest elastic force of the history, because the motion by
+# steps in time (viscous.unilateral_sums) exceeds this force while the steps are still long.
 _BEYOND = 1.1
-# State just after a time: at this share of the duration after it.
+# The state just after a time is the state after this share of the duration of the history.
 _JUST_AFTER = 1e-12
 
 
@@ -51,31 +58,32 @@ def pressure_at(
     contacts: int = 64,
     tolerance: float = 1e-4,
 ) -> Array:
-    """Pressure p on an indenter in a viscoelastic half-space at one time, in Pa or the unit of the moduli.
+    """Return the pressure p on an indenter in a viscoelastic half-space at one time, in Pa or the unit of the moduli.
 
     Parameters
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
     force : float or str or Load
-        The constant force F > 0 from t = 0 on; or a Load, which may prescribe the depth instead.
+        Constant force F > 0 that acts from t = 0 on; or a Load, which may prescribe the depth instead.
     medium : Medium or float or str
-        Medium as in `kinetics`.
+        Medium, or the viscosity of a Newtonian medium; see `kinetics`.
     time : float
-        t, within the history, after its start. p is the pressure just after it, also at a step; in a springpot and in
-        media with a parallel dashpot a step of the force is carried as by a flat punch of the shape of the contact.
+        Time t within the history, after its start. The pressure is the limit just after t, also at a step. In a
+        springpot and in media with a parallel dashpot, a step of the force is distributed like the pressure of a flat
+        punch of the shape of the contact.
     contacts : int, optional
-        Number of elastic contacts, 1 or more. Increase it for a smaller error of the pressures, which is of second
-        order in 1/contacts in the mean over the elements. Media with a parallel dashpot (Newtonian, Kelvin-Voigt) need
-        the contact at t alone, and have no such error.
+        Number of elastic contacts from which the pressure is computed, 1 or more. Increase it for a smaller error of
+        the pressures; the mean error over the elements is of second order in 1/contacts. Media with a parallel dashpot
+        (Newtonian, Kelvin-Voigt) need only the contact at t, and have no such error.
     tolerance : float, optional
         Relative accuracy of the elastic contacts.
 
     Returns
     -------
     array
-        Map of the shape of the heights, nan outside the indenter, 0 outside the contact. Its sum times the area of an
-        element is F(t) for any number of contacts.
+        Map of pressures with the shape of the heights, nan outside the indenter and 0 outside the contact. The sum of
+        the map, multiplied by the area of an element, is F(t) for any number of contacts.
 
     Raises
     ------
@@ -108,24 +116,25 @@ def pressure_at(
     count = int(moved.in_contact[-1])
     if count == 0:
         return total
-    # The pressure of the row at the gap of each spring in contact, and the elastic force and stiffness there.
+    # For each spring in contact: its force per unit stiffness, and stiffness and elastic force of the curve at its gap.
     carried, stiffness = moved.pressures[:count], np.cumsum(row.stiffness)[:count]
     elastic = np.append(0.0, np.cumsum(stiffness[:-1] * np.diff(row.gap[:count])))
-    parts = stiffness[:-1] * -np.diff(carried)  # of the force, between neighbouring springs
+    parts = stiffness[:-1] * -np.diff(carried)  # parts of the force F, one between every two neighbouring springs
     has_dashpot = medium.relaxation is not None and medium.relaxation.viscosity > 0
     nodes = np.unique([0, count - 1]) if has_dashpot else _nodes(elastic, parts, contacts)
-    pressure = _PressureSum(indenter, tolerance / 2)  # the correction to the force takes the other half
+    # Half of the tolerance is left for the correction of the pressures to the exact force.
+    pressure = _PressureSum(indenter, tolerance / 2)
     pressure.add_intervals(elastic[nodes], np.add.reduceat(np.append(parts, 0.0), nodes[:-1]), tolerance)
-    # The last spring is in contact just beyond its gap.
+    # The elastic contact at g* is evaluated halfway to the gap of the next spring, where the last spring is in contact.
     following = min(row.gap[count] if count < row.gap.size else row.limit, 2 * row.gap[count - 1] + curve.depth[0])
     pressure.add_rest(elastic[-1] + 0.5 * stiffness[-1] * (following - row.gap[count - 1]), moved.force[-1])
     return pressure.total
 
 
 class _PressureSum:
-    """Sum of the pressures of elastic contacts, each with its share of the force.
+    """Sum of the pressures of elastic contacts, each multiplied by a weight.
 
-    total : map of the sum, shape of the heights, nan outside the indenter
+    total : map of the sum, with the shape of the heights; nan outside the indenter
     """
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
@@ -135,13 +144,15 @@ class _PressureSum:
         self._search = ForceSearch(self._solver)
 
     def add_intervals(self, forces: Array, shares: Array, tolerance: float) -> None:
-        """Add the pressures of intervals between elastic contacts.
+        """Add the pressures of the intervals between successive elastic contacts.
 
-        An interval from F_{j−1} to F_j adds its share of the force times (p_j − p_{j−1})/(F_j − F_{j−1}). If it is
-        short, it adds the mean of the tangents q_j and q_{j−1} instead, each of them with the sum 1.
+        The interval between the contacts at the forces F_{j−1} and F_j adds its share of the force multiplied by
+        (p_j − p_{j−1})/(F_j − F_{j−1}). A short interval (see _SHORT) adds its share multiplied by the mean of q_j and
+        q_{j−1} instead, where q is dp/du of a contact, scaled to the sum 1.
 
-        forces : elastic forces F_j, the first of them that of the first contact, shape (intervals + 1,)
-        shares : force of each interval; tolerance : relative accuracy of the elastic contacts
+        forces : elastic forces F_j of the contacts, from first contact on, shape (intervals + 1,)
+        shares : share of the force F of each interval, shape (intervals,)
+        tolerance : relative accuracy of the elastic contacts
         """
         rise, levels = np.diff(forces), forces[1:]
         is_long = rise > _SHORT * max(tolerance, _FINEST) * levels
@@ -157,21 +168,25 @@ class _PressureSum:
             self._add_tangent(loads, tangent)
 
     def add_rest(self, elastic: float, force: float) -> None:
-        """Add the tangent of the contact at an elastic force, so that the sum of the pressures carries `force`."""
-        self.total = np.maximum(self.total, 0.0)  # it may be negative by rounding
+        """Add the pressure of a flat punch, so that the sum of all pressures carries `force`.
+
+        elastic : elastic force of the contact whose shape the punch has
+        """
+        self.total = np.maximum(self.total, 0.0)  # rounding may make a pressure negative
         loads = self._search.contact_at(elastic).member_loads()
         self._add_tangent(loads, max(force - np.nansum(self.total) * self._area, 0.0))
 
     def _add_tangent(self, loads: MemberLoads, force: float) -> None:
-        """Add the pressures of a flat punch of the shape of a contact that carries this force."""
+        """Add the pressures of a flat punch that carries `force` and has the shape of the contact with these loads."""
         place = self._solver.elements.places_on_map(loads.members)
         self.total[place] += force / self._area * loads.tangent / loads.tangent.sum()
 
 
 def _up_to(load: Load, time: float) -> Load:
-    """Return the load up to just after a time, where the state after a kink or a step has settled.
+    """Return the load up to just after a time, so that its end is after a kink or a step at this time.
 
-    After its end a force is held. A depth ends there, so that its last rate counts.
+    If the time is the end of the load, a force is held constant after it. A depth is not continued, so that the rate
+    before the end counts.
     """
     after = time + _JUST_AFTER * (time - load.time[0])
     if after > load.time[-1]:
@@ -184,7 +199,7 @@ def _up_to(load: Load, time: float) -> Load:
 
 
 def _curve(indenter: Indenter, medium: Medium, load: Load, tolerance: float) -> LoadingCurve:
-    """Return the loading curve of an indenter up to the largest contact of a history."""
+    """Return the loading curve of an indenter up to the largest contact during the load."""
     if load.by_depth:
         deepest = load.values.max()
         force = np.inf
@@ -192,16 +207,20 @@ def _curve(indenter: Indenter, medium: Medium, load: Load, tolerance: float) -> 
             force = contact_at(indenter, depth=float(deepest), tolerance=tolerance).force
     else:
         force = creep_response(medium, load).creep.max()
-    if not 0 < force < np.inf:  # nothing is touched
+    if not 0 < force < np.inf:  # there is no contact
         return indent(indenter, tolerance=tolerance, until_fraction=1 / indenter.elements)
     return indent(indenter, tolerance=tolerance, until_force=_BEYOND * force)
 
 
 def _nodes(elastic: Array, parts: Array, contacts: int) -> Integers:
-    """Return the indices of springs between which p_el is taken as linear in the force, the first and last ones too.
+    """Return the indices of the springs at whose gaps elastic contacts are computed, first and last spring included.
 
-    They lie at equal steps of the sum of the elastic force and of the force carried up to a spring, both relative to
-    their last values: p changes with both.
+    Between two of these springs, p_el is taken as linear in the force. The springs lie at equal steps of the sum of two
+    relative forces, since the pressure changes with both: the elastic force at the gap of a spring, and the part of the
+    force F up to this spring, each divided by its value at the last spring.
+
+    elastic : elastic force at the gap of each spring
+    parts : parts of the force F, one between every two neighbouring springs
     """
     carried = np.append(0.0, np.cumsum(np.maximum(parts, 0.0)))
     tiny = np.finfo(float).tiny

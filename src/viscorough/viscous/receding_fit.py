@@ -1,9 +1,10 @@
 """Fit of a medium to the measured depth of a contact that recedes, under a known force that decreases.
 
-The depth is that of the row of springs of the curve in a medium J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)) with amounts ≥ 0.
-It depends on the amounts in a way that is not linear: they are found by the Gauss-Newton method, with derivatives by
-difference quotients of the exact motion (viscous.unilateral). It starts from the fit to the rows before the force
-decreases.
+The medium has the creep compliance J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)). Its unknown amounts J₀, φ and J_j are ≥ 0;
+the retardation times θ_j are given by a grid. The depth follows from the motion of the row of springs of the loading
+curve in this medium (viscous.unilateral). It is not linear in the amounts. Therefore the amounts are found by the
+Gauss-Newton method, with difference quotients of the exact motion as derivatives. The method starts from the fit to the
+rows of the record before the force decreases.
 """
 
 import numpy as np
@@ -35,13 +36,19 @@ from viscorough.viscous.record_fit import (
 from viscorough.viscous.springs import merged, row_of_springs
 from viscorough.viscous.unilateral import law_of, move_row
 
-_ITERATIONS, _HALVINGS = 12, 6  # of Gauss and Newton, and of a step that does not make the sum of squares smaller
-_STALLED = 1e-3  # the iterations end if the sum of squares decreases by less than this share
-_FINER = 4  # steps of the refined grid of retardation times in one of the first grid
-_SPRINGS = 1000  # largest number in the row
-# Least J₀ and φ t of the medium that is moved, over the largest J: its spectrum of relaxation needs both.
+# Largest number of Gauss-Newton iterations, and of trials with a halved step if the sum of squares does not decrease.
+_ITERATIONS, _HALVINGS = 12, 6
+# The iterations end if the sum of squares decreases by less than this share.
+_STALLED = 1e-3
+# Number of steps of the refined grid of retardation times in a step of the first grid.
+_FINER = 4
+# Largest number of springs in the row.
+_SPRINGS = 1000
+# Smallest J₀ and φ t of the medium whose motion is computed, as shares of the largest J. Both must be above 0, because
+# the relaxation spectrum of the medium is needed.
 _LEAST_SPRING, _LEAST_DASHPOT = 1e-6, 1e-7
-_STEP = 1e-4  # of difference quotients, over the largest J
+# Step of the difference quotients: change of J at the end of the record, as a share of the largest J.
+_STEP = 1e-4
 
 
 def fit_receding_depth(
@@ -49,10 +56,10 @@ def fit_receding_depth(
 ) -> RecordFit:
     """Fit a medium to the measured depth of a contact that recedes.
 
-    Arguments as in creep_fit.fit_growing_depth.
+    The arguments are those of creep_fit.fit_growing_depth.
 
-    Raises ValueError unless five rows precede the first decrease of the force, and if no medium keeps the contact
-    within the curve.
+    Raises ValueError unless at least five rows precede the first decrease of the force, and if the contact grows beyond
+    the last level of the curve in the medium that these rows show.
     """
     lags = load.time[place] - load.time[0]
     falls = np.flatnonzero(np.diff(load.values) < 0)
@@ -96,9 +103,11 @@ def fit_receding_depth(
 
 
 def _refined(times: Array, amounts: Array) -> tuple[Array, Array]:
-    """Return more retardation times about those that were found, and the amounts at them, from which to start.
+    """Return a finer grid of retardation times around the times with positive amounts, and amounts for it.
 
-    amounts : J₀, φ, and J_j at these times
+    The returned amounts are first guesses for a new fit.
+
+    times, amounts : grid of retardation times θ_j, and the fitted J₀, φ and J_j
     """
     found = amounts[2:] > 0
     finer = finer_times(times[found], times, _FINER)
@@ -108,17 +117,22 @@ def _refined(times: Array, amounts: Array) -> tuple[Array, Array]:
 
 
 def _prony(amounts: Array, times: Array, last: float) -> Prony:
-    """Return the Prony series of J₀, φ and J_j; last : J at the end. Raises ValueError if there is none."""
+    """Return the Prony series with given J₀, φ and J_j. Raises ValueError if J₀ is 0, or if φ and all J_j are 0.
+
+    amounts, times : J₀, φ and J_j, and retardation times θ_j
+    last : J at the end of the record; a J₀ of a tiny share of this counts as 0
+    """
     if amounts[0] <= ROUNDING * last or not amounts[1:].any():
         raise no_prony_series()
     return prony_series(float(amounts[0]), float(amounts[1]), amounts[2:], times)
 
 
 class _RecedingRecord:
-    """Least squares in depth: amounts of compliances of springs and dashpots against the measured depth.
+    """A record of a receding contact, and the least-squares fit of the amounts J₀, φ and J_j to its depth.
 
+    load, place, depth : as in creep_fit.fit_growing_depth
     times : retardation times θ_j, shape (elements,)
-    signed : change of the measured depth by a unit of offset and drift, shape (rows, 0 to 2)
+    signed : change of the measured depth by a unit of offset and of drift, if they are fitted, shape (rows, 0 to 2)
     """
 
     def __init__(
@@ -129,10 +143,17 @@ class _RecedingRecord:
         self.gap, self.stiffness = merged(row.gap, row.stiffness, curve.depth[-1], _SPRINGS)
         self.limit = row.limit
         self.duration = load.time[-1] - load.time[0]
-        self.ends = np.append([1.0, self.duration], -np.expm1(-self.duration / times))  # J at the end by its amounts
+        # J at the end of the load, due to a unit of each amount.
+        self.ends = np.append([1.0, self.duration], -np.expm1(-self.duration / times))
 
     def fit(self, amounts: Array, shift: Array) -> tuple[Array, Array, Array, Array]:
-        """Return J₀, φ and J_j, offset and drift, the depth at the rows, and its derivatives by the amounts."""
+        """Fit amounts, offset and drift to the depth by the Gauss-Newton method.
+
+        Return the amounts J₀, φ and J_j, the offset and the drift, the fitted depth at the rows (without offset and
+        drift), and the derivatives of the depth with respect to the amounts.
+
+        amounts, shift : first guesses of the amounts, and of offset and drift
+        """
         predicted = self._predicted(amounts)
         if np.isnan(predicted).any():
             raise ValueError(
@@ -142,7 +163,10 @@ class _RecedingRecord:
         count = amounts.size
 
         def evaluate(unknowns: Array) -> tuple[float, Array]:
-            """The sum of squares is nan, which fits worse than any number, where the contact leaves the curve."""
+            """Return the sum of squared residuals, and the depth at the rows.
+
+            If the contact grows beyond the curve, the sum is nan, which counts as worse than any number.
+            """
             predicted = self._predicted(unknowns[:count])
             return float(((self.depth - predicted - self.signed @ unknowns[count:]) ** 2).sum()), predicted
 
@@ -163,7 +187,7 @@ class _RecedingRecord:
         return unknowns[:count], unknowns[count:], predicted, columns
 
     def _predicted(self, amounts: Array) -> Array:
-        """Return the depth at the rows; nan where the contact grows beyond the curve."""
+        """Return the depth at the rows in the medium with these amounts; nan after the contact has left the curve."""
         largest = amounts @ self.ends
         kept = amounts[2:] > 0
         retardation = RetardationSpectrum(
@@ -179,7 +203,10 @@ class _RecedingRecord:
         return moved.depth[self.place]
 
     def _derivatives(self, amounts: Array, predicted: Array) -> Array:
-        """Return the derivatives of the depth by the amounts, shape (rows, amounts)."""
+        """Return the derivatives of the depth at the rows with respect to the amounts, shape (rows, amounts).
+
+        predicted : depth at the rows for these amounts
+        """
         columns = np.empty((predicted.size, amounts.size))
         for k, step in enumerate(_STEP * (amounts @ self.ends) / self.ends):
             changed = amounts.copy()
@@ -191,11 +218,12 @@ class _RecedingRecord:
 def _springpot(
     curve: LoadingCurve, load: Load, place: Integers, depth: Array, time: Array, compliance: Array, signed: Array
 ) -> tuple[Springpot, Array]:
-    """Return the springpot that fits best, and the residuals of the depth.
+    """Return the springpot that fits the depth best, and the residuals of the depth.
 
-    time, compliance : J of another fit, from which the search starts
+    time, compliance : times, and J of a fitted medium of springs and dashpots; a power law through this J is the first
+        guess
     """
-    from scipy.optimize import least_squares  # takes long to import
+    from scipy.optimize import least_squares  # this import takes long
     from scipy.special import gamma
 
     exponent, logarithm = np.polyfit(np.log(time), np.log(compliance), 1)

@@ -1,4 +1,4 @@
-"""The elements of a rough map and their influence on each other, for direct integration in time."""
+"""Elements of a map of heights, and their influence on each other, for direct integration in time."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,10 +14,12 @@ from viscorough.surfaces.indenter import Indenter, check_indenter
 
 @dataclass(frozen=True)
 class MapElements(Elements):
-    """Elements of an indenter, in the order of their rows; pressures and deflections are arrays of shape (elements,).
+    """Elements of an indenter, row after row of the map; pressures and deflections are arrays of shape (elements,).
 
-    initial_gap : [length]; shape : rows and columns of the heights
-    units : state.Units for lengths in the unit of the indenter: the force is 4π d ΣQ and p = 4π Q/d for Q = p d/(4π)
+    initial_gap : initial gap of each element [length]
+    shape : numbers of rows and columns of the heights
+    units : factors that convert the reduced pressure Q = p d/(4π) of square elements of side d: the force is 4π d ΣQ,
+        and the pressure p = 4π Q/d. Lengths are in the unit of the indenter; see viscorough.contact.state.Units
     """
 
     units: Units
@@ -27,19 +29,27 @@ class MapElements(Elements):
         return Halfspace(*self.shape, aspect=self.aspect)
 
     def deflection(self, load: Array) -> Array:
-        """K times a load at all elements."""
+        """Return K times `load`: the deflection of all elements due to a load (reduced pressure) on all elements."""
         self._operator.load[self.row, self.column] = load
         return self._operator.apply()[self.row, self.column]
 
     def influence_among(self, members: Integers) -> Array:
-        """K between elements, shape (members, members)."""
+        """Return the matrix of the influence coefficients K among some elements, shape (members, members).
+
+        members : indices of these elements
+
+        Raises MemoryError if the memory is not available.
+        """
         memory.require(24 * members.size**2, f"direct integration with {members.size} elements in contact")
         row, column = self.row[members], self.column[members]
         return self.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
 
 
 def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
-    """The MapElements of an indenter. Raises ValueError, which starts with the caller, unless it is a map."""
+    """Return the MapElements of an indenter with two-dimensional heights. Raises ValueError for other indenters.
+
+    caller : name of the function that was called by the user, at the start of the message
+    """
     check_indenter(caller, indenter, 2)
     row, column = np.nonzero(np.isfinite(indenter.heights))
     gap = indenter.initial_gap[row, column]

@@ -1,9 +1,12 @@
-"""Direct integration of the viscous problem in time, without its correspondence with the elastic one.
+"""Direct integration of the viscous contact problem in time, without the correspondence with the elastic problem.
 
-The surface moves down at ẇ = (1/4πη) ∫ p/r dA. With Q = p d/(4πη), a velocity, ẇ = K Q and F/η = 4π d ΣQ. While the
-contact set does not change, its elements move with the indenter: K Q = v, hence Q = v q with K q = 1 on the set,
-v = F/(4π d η Σq), and the surface outside moves at v K q. Depth, pressure impulse ∫Q dt and surface are then linear in
-the impulse ∫F dt, so that the next contact event, the depth at which the next element touches, is known exactly.
+The surface moves down at the velocity ẇ = (1/4πη) ∫ p/r dA. With elements of side d, Q = p d/(4πη), and the matrix K of
+influence coefficients, this is ẇ = K Q, and F/η = 4π d ΣQ.
+
+Between two contact events the contact set does not change, and its elements move with the indenter at the velocity v.
+So K Q = v on the set, and hence Q = v q with K q = 1 on the set. The velocity is v = F/(4π d η Σq), and the surface
+outside the set moves at v K q. Therefore depth, pressure impulse ∫Q dt and surface are linear in the impulse ∫F dt. The
+next contact event, the depth at which the next element touches, follows exactly.
 """
 
 from dataclasses import dataclass
@@ -24,18 +27,20 @@ from viscorough.viscous.integration.elements import elements_of_map
 
 @dataclass(frozen=True)
 class Events(ReadOnlyArrays):
-    """The penetration of an indenter from contact event to contact event; read-only arrays of shape (events,).
+    """Penetration of an indenter into a viscous half-space, event by event; read-only arrays of shape (events,).
+
+    At a contact event an element touches, and the contact set grows.
 
     Attributes
     ----------
     impulse : array
-        ∫F dt/η at which the contact set grew [length²].
+        Impulse ∫F dt/η at each event [length²].
     depth : array
-        u at that impulse [length].
+        Depth u at each event [length].
     resistance : array
-        F/(ηv) from there to the next event [length].
+        Ratio F/(ηv) between each event and the next [length].
     contact_count : array
-        Elements in contact from there on.
+        Number of elements in contact after each event.
     elements : int
         Number of elements of the indenter.
     length_unit : str
@@ -50,18 +55,21 @@ class Events(ReadOnlyArrays):
     length_unit: str = "1"
 
     def depth_at(self, impulse: ArrayLike) -> Array:
-        """Depth [length] at impulses ∫F dt/η [length²] of any shape; linear between events and beyond the last one."""
+        """Return the depth [length] at impulses ∫F dt/η [length²], an array of any shape.
+
+        The depth is linear in the impulse between events, and after the last event.
+        """
         impulse = _impulses(impulse)
         i = self.event_at(impulse)
         return self.depth[i] + (impulse - self.impulse[i]) / self.resistance[i]
 
     def event_at(self, impulse: ArrayLike) -> Integers:
-        """Index of the last event at or before impulses ∫F dt/η [length²] of any shape."""
+        """Return the index of the last event at or before each impulse ∫F dt/η [length²], an array of any shape."""
         return np.searchsorted(self.impulse, _impulses(impulse), side="right") - 1
 
 
 def _impulses(values: ArrayLike) -> Array:
-    """The values as an array. Raises ValueError unless they are finite and 0 or more."""
+    """Return impulses as an array. Raises ValueError unless they are finite and 0 or more."""
     impulses = real_numbers("impulse", values)
     if not (np.isfinite(impulses) & (impulses >= 0)).all():
         raise ValueError("impulse: finite numbers of at least 0 are allowed; some are not")
@@ -69,32 +77,34 @@ def _impulses(values: ArrayLike) -> Array:
 
 
 def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
-    """Penetration of a rigid indenter into a linearly viscous half-space, exact from contact event to contact event.
+    """Compute the penetration of a rigid indenter into a linearly viscous half-space, exactly from event to event.
 
-    Every event adds one element to the contact set and one row to the Cholesky factor of its influence matrix. The
-    surface is integrated as the response to the pressure impulse. Only elements that can touch next are evaluated: no
-    gap closes faster than the indenter moves.
+    Every contact event adds one element to the contact set, and one row to the Cholesky factor of the influence matrix
+    of this set. The deflection of the surface follows from the impulse of the pressures. Only elements that can touch
+    next are evaluated, since no gap closes faster than the indenter moves.
 
     Parameters
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
     until_fraction : float, optional
-        Contact fraction at which to stop, in (0, 1].
+        Contact fraction at which the computation stops, in (0, 1].
 
     Returns
     -------
     Events
-        Memory is 8 (until_fraction · elements)² bytes, time of third order in the elements in contact.
+        Contact events up to `until_fraction`. The computation needs 8 (until_fraction · elements)² bytes of memory, and
+        a time of third order in the number of elements in contact.
 
     Raises
     ------
     ValueError
         For arguments out of range, and for heights so large that depths overflow.
     MemoryError
-        If that memory is not available.
+        If this memory is not available.
     ConvergenceError
-        If an element comes under tension: contact could then open, which it cannot without adhesion and with F ≥ 0.
+        If an element comes under tension. The contact could then open, which is impossible without adhesion and with
+        F ≥ 0.
 
     Examples
     --------
@@ -123,7 +133,10 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
 
 @njit(inner=True, fastmath=True)
 def _respond(influence, row, column, members, count, first, second, element):
-    """Σ_j K_ij first_j and Σ_j K_ij second_j over the contact set, at one element i."""
+    """Return Σ_j K_ij first_j and Σ_j K_ij second_j at the element i, summed over the elements j in contact.
+
+    members, count : indices of the elements in contact, and their number
+    """
     a, b = 0.0, 0.0
     r, c = row[element], column[element]
     for t in range(count):
@@ -135,13 +148,20 @@ def _respond(influence, row, column, members, count, first, second, element):
 
 @njit
 def _march(influence, row, column, initial_gap, most):
-    """Impulse/(4π d), depth and Σq at every event, and the index in the set of an element under tension, or −1."""
+    """Return impulse/(4π d), depth and Σq at every event, and the element under tension.
+
+    This element is returned as its index in the contact set; −1 if no element is under tension.
+
+    initial_gap : initial gaps, in increasing order
+    most : number of elements in contact at which the computation stops
+    """
     elements = initial_gap.size
     factor = np.empty((most, most))
     members = np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     inside = np.zeros(elements, np.bool_)
-    # The gap of an element was `last_gap` at `last_depth`; since then it closed by no more than the indenter went down.
+    # The gap of an element was last evaluated at the depth `last_depth`, and was `last_gap`. Since then it has closed
+    # by no more than the increase of the depth.
     last_gap, last_depth = initial_gap.copy(), np.zeros(elements)
     impulse, depth, resistance = np.zeros(most), np.zeros(most), np.zeros(most)
     element, depth_now, total = 0, 0.0, 0.0
@@ -161,7 +181,8 @@ def _march(influence, row, column, initial_gap, most):
             if not inside[i] and last_gap[i] + last_depth[i] < nearest:
                 nearest, element = last_gap[i] + last_depth[i], i
         depth_step, next_to_touch = np.inf, -1
-        candidate = element  # the most likely one first: it rules out most others
+        # Evaluate first the element that probably touches next: its depth rules out most other elements.
+        candidate = element
         for i in range(-1, elements):
             if i >= 0:
                 candidate = i

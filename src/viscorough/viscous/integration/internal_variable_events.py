@@ -1,25 +1,27 @@
 """Direct integration of growing viscoelastic contact, exact from contact event to contact event.
 
-While the contact set does not change, its elements move with the indenter: y' = q u' with K q = 1 on the set, in every
-medium. Contact events therefore depend on the motion alone. They are the events of march_events, in which the impulse
-over the viscosity is Z = 4πd Σy. With the sums W_i of the internal variables over all elements (internal_variables),
-the force is
+While the contact set does not change, its elements move with the indenter. In every medium the motions y of the
+elements (see the module internal_variables) then satisfy y' = q u', with K q = 1 on the set. So the contact events
+depend on the motion only, not on the medium. They are the events of march_events, if the impulse divided by the
+viscosity is replaced by Z = 4πd Σy, the sum over all elements. Let W_i be 4πd times the sum over all elements of the
+internal variable w_i of branch i. The force is
 
-    F = G∞ Z + Σ G_i W_i + η Z',    W_i' = Z' − W_i/τ_i,
+    F = G∞ Z + Σ_i G_i W_i + η Z',    W_i' = Z' − W_i/τ_i.
 
-a linear system with constant coefficients. Its modes r_j decay by themselves while the force is constant:
+This linear system with constant coefficients has modes r_j, which decay independently while the force is constant:
 
-    Z' = J₀ F' + φ F + Σ κ_j r_j,    r_j' = F' − λ_j r_j.
+    Z' = J₀ F' + φ F + Σ_j κ_j r_j,    r_j' = F' − λ_j r_j.
 
-With a dashpot η there is one mode, r = η Z' with λ = G∞/η. Without a dashpot, let s be the unit vector with the
-components √(G_i/G₀), the relaxed spring included, and R the diagonal matrix of the rates 1/τ_i, 0 for this spring. The
-forces in the spring and the branches, each divided by √G_i, are a vector with the component F/√G₀ along s. Its other
-components relax by themselves. With an orthonormal basis B of the space perpendicular to s, and √R B = U Σ Vᵀ, the
-rates are λ_j = Σ_j², and κ_j = (U_j · √R s)²/G₀. One-sided Jacobi rotations find this decomposition to rounding, also
-for relaxation times that are many decades apart. Matrix exponentials do not.
+With a parallel dashpot η there is one mode, r = η Z', with λ = G∞/η and κ = 1/η. Without a dashpot, the modes are found
+as follows. The relaxed spring G∞ counts as a branch with the rate 0, and G₀ is the sum of all moduli. Let s be the unit
+vector with the components √(G_i/G₀), and R the diagonal matrix of the rates 1/τ_i. The forces in the branches, each
+divided by √G_i, are a vector with the component F/√G₀ along s. Its components perpendicular to s relax independently
+of F. With an orthonormal basis B of the space perpendicular to s, and the singular value decomposition √R B = U Σ Vᵀ,
+the rates of the modes are λ_j = Σ_j², and κ_j = (U_j · √R s)²/G₀. One-sided Jacobi rotations find this decomposition to
+rounding, also for relaxation times that are many decades apart. Matrix exponentials would not.
 
-Contact grows as long as Z does. Nothing here uses the correspondence with the elastic problem, nor the creep compliance
-of the medium: this module checks both.
+The contact grows as long as Z grows. This module uses neither the correspondence with the elastic problem nor the creep
+compliance of the medium, so that it is an independent check of both.
 """
 
 from typing import NamedTuple
@@ -44,11 +46,14 @@ from viscorough.viscous.integration.internal_variables import check_overflow, ch
 def integrate_events(
     indenter: Indenter, medium: Medium | float | str, load: Load, until_fraction: float = 1.0
 ) -> Motion:
-    """Integrate a contact that grows under a force, exactly between contact events; see `march`.
+    """Integrate a contact that grows under a force, exactly from contact event to contact event; see `march`.
 
-    until_fraction : contact fraction up to which events are followed; 8 (until_fraction · elements)² bytes are needed
+    until_fraction : contact fraction up to which events are followed; 8 (until_fraction · elements)² bytes of memory
+    are
+        needed
 
-    Raises ValueError, with the first time, if the contact recedes, and ConvergenceError if more elements touch.
+    Raises ValueError, with the first such time, if the contact recedes, and ConvergenceError if more elements touch
+    than `until_fraction` allows.
     """
     relaxation, area, times, force = checked_input(indenter, medium, load)
     if load.by_depth:
@@ -76,9 +81,13 @@ def integrate_events(
 
 
 class _Modes(NamedTuple):
-    """Z' = J₀ F' + φ F + Σ κ_j r_j with r_j' = F' − λ_j r_j.
+    """Coefficients of the equations of motion Z' = J₀ F' + φ F + Σ κ_j r_j, with modes r_j' = F' − λ_j r_j.
 
-    instantaneous_compliance : J₀; fluidity : φ; weights, rates : κ_j and λ_j, arrays of shape (modes,)
+    Z is the total motion of the elements under the force F, see the module docstring.
+
+    instantaneous_compliance : J₀
+    fluidity : φ
+    weights, rates : κ_j and λ_j of each mode, arrays of shape (modes,)
     """
 
     instantaneous_compliance: float
@@ -88,7 +97,8 @@ class _Modes(NamedTuple):
 
 
 def _modes(relaxation: RelaxationSpectrum) -> _Modes:
-    """Modes of a medium: a dashpot with or without a spring, or branches with or without one."""
+    """Return the modes of a medium. It has a parallel dashpot or Maxwell branches, with or without a parallel
+    spring."""
     viscosity, relaxed, moduli, times = relaxation
     if viscosity:
         return _Modes(0.0, 0.0, np.array([1 / viscosity]), np.array([relaxed / viscosity]))
@@ -99,7 +109,8 @@ def _modes(relaxation: RelaxationSpectrum) -> _Modes:
         rates = 1 / times
     total = moduli.sum()
     unit = np.sqrt(moduli / total)
-    # A reflection that turns the unit vector to the first axis: its other columns are perpendicular to it.
+    # The Householder reflection turns the unit vector to the first axis. So all its columns except the first are
+    # perpendicular to the unit vector.
     mirror = unit + (np.arange(unit.size) == 0)
     basis = (np.eye(unit.size) - np.outer(mirror, mirror) / mirror[0])[:, 1:]
     if not basis.size:
@@ -115,7 +126,10 @@ def _modes(relaxation: RelaxationSpectrum) -> _Modes:
 
 
 def _total_motion(modes: _Modes, times: Array, force: Array) -> tuple[Array, Terms]:
-    """Z under a force that is linear between its samples, shape (times,), and the terms of Z' between them."""
+    """Return the total motion Z at the samples of the force, shape (times,), and a function for the terms of Z'.
+
+    The force is linear between its samples. The function evaluates Z' between samples, see first_decrease.Terms.
+    """
     instantaneous, fluidity, weights, rates = modes
     jumps, slopes = jumps_and_slopes(times, force)
     motion, states = np.empty(times.size), np.empty((times.size, rates.size))
@@ -123,7 +137,7 @@ def _total_motion(modes: _Modes, times: Array, force: Array) -> tuple[Array, Ter
     for k, (length, slope) in enumerate(zip(np.diff(times), slopes, strict=True)):
         x = rates * length
         gain = length * exprel(-x)  # ∫exp(−λt) dt
-        # ∫(1 − exp(−λt))/λ dt, without cancellation for small x and without overflow for large x.
+        # ∫(1 − exp(−λt))/λ dt, in a form without cancellation for small x and without overflow for large x.
         with np.errstate(divide="ignore", invalid="ignore"):
             gains = np.where(x > 1, (length - gain) / rates, 0.5 * length**2 * hyp1f1(1, 3, -np.minimum(x, 1)))
         at_once = instantaneous * (force[k + 1] - force[k])

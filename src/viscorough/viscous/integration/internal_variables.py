@@ -1,13 +1,14 @@
-"""Direct integration of viscoelastic contact with internal variables, whether the contact grows or recedes.
+"""Direct integration of viscoelastic contact with internal variables, for contact that grows or recedes.
 
-With Q = p d/(4π) the surface is at w = K y, where every element follows the law of the medium by itself,
+Let Q = p d/(4π) be the reduced pressure on an element of side d, and K the matrix of influence coefficients. The
+deflection of the surface is K y. The motion y of every element follows from its own pressure by the law of the medium,
 
-    Q = G∞ y + Σ G_i w_i + η y',    w_i' = y' − w_i/τ_i,
+    Q = G∞ y + Σ_i G_i w_i + η y',    w_i' = y' − w_i/τ_i,
 
-with one internal variable w_i for each of its Maxwell branches. Every step in time solves a contact problem for the
-pressures at its end: Q ≥ 0, no overlap, and Q = 0 where there is a gap. Nothing here uses the correspondence with the
-elastic problem, which holds only while the contact grows: where the creep of the force would decrease, elements leave
-the contact, and the surface behind them recovers.
+with one internal variable w_i for each Maxwell branch i. Every step in time solves a contact problem for the pressures
+at the end of the step: Q ≥ 0, no overlap, and Q = 0 at elements with a gap. This module does not use the correspondence
+with the elastic problem, which holds only while the contact grows. So elements may leave the contact, and the surface
+then recovers there.
 """
 
 from typing import Any
@@ -26,22 +27,25 @@ from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter, check_indenter
 from viscorough.viscous.integration.elements import MapElements, elements_of_map
 
+# Largest number of iterations of the active-set method. An iteration may double the contact set, and may add this many
+# elements more.
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
-# Rounding of gaps, relative to the initial gap, the depth, and the largest displacement of the surface so far.
+# Rounding error of gaps, relative to the sum of initial gap, depth, and largest displacement of the surface so far.
 _ROUNDING = 1e-12
 
 
 def integrate_steps(
     indenter: Indenter, medium: Medium | float | str, load: Load, progress: Progress | None = None
 ) -> tuple[Motion, Array]:
-    """Integrate the contact in time, one contact problem per step from sample to sample of the load.
+    """Integrate the contact in time by steps from sample to sample of the load; see `march`.
 
-    Branches are integrated exactly for surfaces that move linearly within a step; a parallel dashpot (Newtonian,
-    Kelvin-Voigt) exactly for pressures that are constant within it: the method is of second order in the steps. It
-    keeps pressures positive where the exact ones are, and needs no short steps to be stable. See `march`.
+    Each step solves one contact problem. A Maxwell branch is integrated exactly if the surface moves linearly within
+    the step. A parallel dashpot (Newtonian, Kelvin-Voigt) is integrated exactly if the pressures are constant within
+    the step. So the method is of second order in the length of the steps. Pressures are positive if the exact pressures
+    are, and the method is stable for steps of any length.
 
-    Returns the Motion, and the pressure p at the last time, after a step of the force there, on the grid of the
-    heights, nan outside the indenter.
+    Returns the Motion, and a map of the pressure p at the last time, with the shape of the heights and nan outside the
+    indenter. If the force steps at the last time, this is the pressure after the step.
     """
     relaxation, area, times, values = checked_input(indenter, medium, load)
     elements = elements_of_map(indenter, "march")
@@ -75,9 +79,10 @@ def integrate_steps(
 
 
 def checked_input(indenter: Indenter, medium: Any, load: Load) -> tuple[RelaxationSpectrum, float, Array, Array]:
-    """The medium's RelaxationSpectrum, the area in m² that forces are divided by, times and load, of shape (times,).
+    """Check the arguments of `march`. Return relaxation spectrum, area, times and load.
 
-    The load is a depth, or a force over that area.
+    The area in m² converts forces from N to consistent units by division. Times and load have the shape (times,); the
+    load is a depth, or a force in consistent units.
     """
     check_indenter("march", indenter, 2)
     if not isinstance(load, Load):
@@ -90,7 +95,10 @@ def checked_input(indenter: Indenter, medium: Any, load: Load) -> tuple[Relaxati
 
 
 def _mean_velocity(times: Array, depths: Array) -> Array:
-    """Mean velocity in the step after each time; before it at the last time and where the load steps."""
+    """Return the mean velocity in the interval after each time, shape (times,).
+
+    At the last time, and at the first of two equal times, this is the mean velocity in the interval before the time.
+    """
     lengths = np.diff(times)
     mean = np.divide(np.diff(depths), lengths, out=np.zeros(lengths.size), where=lengths > 0)
     velocity = np.append(mean, mean[-1:] if lengths.size else 0.0)
@@ -100,7 +108,7 @@ def _mean_velocity(times: Array, depths: Array) -> Array:
 
 
 def check_overflow(values: Array) -> None:
-    """Raise ValueError unless all these results are finite."""
+    """Raise ValueError unless all values of a result are finite."""
     if not np.isfinite(values).all():
         raise ValueError(
             "march: depths or forces overflow in this medium; allowed: forces, depths and moduli whose ratios are "
@@ -109,33 +117,40 @@ def check_overflow(values: Array) -> None:
 
 
 class _State:
-    """Motion y, pressures Q and internal variables w of all elements under forces, or depths if `by_depth`.
+    """Present motions y, pressures Q and internal variables w_i of all elements; symbols: see the module docstring.
 
-    With a parallel dashpot Q is its mean over a step, which the step assumes. `touching`, shape (elements,), is the
-    contact set. A step that presses an element adds it to the set; it leaves when its gap opens.
+    In a medium with a parallel dashpot, Q is the mean pressure in the last step. The array `touching`, shape
+    (elements,), is true for elements in contact. A step that presses on an element adds it to the contact. The element
+    leaves the contact when its gap opens.
+
+    by_depth : whether the load is a depth instead of a force
     """
 
     def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum, *, by_depth: bool) -> None:
         self._elements, self._relaxation, self._by_depth = elements, relaxation, by_depth
         self.depth = 0.0
         self.motion: Array = np.zeros(elements.count)
-        self._largest = 0.0  # displacement of the surface so far
+        self._largest = 0.0  # largest displacement of the surface so far
         self.pressure: Array = np.zeros(elements.count)
         self._branches: Array = np.zeros((relaxation.moduli.size, elements.count))
         self.touching: Mask = np.zeros(elements.count, bool)
-        self._of_factor = np.array([], int)  # the members that the Cholesky factor is of
+        self._of_factor = np.array([], int)  # elements whose influence matrix has the stored Cholesky factor
 
     def advance(self, length: float, load: float) -> None:
-        """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
+        """Advance by one step of the given length to the given load, by a contact problem for the pressures Q.
+
+        At the end of the step Q = `kept` + c (y − y₀), with the motion y₀ at its start and a stiffness c. With a
+        parallel dashpot, Q and a load that is a force are means over the step.
+        """
         viscosity, relaxed, moduli, times = self._relaxation
         x = length / times
-        # Factors of w₀ and of y − y₀ in the internal variables at the end of the step.
+        # At the end of the step, the internal variables are decay × (their values at its start) + gain × (y − y₀).
         decay, gain = np.exp(-x), exprel(-x)
-        # With a dashpot, in the mean pressure: y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η)) under a constant one, exactly.
+        # With a dashpot, y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η)) exactly, if Q is constant in a step of length h.
         spring = viscosity / (length * exprel(-length * relaxed / viscosity)) if viscosity else relaxed
         stiffness = spring + moduli @ gain
         kept = relaxed * self.motion + (moduli * decay) @ self._branches
-        # c times the gap is e + K Q − c u. If nothing pressed on the surface in this step, it would be e − c u.
+        # At the end of the step, c times the gap is e + K Q − c u. Without pressures in this step it would be e − c u.
         surface = self._elements.deflection(stiffness * self.motion - kept)
         initial_gap = stiffness * self._elements.initial_gap
         target = stiffness * load if self._by_depth else load / self._elements.units.force
@@ -155,7 +170,10 @@ class _State:
         self._largest = max(self._largest, abs(self._elements.deflection(self.motion)).max())
 
     def lift_to(self, depth: float) -> bool:
-        """Change the depth at once while the surface stays. Return False, without a change, if it were pressed."""
+        """Step the depth at the present time, without a motion of the surface, and return True.
+
+        If the indenter would then overlap the surface, change nothing, and return False.
+        """
         surface = self._elements.deflection(self.motion)
         gap = surface + self._elements.initial_gap - depth
         rounding = _ROUNDING * (self._largest + self._elements.initial_gap + depth)
@@ -167,12 +185,12 @@ class _State:
         return True
 
     def pressure_now(self, load: float) -> Array:
-        """Q at this time.
+        """Return the pressures Q at the present time.
 
-        load : the force F, or u' if `by_depth`
+        load : the force F, or the velocity u' if the load is a depth
 
-        With a parallel dashpot this is a contact problem for the rates of the elements that touch: Q ≥ 0 and
-        K y' − u' ≥ 0, and one of them zero. All other elements have Q = 0.
+        In a medium with a parallel dashpot, Q follows from a contact problem for the rates of the elements in contact:
+        Q ≥ 0 and K y' − u' ≥ 0, of which at least one is zero at every element. Elements out of contact have Q = 0.
         """
         viscosity, relaxed, moduli, _ = self._relaxation
         if viscosity == 0:
@@ -186,17 +204,21 @@ class _State:
         kept = relaxed * self.motion + moduli @ self._branches
         target = viscosity * load if self._by_depth else load / self._elements.units.force
         recovery = -self._elements.deflection(kept)
-        size = np.where(touching, abs(recovery).max(), np.inf)  # a gap that is open may close at any rate
+        # An infinite rounding error excludes elements with an open gap from the contact.
+        size = np.where(touching, abs(recovery).max(), np.inf)
         return self._solve(recovery, size, target, touching)[0]
 
     def _solve(self, free: Array, size: Array, target: float, start: Mask) -> tuple[Array, float, Array]:
-        """Q ≥ 0 of all elements with e + K Q − c u ≥ 0, one of them zero; c u; and e + K Q − c u.
+        """Solve the contact problem Q ≥ 0 and e + K Q − c u ≥ 0, of which at least one is zero at every element.
 
-        free : e; target : c u if `by_depth`, else ΣQ; start : first guess of the contact set
-        size : of the terms of e, for the rounding of the gap
+        Return Q, the depth c u, and the gap e + K Q − c u, with a stiffness c as in `advance`. Without a force the
+        indenter is placed at first contact. The active-set method releases elements under tension and adds elements
+        that overlap, until there are none of either kind.
 
-        Active-set method, which releases elements under tension and adds elements that overlap until there are neither.
-        Without a force the indenter is placed at first contact.
+        free : e, the gap at depth 0 if there were no pressures Q
+        size : size of the terms of e, which determines the rounding error of the gap
+        target : c u if the load is a depth, ΣQ if it is a force
+        start : first guess of the contact set
         """
         check_overflow(np.append(free, target))
         members = np.flatnonzero(start) if start.any() else np.array([np.argmin(free)])
@@ -207,13 +229,16 @@ class _State:
             overlaps = gap < -_ROUNDING * (size + abs(depth))
             if not overlaps.any():
                 return pressure, depth, gap
-            # The deepest first: under a force on too few elements, most others would overlap.
+            # Add only the elements with the deepest overlap: while too few elements carry a force, most others overlap.
             deepest = np.argsort(np.where(overlaps, gap, np.inf))
             members = np.union1d(members, deepest[: min(np.count_nonzero(overlaps), members.size + _ADDED_AT_ONCE)])
         raise ConvergenceError(f"march: no contact set found in {_MAX_ITERATIONS} iterations")
 
     def _solve_among(self, members: Integers, free: Array, target: float) -> tuple[Array, float, Integers]:
-        """Solve for Q, c u and the contact set if only these members may touch; release members under tension."""
+        """Solve the contact problem of `_solve` if only the elements `members` may be in contact, without the others.
+
+        Return Q, c u, and the members that remain after members under tension are released.
+        """
         pressure = np.zeros(free.size)
         if not self._by_depth and target <= 0:
             return pressure, free.min(), members[:0]

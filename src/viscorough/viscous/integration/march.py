@@ -22,7 +22,7 @@ def march(
 ) -> Motion:
     """Integrate the viscoelastic contact problem in time.
 
-    The method never uses the loading curve, so that it is an independent check of `kinetics`. Its cost grows with the
+    The integration never uses the loading curve, so it is an independent check of `kinetics`. Its cost grows with the
     third power of the number of elements in contact; use it for maps of up to about 65 x 65 elements.
 
     Parameters
@@ -30,32 +30,33 @@ def march(
     indenter : Indenter
         Indenter with two-dimensional heights.
     load : Load
-        Depth [length] or force [N] over time [s], linear between samples. It may decrease. With a parallel dashpot
-        (Newtonian, Kelvin-Voigt) a step of the depth must not press on the surface.
+        Depth [length] or force [N] as a function of time [s], linear between samples. It may decrease. In a medium with
+        a parallel dashpot (Newtonian, Kelvin-Voigt), a step of the depth must not press on the surface.
     medium : Medium or float or str
-        Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one.
+        Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian medium.
     method : {"implicit", "events"}, optional
-        "implicit" solves one contact problem for the pressures at the end of each step, from sample to sample; it is of
-        second order in the steps. "events" proceeds from contact event to contact event, exactly, under a force and
-        while the contact grows.
+        "implicit" makes one step from each sample of the load to the next, and solves a contact problem for the
+        pressures at the end of each step. Its error is of second order in the length of the steps. "events" proceeds
+        from contact event to contact event and is exact. It needs a load of a force, and a contact that only grows.
     until_fraction : float, optional
-        Contact fraction up to which "events" follows the contact, in (0, 1]; its memory is 8 (until_fraction ·
-        elements)² bytes.
+        Contact fraction up to which "events" follows the contact, in (0, 1]. The method needs 8 (until_fraction ·
+        elements)² bytes of memory.
     progress : Progress, optional
-        Function that "implicit" calls after each step with the share of them that is done.
+        Function that "implicit" calls after each step, with the share of the steps that is done.
 
     Returns
     -------
     Motion
-        At the samples of the load. An element is in contact after it was pressed, until its gap opens. Under no force
-        the indenter rests on the surface; the contact then stays if all its elements still touch, as in a Newtonian
-        medium, and else is empty. "implicit" gives the mean velocity in the step after each time, `receding_from` at
-        the end of a step and, in media with a parallel dashpot, the force just before each time.
+        Motion at the samples of the load. An element comes into contact when it is pressed, and stays in contact until
+        its gap opens. Under no force the indenter rests on the surface. The contact then stays as it was if all its
+        elements still touch, as in a Newtonian medium; otherwise it is empty. The method "implicit" gives the mean
+        velocity in the step after each time, `receding_from` at the end of a step and, in media with a parallel
+        dashpot, the force just before each time.
 
     Raises
     ------
     ValueError
-        For arguments out of range, and where "events" would recede, with the time.
+        For arguments out of range, and if the contact recedes with the method "events"; the message states the time.
     ConvergenceError
         If a contact problem is not solved, or if more elements touch than `until_fraction` allows.
     MemoryError

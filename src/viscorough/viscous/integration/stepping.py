@@ -1,9 +1,11 @@
 """Time stepping of the viscous problem, as in a simulation that solves one contact problem per time step.
 
-Nothing here uses the correspondence with the elastic problem. As in events the clock is the impulse
-∫F dt/η: for a given contact set the velocity per force does not depend on the force, so steps of impulse serve any
-F(t) ≥ 0. The explicit schemes hold the contact set over a step, so that elements which should have come into contact
-during the step overlap the surface; the implicit scheme demands contact without overlap at the end of the step.
+This module does not use the correspondence with the elastic problem. As in the module `events`, the impulse ∫F dt/η
+takes the place of the time. For a given contact set, the ratio of velocity and force does not depend on the force.
+Therefore steps of the impulse are valid for every force F(t) ≥ 0.
+
+The explicit schemes keep the contact set during a step, so that elements that should come into contact in this step
+overlap the surface. The implicit scheme requires a contact without overlap at the end of the step.
 """
 
 import warnings
@@ -25,31 +27,32 @@ from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.elements import elements_of_map
 
-# Overlap over the depth from which on a warning is given: the error of the depth is about as large.
+# Ratio of overlap and depth above which a warning is given. The relative error of the depth is about as large as this
+# ratio.
 _WARN_OVERLAP = 0.01
-# Largest depth of explicit steps, over the largest number of the precision of their fields.
+# Largest depth of explicit steps, as a share of the largest floating-point number of the precision of their fields.
 _LARGEST_SHARE = 1e-8
-# Accuracy of the impulse of an implicit step, over the tolerance of its contact problem, which leaves the force that
-# uncertain itself, and most iterations for it.
+# Newton's method for the depth of an implicit step ends when the relative error of the impulse is below this multiple
+# of the tolerance of the contact problem. The second number is the largest number of iterations.
 _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 0.1, 50
 
 
 @dataclass(frozen=True)
 class Steps(ReadOnlyArrays):
-    """The penetration of an indenter at given impulses; read-only arrays of shape (impulses,).
+    """Penetration of an indenter into a viscous half-space at given impulses; read-only arrays of shape (impulses,).
 
     Attributes
     ----------
     impulse : array
-        ∫F dt/η [length²].
+        Impulse ∫F dt/η [length²].
     depth : array
-        u [length].
+        Depth u at each impulse [length].
     resistance : array
-        F/(ηv) of the contact at that impulse [length].
+        Ratio F/(ηv) of the contact at each impulse [length].
     contact_count : array
-        Elements in contact.
+        Number of elements in contact.
     overlap : array
-        Largest overlap of indenter and surface, over the depth [1].
+        Largest overlap of indenter and surface, relative to the depth [1].
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
     """
@@ -70,32 +73,39 @@ def march_steps(
     tolerance: float = 1e-6,
     progress: Progress | None = None,
 ) -> Steps:
-    """Penetration of a rigid indenter into a linearly viscous half-space by steps of impulse.
+    """Compute the penetration of a rigid indenter into a linearly viscous half-space by steps of the impulse ∫F dt/η.
 
-    "explicit" (forward Euler) advances with u' = 1/(4π d Σq) and w' = u' K q, where K q = 1 on the elements that touch
-    or overlap the surface at the start of the step. It is of first order in the steps. "heun" takes the mean of the
-    velocities before and after the step that they predict. It is more accurate than "explicit" at equal steps
-    (measured: `make speed`, results/tables/methods.csv), yet of first order as well, since the velocity jumps at
-    contact events within a step. "implicit" (backward Euler) solves, in every step, the contact problem of the surface
-    in its current shape: ΔP ≥ 0, e + KΔP − Δu ≥ 0 and one of them zero, with 4π d ΣΔP the impulse of the step. It is
-    exact for steps of any size, because contact only grows.
+    The surface has the deflection w, K is the matrix of influence coefficients of elements of side d, and ′ is the
+    derivative with respect to the impulse. There are three schemes:
+
+    - "explicit" (forward Euler) advances with u′ = 1/(4π d Σq) and w′ = u′ K q, where K q = 1 on the elements that
+    touch
+      or overlap the surface at the start of the step. Its error is of first order in the steps.
+    - "heun" advances with the mean of the velocities at the start of the step and at its end, as predicted by an
+      explicit step. With equal steps it is more accurate than "explicit" (measured: `make speed`,
+      results/tables/methods.csv). Its error is of first order, too, since the velocity jumps at contact events within a
+      step.
+    - "implicit" (backward Euler) solves, in every step, the contact problem of the surface in its current shape with
+      the gaps e: ΔP ≥ 0 and e + KΔP − Δu ≥ 0, of which at least one is zero at every element, where 4π d ΣΔP is the
+      impulse of the step. This is exact for steps of any size, because the contact only grows.
 
     Parameters
     ----------
     indenter : Indenter
         Indenter with two-dimensional heights.
     impulses : array_like
-        ∫F dt/η at the ends of the steps, positive and increasing [length²]; the first step starts at zero.
+        Impulses ∫F dt/η at the ends of the steps, positive and increasing [length²]. The first step starts at zero.
     scheme : str, optional
-        One of SCHEMES.
+        "explicit", "heun" or "implicit".
     tolerance : float, optional
-        Residual of the contact problems, as in indent.
+        Tolerance of the contact problems, like the tolerance of `indent`.
     progress : Progress, optional
-        Function that is called at each of the impulses with the share of them that is done.
+        Function that is called after each step, with the share of the steps that is done.
 
     Returns
     -------
     Steps
+        Depth, resistance and contact at `impulses`.
 
     Raises
     ------
@@ -107,7 +117,7 @@ def march_steps(
     Warns
     -----
     AccuracyWarning
-        Where the indenter overlaps the surface by more than 1 % of the depth.
+        If the indenter overlaps the surface by more than 1 % of the depth.
 
     Examples
     --------
@@ -144,14 +154,18 @@ def march_steps(
 
 
 class _Explicit:
-    """Surface and indenter in the explicit scheme; impulses are over 4π d, fields are flat as those of GridSolver."""
+    """State of surface and indenter in the explicit scheme.
+
+    Impulses are divided by 4π d. Fields are flat arrays on the grid, like the fields of GridSolver.
+    """
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
         elements = elements_of_map(indenter, "time steps")
-        # The error of Σq is the square of that of q.
+        # The relative error of Σq is about the square of the relative error of q.
         self._grid = GridSolver((0, 0, *elements.shape), elements, tolerance**2, DEFAULT)
         self._tolerance = tolerance
-        self._gap = np.full_like(self._grid.initial_gap, np.inf)  # where there is no element, at every depth
+        # The gap stays infinite at grid points without an element.
+        self._gap = np.full_like(self._grid.initial_gap, np.inf)
         self._gap[self._grid.place] = elements.initial_gap
         self._largest_depth = _LARGEST_SHARE * np.finfo(self._gap.dtype).max
         self._inside = self._gap <= 0
@@ -160,7 +174,7 @@ class _Explicit:
         self._solve_flat_punch()
 
     def step(self, impulse: float) -> None:
-        """Advance by an impulse."""
+        """Advance by one step of the given impulse."""
         depth_step = impulse / self.resistance
         self._check_depth(self.depth + depth_step)
         self._gap += depth_step * self._tangent_gap
@@ -172,12 +186,12 @@ class _Explicit:
 
     @property
     def count(self) -> int:
-        """Elements in contact."""
+        """Return the number of elements in contact."""
         return int(np.count_nonzero(self._inside))
 
     @property
     def overlap(self) -> float:
-        """Largest overlap of indenter and surface, over the depth."""
+        """Return the largest overlap of indenter and surface, relative to the depth."""
         return max(-self._gap.min(), 0.0) / self.depth
 
     def _check_depth(self, depth: float) -> None:
@@ -188,17 +202,24 @@ class _Explicit:
             )
 
     def _solve_flat_punch(self) -> None:
-        """q, K q − 1 and Σq of the contact set. Without adhesion no element may pull, and none of a flat punch does."""
+        """Compute q, K q − 1 and Σq, where K q = 1 on the contact set, and store them.
+
+        q is the pressure of a flat punch of the shape of the contact set. It cannot be negative at any element, so
+        ConvergenceError is raised if it is.
+        """
         self.resistance = self._grid.solve_flat_punch(self._inside, self._tangent, self._tangent_gap)
         if self._tangent.min() < -self._tolerance * self._tangent.max():
             raise ConvergenceError(f"time steps: tension at depth {self.depth:g}; contact would open")
 
 
 class _Heun(_Explicit):
-    """The explicit scheme with the mean of the velocities at the start of the step and at its predicted end."""
+    """State in Heun's scheme, which advances with the mean of the velocities at both ends of a step.
+
+    The velocity at the end of the step is predicted by an explicit step.
+    """
 
     def step(self, impulse: float) -> None:
-        """Advance by an impulse."""
+        """Advance by one step of the given impulse."""
         self._check_depth(self.depth + impulse / self.resistance)
         start_velocity, start_gap = 1 / self.resistance, self._tangent_gap / self.resistance
         predicted = self._inside | (self._gap + impulse * start_gap <= 0)
@@ -211,7 +232,7 @@ class _Heun(_Explicit):
         self.depth += 0.5 * impulse * (start_velocity + 1 / self.resistance)
         self._gap += 0.5 * impulse * (start_gap + self._tangent_gap / self.resistance)
         touching = inside | (self._gap <= 0)
-        if np.any(predicted & ~touching):  # too many were predicted: q carries load where there is no contact
+        if np.any(predicted & ~touching):  # q is not zero at predicted elements that do not touch: restore the old q
             self._tangent, self._tangent_gap, self.resistance = start
         if not np.array_equal(touching, predicted):
             self._inside = touching
@@ -219,7 +240,7 @@ class _Heun(_Explicit):
 
 
 class _Implicit:
-    """Surface and indenter in the implicit scheme; impulses are over 4π d."""
+    """State of surface and indenter in the implicit scheme; impulses are divided by 4π d."""
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
         self._gap, self._tolerance = indenter.initial_gap, tolerance
@@ -227,7 +248,7 @@ class _Implicit:
         self.depth, self.resistance, self.count, self.overlap = 0.0, 0.0, 0, 0.0
 
     def step(self, impulse: float) -> None:
-        """Advance by an impulse; the depth that belongs to it is found by Newton's method."""
+        """Advance by one step of the given impulse. The change of depth in the step is found by Newton's method."""
         solver = ContactSolver(Indenter(-self._gap, *self._spacings), self._tolerance)
         depth_step = impulse / (self.resistance or 1.0)
         for _ in range(_MAX_NEWTON_ITERATIONS):

@@ -130,8 +130,9 @@ class PenetrationLaw:
         of the calibration
     region : (lower, upper) ends of region (b) in X
     amplitude, exponent, bend, fall, cutoff : constants A, b, s, m and d of g, see `interface_velocity`
-    velocity_error, depth_error : largest relative error of vt/h and u/h. For discs that were not used for the
-        calibration, the mean has a 95 % interval; the error is the distance of the law from its farther end
+    velocity_error, depth_error : largest relative error of vt/h and u/h in the range of the law. The error at one X is
+        the distance of the law from the farther end of a 95 % interval: the interval of the mean over discs that were
+        not used for the calibration
     x_low, x_high : ends of the range of X in which the law holds
     """
 

@@ -19,8 +19,9 @@ class Estimate(ReadOnlyArrays):
 
     time : times t
     x : dimensionless force X = F·J(t)/(4hL), with force F, creep compliance J, rms height h and diameter L
-    depth, velocity : u and v = du/dt, as arithmetic means over many surfaces at the same X, which contains the h of
-        each surface. u has the unit of the rms height, and v this unit per unit of time
+    depth, velocity : u and v = du/dt, as arithmetic means over many surfaces. The X of each surface is computed with
+    its
+        own h, and is the same for all surfaces. u has the unit of the rms height, and v this unit per unit of time
     depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that contain the depth and the velocity
         of 95 % of single surfaces
     law : PenetrationLaw, which holds for X from law.x_low to law.x_high. Its depth and velocity differ from the means

@@ -17,7 +17,7 @@ ROUNDING = 1e-12
 # arrays: the sum of the terms of the rate that rise within the interval, the sum of the terms that fall, and the sum of
 # the sizes of all terms.
 Terms = Callable[..., tuple[Array, Array, Array]]
-# An interval is halved at most so many times, which is enough to separate neighbouring floating-point numbers.
+# Largest number of times that an interval is halved. This is enough to separate neighbouring floating-point numbers.
 _HALVINGS = 60
 
 

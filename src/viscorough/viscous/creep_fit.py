@@ -85,7 +85,7 @@ def fit_growing_depth(
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
     bend = spectrum.creep - responses @ _amounts(spectrum.compliance(time), knots)
     coefficients, _ = record.fit(responses, bend)
-    compliance = np.maximum.accumulate(values @ coefficients)  # a constant J may decrease by rounding
+    compliance = np.maximum.accumulate(values @ coefficients)  # rounding may make a constant J decrease
     fitted = record.signed.shape[1]
     low = high = np.full(time.size + fitted, np.nan)
     if not np.isnan(scatter):

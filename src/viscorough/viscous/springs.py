@@ -155,11 +155,11 @@ def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
 
 
 def merged(gap: Array, stiffness: Array, depth: float, most: int) -> tuple[Array, Array]:
-    """Merge the springs of a row with gaps up to `depth` into at most `most` springs; return their gaps and
-    stiffnesses.
+    """Merge the springs of a row with gaps up to `depth` into at most `most` springs.
 
-    Fits that move the row often use such a row. Neighbouring springs are replaced by one spring at their mean gap, with
-    the sum of their stiffnesses. The new springs are spread evenly over the cube root of the gap.
+    Return gaps and stiffnesses of the new springs, which fits use because they move the row often. Each new spring
+    replaces some neighbouring springs: it has their mean gap and the sum of their stiffnesses. The new springs lie at
+    about equal steps of the cube root of the gap.
     """
     inside = gap < depth * (1 + 1e-9)
     gap, stiffness = gap[inside], stiffness[inside]

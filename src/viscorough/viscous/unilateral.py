@@ -126,8 +126,8 @@ class _Row(NamedTuple):
     """Springs of a row, and sums over its first springs.
 
     gaps, weights, limit : arguments of `move_row`
-    stiffness, moment : sums of stiffness and of stiffness × gap of the first n springs, n = 0, 1, …, shape (springs +
-    1,)
+    stiffness, moment : sums of stiffness and of stiffness × gap of the first n springs, n = 0, 1, …, each of shape
+        (springs + 1,)
     """
 
     gaps: Array
@@ -485,8 +485,12 @@ def _gap_of_next(row, law, state, t, count):
 
 @njit(inner=True)
 def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts):
-    """Step the load to `target` at time t. Return depth, force, number of springs in contact, and how the step
-    ended."""
+    """Step the load to `target` at time t.
+
+    Return the depth and the force after the step, the number of springs in contact, and how the step ended.
+
+    release_amounts : work array for the terms of `_first_crossing`, changed in place
+    """
     if law.viscosity > 0 and not by_depth:
         # The indenter does not move, because of the dashpot. Springs that the new force would pull are released.
         while count > 1:

@@ -80,13 +80,17 @@ def _check_concave(medium: Medium, duration: float) -> None:
 
 
 def _difference(one: RowMotion, other: RowMotion, *, by_depth: bool) -> float:
-    """Return the largest difference in force (if `by_depth`) or depth of two motions, relative to its largest value."""
+    """Return the largest difference of two motions: of the force if `by_depth` is true, else of the depth.
+
+    The difference is relative to the largest force or depth.
+    """
     values = (one.force, other.force) if by_depth else (one.depth, other.depth)
     return float(np.nanmax(np.abs(values[0] - values[1])) / max(np.nanmax(np.abs(values[1])), np.finfo(float).tiny))
 
 
 def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
-    """Return the extrapolation of two motions, with long and half as long steps, to steps of zero length."""
+    """Return the motion extrapolated to steps of zero length from a motion with long and one with half as long
+    steps."""
     return fine._replace(
         depth=2 * fine.depth - coarse.depth,
         force=np.maximum(2 * fine.force - coarse.force, 0.0),
@@ -100,7 +104,8 @@ def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
 def _with_fewer_springs(row: RowOfSprings) -> tuple[Array, Array, Integers]:
     """Merge neighbouring springs into at most _MOST_SPRINGS springs.
 
-    Return gaps and stiffnesses of the merged springs, and the index of the last spring of the row in each of them.
+    Return gaps and stiffnesses of the merged springs and, for each merged spring, the index in the row of the last
+    spring that it contains.
     """
     if row.gap.size <= _MOST_SPRINGS:
         return row.gap, row.stiffness, np.arange(row.gap.size)

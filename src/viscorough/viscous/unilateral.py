@@ -624,7 +624,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 _remainders_in_contact(row, law, state, t, u, f, count, remainders)
         else:
             rate, f = (load[k] - before) / length, before
-            # The time since the start of the interval has more digits than the time itself: first springs may be soft.
+            # `passed` is the time since the start of the interval. It has more digits than t; soft springs may touch so
+            # soon after the start that t would not resolve the event.
             passed, started, events, at, pauses = 0.0, False, 0, 0.0, 0
             while True:
                 now, speed = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
@@ -695,8 +696,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
         if ended != SETTLED:
             until = t
             break
-        # Record the state at this sample. Events at the start of the next interval belong to this sample, too: the next
-        # interval then overwrites force, velocity and contact.
+        # Record the state at this sample, or just before it if a kink or a step of the load follows. The start of the
+        # next interval overwrites the velocity, and also force and contact if they change there.
         force[k], velocity[k] = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
         depth[k], in_contact[k], largest[k] = u, count, count >= state.most[0]
         deflection[k] = row.stiffness[count] * u - row.moment[count]

@@ -51,8 +51,8 @@ def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion
         coarse, best = fine, extrapolated
         if last is not None:
             before, difference = difference, _difference(last, extrapolated, by_depth=load.by_depth)
-            # The difference falls to a quarter when the steps are halved, but where springs touch and let go it may
-            # also be small by chance.
+            # When the steps are halved, the difference usually falls to a quarter. It may also be small by chance, if
+            # springs touch and are released. So the error is at least a quarter of the difference before.
             error = max(difference, before / 4) if np.isfinite(before) else difference
     if error > _TOLERANCE:
         text = f"an error of about {error:.2g}" if np.isfinite(error) else "an unknown error"

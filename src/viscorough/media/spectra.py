@@ -17,8 +17,8 @@ from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 
 # Relative error of the springs and dashpots that approximate a power law.
 _POWER_LAW_ERROR = 1e-10
-# Rate of the slowest element of this approximation, multiplied by the longest time. Until then, the creep of still
-# slower elements is linear in time to 1e-10.
+# Rate of the slowest element of this approximation, multiplied by the longest time. Up to the longest time, the creep
+# of still slower elements is linear in time to 1e-10.
 _SLOWEST = 1e-10
 # Number of bisections of an interval that contains a zero. Ten of them reduce the ratio of its ends to a factor of 2;
 # the others find the zero to rounding.

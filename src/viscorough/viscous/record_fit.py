@@ -111,9 +111,10 @@ def scatter_of(residual: Array, amounts: Array, others: int, exact: float) -> tu
 
 
 def distance_of(scatter: float, freedom: float, unknowns: int = 1) -> float:
-    """Return the square root of the largest excess of the sum of squared residuals within a confidence interval.
+    """Return the distance that determines the width of confidence intervals.
 
-    The interval of a quantity holds the values for which the best fit exceeds the least sum of squares by no more.
+    The interval of a quantity contains a value if the sum of squared residuals of the best fit with this value exceeds
+    the smallest sum of all fits by at most distance².
 
     scatter, freedom : standard deviation of the record, and its number of degrees of freedom
     unknowns : number of unknowns whose joint confidence region gives the interval

@@ -89,8 +89,10 @@ def _difference(one: RowMotion, other: RowMotion, *, by_depth: bool) -> float:
 
 
 def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
-    """Return the motion extrapolated to steps of zero length from a motion with long and one with half as long
-    steps."""
+    """Return the motion extrapolated to steps of zero length.
+
+    coarse, fine : motions with long steps, and with steps of half their length
+    """
     return fine._replace(
         depth=2 * fine.depth - coarse.depth,
         force=np.maximum(2 * fine.force - coarse.force, 0.0),

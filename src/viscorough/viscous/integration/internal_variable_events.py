@@ -48,9 +48,8 @@ def integrate_events(
 ) -> Motion:
     """Integrate a contact that grows under a force, exactly from contact event to contact event; see `march`.
 
-    until_fraction : contact fraction up to which events are followed; 8 (until_fraction · elements)² bytes of memory
-    are
-        needed
+    until_fraction : contact fraction up to which events are followed. This needs 8 (until_fraction · elements)² bytes
+        of memory
 
     Raises ValueError, with the first such time, if the contact recedes, and ConvergenceError if more elements touch
     than `until_fraction` allows.
@@ -97,8 +96,10 @@ class _Modes(NamedTuple):
 
 
 def _modes(relaxation: RelaxationSpectrum) -> _Modes:
-    """Return the modes of a medium. It has a parallel dashpot or Maxwell branches, with or without a parallel
-    spring."""
+    """Return the modes of a medium.
+
+    The medium has either a parallel dashpot or Maxwell branches, with or without a parallel spring.
+    """
     viscosity, relaxed, moduli, times = relaxation
     if viscosity:
         return _Modes(0.0, 0.0, np.array([1 / viscosity]), np.array([relaxed / viscosity]))
@@ -136,8 +137,8 @@ def _total_motion(modes: _Modes, times: Array, force: Array) -> tuple[Array, Ter
     motion[0], states[0] = instantaneous * force[0], force[0]
     for k, (length, slope) in enumerate(zip(np.diff(times), slopes, strict=True)):
         x = rates * length
-        gain = length * exprel(-x)  # ∫exp(−λt) dt
-        # ∫(1 − exp(−λt))/λ dt, in a form without cancellation for small x and without overflow for large x.
+        gain = length * exprel(-x)  # ∫exp(−λt) dt from 0 to length
+        # ∫(1 − exp(−λt))/λ dt from 0 to length, without cancellation for small x and without overflow for large x.
         with np.errstate(divide="ignore", invalid="ignore"):
             gains = np.where(x > 1, (length - gain) / rates, 0.5 * length**2 * hyp1f1(1, 3, -np.minimum(x, 1)))
         at_once = instantaneous * (force[k + 1] - force[k])

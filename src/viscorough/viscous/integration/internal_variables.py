@@ -215,7 +215,7 @@ class _State:
         indenter is placed at first contact. The active-set method releases elements under tension and adds elements
         that overlap, until there are none of either kind.
 
-        free : e, the gap at depth 0 if there were no pressures Q
+        free : e, which the gap would be without pressures and at depth 0
         size : size of the terms of e, which determines the rounding error of the gap
         target : c u if the load is a depth, ΣQ if it is a force
         start : first guess of the contact set
@@ -235,7 +235,7 @@ class _State:
         raise ConvergenceError(f"march: no contact set found in {_MAX_ITERATIONS} iterations")
 
     def _solve_among(self, members: Integers, free: Array, target: float) -> tuple[Array, float, Integers]:
-        """Solve the contact problem of `_solve` if only the elements `members` may be in contact, without the others.
+        """Solve the contact problem of `_solve` among the elements `members`; all others stay out of contact.
 
         Return Q, c u, and the members that remain after members under tension are released.
         """

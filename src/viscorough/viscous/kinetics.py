@@ -1,19 +1,23 @@
 """Motion of an indenter in any linear viscoelastic half-space under any history, from its loading curve.
 
-While the contact has only grown, the correspondence holds (Lee and Radok 1960). With the creep compliance J of the
-medium and the creep response Φ(t) = ∫J(t − s) dF(s),
+As long as the contact only grows, the correspondence with the elastic problem holds (Lee and Radok 1960). With the
+creep compliance J of the medium and the creep response Φ(t) = ∫J(t − s) dF(s), depth and velocity are
 
-    u(t) = u_el(F/G = Φ(t)),    v(t) = Φ'(t)/(k/G);    Φ = ∫F dt/η in a viscous medium (paper, Eqs. 1 to 3).
+    u(t) = u_el(F/G = Φ(t)),    v(t) = Φ'(t)/(k/G),
 
-Eqs. 7-9 of the paper instead Laplace-transform the relation u(F/G), which is not linear, and so carry an extra factor
-1/Γ(2−α). For every other history the loading curve is read as a row of unilateral springs (docs/theory.md):
+where u_el(F/G) and k/G are depth and stiffness of the loading curve. In a viscous medium Φ = ∫F dt/η (paper, Eqs. 1
+to 3). Eqs. 7 to 9 of the paper contain an additional factor 1/Γ(2−α), because they apply a Laplace transform to the
+relation u(F/G), which is not linear.
 
-1. `springs` makes the row from the curve.
-2. `unilateral` moves it exactly from event to event if the medium consists of springs and dashpots. A springpot is
-   replaced by springs and dashpots that creep as it does to 1e-10 between a millionth of the shortest interval between
-   turns of the history and the whole duration. `unilateral_sums` moves it by steps in time in every other medium.
-3. Where the contact is as large as ever before, Φ and the interpolant of the curve give depth and velocity, without the
-   discretisation of the row.
+For every other history, the loading curve is replaced by an equivalent row of unilateral springs (docs/theory.md):
+
+1. The module `springs` makes the row from the curve.
+2. If the medium consists of springs and dashpots, the module `unilateral` moves the row exactly from event to event. A
+   springpot is replaced by springs and dashpots with the same creep within 1e-10. This holds for times from a millionth
+   of the shortest interval between two turns of the history to the whole duration. In every other medium, the module
+   `unilateral_sums` moves the row by steps in time.
+3. At times when the contact is as large as ever before, depth and velocity follow from Φ and the interpolated curve.
+   They then have no error from the finite number of springs.
 """
 
 from __future__ import annotations
@@ -40,16 +44,22 @@ from viscorough.viscous.springs import ROUNDING, RowOfSprings, row_of_springs
 from viscorough.viscous.unilateral import BEYOND, INFINITE, RESTLESS, RowMotion, law_of, move_row
 from viscorough.viscous.unilateral_sums import move_row_by_sums
 
-_LATEST = 1e300  # later than the end of any creep that ends
-_SPREAD, _EARLY = 100, 1e-3  # number of times that are chosen; share of the creep at their ends, where it has no level
-# Shortest time of the springs and dashpots that replace a springpot, over the shortest interval between turns.
+# Time that is later than the end of every creep that ends.
+_LATEST = 1e300
+# Number of default output times. They begin when the creep reaches the first level of the curve, and end when it
+# reaches the last level. If the creep never equals one of these levels, they begin or end when the creep differs from
+# its first or last value by the share _EARLY.
+_SPREAD, _EARLY = 100, 1e-3
+# The springs and dashpots that replace a springpot have its creep at times above this share of the shortest interval
+# between two turns of the history.
 _SHORTEST = 1e-6
-# Relative difference of slopes up to which a history is straight, and the share 1/10 of an interval between turns up to
-# which a sample is so close to the first of them that it counts as its end.
+# Two slopes of a history count as equal up to this relative difference. If a sample follows a turn of the history, the
+# interval between turns counts as at most _CLOSE times the time from the turn to the sample.
 _SAME_SLOPE, _CLOSE = 1e-6, 10.0
-# Share of the largest elastic force that the first level may carry if the curve before it matters and is not known.
+# If a motion depends on the unknown curve before the first level, a warning is given if this level carries more than
+# this share of the largest elastic force.
 _UNKNOWN_SHARE = 1e-2
-# Largest number of depths of a history at which the row has exactly the force of the curve.
+# Largest number of depths of a history where the row is made to have exactly the force of the curve.
 _MOST_TURNS = 200
 
 
@@ -63,34 +73,38 @@ def kinetics(
 ) -> Motion:
     """Compute the motion of an indenter with the given loading curve in a linear viscoelastic half-space.
 
-    The history may load, hold, unload and reload. Motions are exact for the row of springs of the curve: results do not
-    depend on how densely a history is sampled.
+    The history may load, hold, unload and reload. The motion is exact for the row of springs that is equivalent to the
+    curve. So it does not depend on how densely the history is sampled.
 
     Parameters
     ----------
     curve : LoadingCurve
         Loading curve of the indenter.
     force, depth : array_like or Load, optional
-        One of them: a constant applied at time 0; samples of shape (times,), linear in between, with a time given twice
-        where they step; or a Load, which may have its samples at other times than `times`. Before the first sample
-        there is no load. Forces are F ≥ 0, in N, depths in the unit of length of the curve, or they have a unit (texts
-        as "5 mN", quantities of pint), if this unit is known. A depth below zero lifts the indenter above the plane.
+        Prescribed load; either a force or a depth is needed. It is a constant that is applied at time 0; or samples at
+        `times`, linear in between, with a time given twice for a step; or a Load, whose samples may be at other times
+        than `times`. Before the first sample there is no load. Forces are F ≥ 0, in N, and depths are in the curve's
+        unit of length. If this unit is known, both may also have a unit (a text such as "5 mN", or a quantity of pint).
+        A negative depth lifts the indenter above the plane of first contact.
     medium : Medium or float or str
-        Medium, as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian one; in Pa, s and Pa s, or a text as "2 kPa
-        s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a length².
+        Medium, such as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian medium. If the curve's unit of length
+        is known, numbers are in Pa, s and Pa s, and a text such as "2 kPa s" is allowed. Otherwise units must be such
+        that F·t/η, or F divided by a modulus, is a length².
     times : array_like, optional
-        Increasing, and not negative for a constant load; in s, or with a unit. The default is the times of a Load, or,
-        for a constant force, a hundred times at equal ratios from the curve's first level to its last, or until creep
-        has nearly ended; in a medium that responds elastically at t = 0, after time 0.
+        Times of the output, which increase, and are not negative for a constant load; in s, or with a unit. By default
+        these are the times of a Load. For a constant force, they are by default a hundred times at equal ratios from
+        the curve's first level to its last level, or until the creep has almost ended. If the medium responds
+        elastically at time 0, time 0 precedes them.
 
     Returns
     -------
     Motion
-        At `times`. Force and velocity are those just after each time; at the last time of a history and before a step,
-        those before it. At a step of the force the velocity is due to the creep alone; in a Springpot it is infinite,
-        and so is the force at a step of the depth into the surface. Under no force the depth is not unique: the
-        indenter then rests on the recovering surface. Before the curve's first level, unless the curve is straight
-        there, depths under a force and forces at a depth are nan.
+        Motion at `times`. Force and velocity are the limits just after each time, except at the last time of a history
+        and before a step, where they are the limits just before it. At a step of the force, the velocity is due to the
+        creep alone. In a Springpot this velocity is infinite, and so is the force at a step of the depth into the
+        surface. Under no force the depth is not unique, and by convention the indenter rests on the recovering surface.
+        Before the curve's first level, depths under a force and forces at a depth are nan, unless the curve is a
+        straight line there.
 
     Raises
     ------
@@ -101,8 +115,9 @@ def kinetics(
     Warns
     -----
     AccuracyWarning
-        If the motion depends on the curve before its first level, which is then taken for a power law; and in a medium
-        that is neither made of springs and dashpots nor a Springpot, where steps in time do not reach the tolerance.
+        If the motion depends on the curve before its first level, where the curve is taken for a power law. Also if
+        steps in time do not reach the tolerance, in a medium that neither consists of springs and dashpots nor is a
+        Springpot.
 
     Examples
     --------
@@ -149,9 +164,11 @@ def kinetics(
 
 
 def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) -> tuple[RowOfSprings, RowMotion]:
-    """Return the row of springs of a curve and its motion under a load in consistent units.
+    """Return the row of springs of a curve, and its motion under a load in consistent units.
 
-    last : index of the last sample that is needed. Raises ValueError if the motion ends before it.
+    last : index of the last sample of the load whose motion is needed
+
+    Raises ValueError if the motion ends before this sample.
     """
     row, spectra = row_of_springs(curve, _turning_depths(load)), _spectra(medium, load)
     if spectra is None:
@@ -171,12 +188,15 @@ def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) 
 
 
 def _load_name(quantity: str) -> str:
-    """Return the name of a load in messages. On the command line a force is given by one of two options."""
+    """Return the name of a prescribed "force" or "depth" in messages.
+
+    This is the name of the argument in Python, and of the options on the command line.
+    """
     return spelled({"force": "--force or --force-history", "depth": "--depth-history"}[quantity], quantity)
 
 
 def _check_overflow(load: Load, values: ArrayLike) -> None:
-    """Raise ValueError unless all these results are finite."""
+    """Raise ValueError unless all values, which are results under the load, are finite."""
     if not np.isfinite(values).all():
         kind = "depth" if load.by_depth else "force"
         raise ValueError(
@@ -186,7 +206,10 @@ def _check_overflow(load: Load, values: ArrayLike) -> None:
 
 
 def _turning_depths(load: Load) -> Array:
-    """Return the depths at which a load of a depth turns, steps or is held, at most _MOST_TURNS of them."""
+    """Return the depths at which a load of a depth turns, steps or is held: the deepest _MOST_TURNS of them.
+
+    For a load of a force the array is empty.
+    """
     if not load.by_depth:
         return np.array([])
     moves = np.sign(np.diff(load.values, prepend=0.0))
@@ -195,7 +218,10 @@ def _turning_depths(load: Load) -> Array:
 
 
 def _receding_from(medium: Medium, load: Load) -> float:
-    """Return the first time from which the contact recedes: the creep response, or a depth above zero, decreases."""
+    """Return the first time from which the contact recedes; nan if it never does.
+
+    The contact recedes when the creep response of a force decreases, or when a prescribed depth above zero decreases.
+    """
     if not load.by_depth:
         return creep_response(medium, load).receding_from
     falls = (np.diff(load.values) < 0) & (load.values[:-1] > 0)
@@ -203,9 +229,9 @@ def _receding_from(medium: Medium, load: Load) -> float:
 
 
 def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any, times: Any) -> tuple[Load, Integers]:
-    """The load in consistent units, with samples at the times of the output, and the indices of these.
+    """Return the load in consistent units, with samples added at the output times, and the indices of these samples.
 
-    It ends at the first sample after the last of these times.
+    The load ends at the first sample after the last output time. Arguments are those of `kinetics`.
     """
     unit = curve.length_unit
     if isinstance(force, Load) and depth is None and force.by_depth:
@@ -237,7 +263,11 @@ def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any
 
 
 def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, times: Any) -> tuple[Load, Array]:
-    """The load of a constant applied at time 0, in consistent units, and the times of the output."""
+    """Return the load of a constant that is applied at time 0, in consistent units, and the output times.
+
+    name, value : "force" or "depth", and the constant
+    times : output times, or None for the default times
+    """
     if not np.isfinite(value) or (name == "force" and value <= 0):
         raise ValueError(f"constant {name}: {value}; allowed: a finite number{' above 0' if name == 'force' else ''}")
     if name == "force":
@@ -257,9 +287,10 @@ def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, time
 
 
 def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
-    """Times at equal ratios under a constant force, from about the curve's first level to its last, or to the end.
+    """Return the default output times under a constant force, at equal ratios.
 
-    After time 0 where the medium responds elastically at t = 0.
+    They last from about the curve's first level to its last level, or until the creep has almost ended. If the medium
+    responds elastically at time 0, time 0 precedes them.
     """
     limit = min(medium.last_time, _LATEST)
     with np.errstate(over="ignore"):
@@ -283,7 +314,10 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
 
 
 def _spectra(medium: Medium, load: Load) -> Any:
-    """Both spectra of a medium of springs and dashpots, or of those that replace a springpot; None for other media."""
+    """Return the relaxation and the retardation spectrum of a medium; None if it has no such spectra.
+
+    For a Springpot, these are the spectra of the springs and dashpots that replace it.
+    """
     if medium.relaxation is not None:
         return medium.relaxation, medium.retardation
     if not isinstance(medium, Springpot):
@@ -297,9 +331,10 @@ def _spectra(medium: Medium, load: Load) -> Any:
 
 
 def _shortest_interval(load: Load) -> float:
-    """Return the shortest time from a turn of a history, where its slope changes or a step begins or ends, to the next.
+    """Return the shortest interval between two successive turns of a history.
 
-    Samples between two turns change it only if they are closer to the first of them than a tenth of it.
+    At a turn, the slope of the history changes, or a step begins or ends. A sample that follows a turn reduces the
+    result only if it is closer to the turn than a tenth of the shortest interval (see _CLOSE).
     """
     time, values = load.time, load.values
     lengths = np.diff(time)
@@ -312,7 +347,7 @@ def _shortest_interval(load: Load) -> float:
 
 
 def _check_depths(curve: LoadingCurve, depths: Array) -> None:
-    """Raise ValueError for a depth beyond the last level, unless the contact is complete there."""
+    """Raise ValueError if a depth lies beyond the curve's last level, unless the contact is complete at this level."""
     last = curve.depth[-1]
     if depths.max() > last * (1 + ROUNDING) and curve.contact_count[-1] < curve.elements:
         raise ValueError(
@@ -322,7 +357,7 @@ def _check_depths(curve: LoadingCurve, depths: Array) -> None:
 
 
 def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Array) -> None:
-    """Raise ValueError if the contact grows beyond the last level."""
+    """Raise ValueError if the creep response exceeds the curve's last level, unless the contact is complete there."""
     beyond = ~(creep <= curve.force[-1] * (1 + ROUNDING))
     if beyond.any() and np.isfinite(row.limit):
         where, enough = int(np.argmax(beyond)), 1.01 * creep[np.isfinite(creep)].max()
@@ -334,7 +369,10 @@ def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Ar
 
 
 def _refuse(curve: LoadingCurve, row: RowOfSprings, medium: Medium, load: Load, ended: int, until: float) -> None:
-    """Raise the error of a motion that ended early."""
+    """Raise the ValueError that states why a motion ended early.
+
+    ended, until : how the motion ended (BEYOND or INFINITE), and when
+    """
     if ended == INFINITE:
         raise ValueError(
             f"{_load_name('depth')}: steps into the surface at time {until:g}, which takes an infinite force here; "
@@ -349,7 +387,7 @@ def _refuse(curve: LoadingCurve, row: RowOfSprings, medium: Medium, load: Load, 
 
 
 def _growing(curve: LoadingCurve, row: RowOfSprings, load: Load, creep: Array) -> RowMotion:
-    """The motion of a row whose contact only grows, from the creep response."""
+    """Return the motion of a row whose contact only grows, from the creep response at the samples of the load."""
     depth = _at_elastic_force(curve, row, creep)[0]
     in_contact = np.searchsorted(row.gap, np.nan_to_num(depth), side="left")
     nothing = np.zeros(load.time.size)
@@ -358,9 +396,12 @@ def _growing(curve: LoadingCurve, row: RowOfSprings, load: Load, creep: Array) -
 
 
 def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> tuple[Array, Array]:
-    """Depth and k/G at F/G = Φ; beyond complete contact along the last tangent."""
+    """Return depth and stiffness k/G of the curve at the force F/G = Φ, the creep response `creep`.
+
+    After complete contact, the depth is on the tangent of the last level.
+    """
     first, last = curve.force[0], curve.force[-1]
-    # Rounding of a force at the first or last level must not put it outside the curve.
+    # A force that equals the first or last level within rounding must not lie outside the curve.
     inside = np.where(np.abs(creep - first) <= ROUNDING * first, first, np.clip(creep, 0.0, last))
     depth, stiffness = curve.at_force(inside)
     beyond = creep > last * (1 + ROUNDING)
@@ -370,7 +411,13 @@ def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> t
 def _without_discretisation(
     curve: LoadingCurve, medium: Medium, row: RowOfSprings, load: Load, moved: RowMotion, creep: Any
 ) -> tuple[Array, Array, Array, Array]:
-    """Depth, force, velocity and contact fraction, from the curve if the contact is as large as ever before."""
+    """Return depth, force, velocity and contact fraction at the samples of the load.
+
+    While the contact is as large as ever before, they follow from the interpolated curve, and otherwise from the motion
+    `moved` of the row of springs.
+
+    creep : CreepResponse under a force on a medium that does not consist of springs and dashpots; otherwise None
+    """
     depth, force, velocity = moved.depth.copy(), moved.force.copy(), moved.velocity.copy()
     count = moved.in_contact
     front = np.where(count > 0, row.gap[np.maximum(count, 1) - 1], 0.0)
@@ -378,7 +425,8 @@ def _without_discretisation(
         front = np.where(moved.largest, depth, front)
         viscosity = 0.0 if medium.relaxation is None else medium.relaxation.viscosity
         if viscosity > 0:
-            # A dashpot resists with ηku'. The stiffness k of the curve does not jump where a spring touches.
+            # The force of a dashpot is η k u', with the stiffness k. Replace the stiffness of the row, which jumps when
+            # a spring touches, by the stiffness of the curve.
             sums = np.append(0.0, np.cumsum(row.stiffness))[count]
             excess = viscosity * velocity * (curve.at_depth(np.maximum(depth, 0.0))[1] - sums)
             corrected = moved.largest & (force > 0) & np.isfinite(excess)
@@ -397,7 +445,7 @@ def _without_discretisation(
         if creep is not None:
             rate[exact] = creep.rate[exact]
         with np.errstate(invalid="ignore"):
-            # Where nothing moves the velocity is 0 even before the first level, where the stiffness is nan.
+            # An indenter at rest has the velocity 0 even before the first level, where the stiffness is nan.
             at_rate = np.where(rate == 0, 0.0, rate / stiffness)
         depth, velocity = np.where(corrected, at_curve, depth), np.where(corrected, at_rate, velocity)
     unknown = (count > 0) & (front > 0) & (front < row.first_depth) & (force > 0)
@@ -408,7 +456,7 @@ def _without_discretisation(
         depth[unknown] = velocity[unknown] = np.nan
     fraction = np.where(count > 0, row.contact_fraction[np.maximum(count, 1) - 1], 0.0)
     if not load.by_depth:
-        # Under no force the indenter rests on the first spring.
+        # Under no force the indenter rests on the first spring, which does not count as contact.
         fraction[(load.values == 0) & (count <= 1)] = 0.0
     return depth, force, velocity, fraction
 
@@ -416,9 +464,10 @@ def _without_discretisation(
 def _at_steps_of_soft_media(
     medium: Medium, load: Load, depth: Array, force: Array, velocity: Array, fraction: Array
 ) -> None:
-    """Set the limits at steps in a medium without compliance at once that is not made of springs and dashpots.
+    """Set the motion at steps of the load, in place, in a medium with J(0) = 0 that has no springs and dashpots.
 
-    Such a medium does not move at once under a step of force. A step of the depth takes an infinite force, or none.
+    At a step of the force such a medium does not move. A step of the depth into the surface needs an infinite force,
+    and after a step out of the surface there is no force.
     """
     with np.errstate(over="ignore"):
         unbounded = np.isinf(medium.creep_rate(0.0))
@@ -435,7 +484,7 @@ def _at_steps_of_soft_media(
 
 
 def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion) -> None:
-    """Warn if the motion depends on the curve before its first level, where it is taken for a power law."""
+    """Warn if the motion depends on the curve before its first level, where the curve is taken for a power law."""
     if row.first_depth == 0:
         return
     if load.by_depth:

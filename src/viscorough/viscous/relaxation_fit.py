@@ -1,21 +1,25 @@
 """Fit of a medium to the measured force on an indenter whose depth is known.
 
-The loading curve is read as a row of springs (viscous.springs). If the first n springs are in contact at time t, and
-spring i, of stiffness k_i, touched at t_i, the force is
+The loading curve is replaced by an equivalent row of springs (viscous.springs). Let spring i have the stiffness k_i and
+touch at time t_i, and let the first n springs be in contact at time t. In a medium with the relaxation modulus
+ψ(t) = G∞ + Σ G_j exp(−t/τ_j) the force is
 
-    F(t) = Σ_{i<n} k_i ∫_{t_i}^t ψ(t − s) du(s),    ψ(t) = G∞ + Σ G_j exp(−t/τ_j)   with amounts G∞, G_j ≥ 0.
+    F(t) = Σ_{i<n} k_i ∫_{t_i}^t ψ(t − s) du(s).
 
-At a prescribed depth each spring moves by itself, and one that lets go carries no force at that time. So the number n
-of springs in contact may be kept while the amounts change a little: the formula is the linearisation of the force. Of a
-contact that only grows n does not depend on the medium, and the force is linear in the amounts. Otherwise n and the
-force come from the exact motion of the row (viscous.unilateral), and the amounts from the Gauss-Newton method.
+The relaxation times τ_j are given by a grid. The unknown amounts G∞, G_j ≥ 0 are found by least squares:
 
-The response of a branch at t, with R and Z the responses to dF_el(u) and to du, and with K_n = Σ_{i<n} k_i and t_n the
-time at which the last spring in contact touched, is
+- If the contact only grows, n does not depend on the medium, and the force is linear in the amounts.
+- Otherwise n and the force follow from the exact motion of the row (viscous.unilateral), and the amounts from the
+  Gauss-Newton method. Under a prescribed depth, the motion of a spring does not depend on the other springs, and a
+  spring that is released has no force at that time. So the change of n with the amounts changes the force to second
+  order only, and the formula with constant n gives the derivatives of the force.
+
+The formula is evaluated as follows. Let R and Z be the responses of a single branch of modulus 1 to the elastic force
+F_el(u) and to the depth u, K_n = Σ_{i<n} k_i, and t_n the time when the last spring in contact touched. Then
 
     Σ_{i<n} k_i ∫_{t_i}^t exp(−(t − s)/τ) du = exp(−(t − t_n)/τ) R(t_n) + K_n (Z(t) − exp(−(t − t_n)/τ) Z(t_n)).
 
-A dashpot parallel to the medium appears as a branch that relaxes long before the first row.
+A dashpot parallel to the medium is fitted as a branch that relaxes long before the first row.
 """
 
 from typing import NamedTuple
@@ -46,44 +50,50 @@ from viscorough.viscous.record_fit import (
 from viscorough.viscous.springs import merged, row_of_springs
 from viscorough.viscous.unilateral import law_of, move_row
 
-# Largest number of iterations of Gauss and Newton. They end if the sum of squares decreases by less than this share, or
-# if its root is below this share of the largest force.
+# Largest number of Gauss-Newton iterations. They end if the sum of squares decreases by less than the share _STALLED,
+# or if the root mean square of the residuals is below the share _EXACT of the largest force.
 _ITERATIONS, _STALLED, _EXACT = 8, 1e-2, 1e-10
-# Largest number of springs in the row, and if the offset is fitted. With 5000 of them the force is exact to 1e-5, and
-# its derivative to 1e-3.
+# Largest number of springs in the row: without, and with a fit of the offset. With 5000 springs the relative error of
+# the force is 1e-5, and the relative error of its derivative is 1e-3.
 _SPRINGS, _FEWER_SPRINGS = 5000, 2000
-# Relaxation times of branches that act as a dashpot, over the time of the first row.
+# Relaxation times of the branches that act as a dashpot, as shares of the time of the first row.
 _DASHPOTS = (1e-4, 1e-3, 1e-2, 1e-1)
-# Number of times at which J and ψ are given, and ratio of the first row to the first of them.
+# Number of times at which the results J and ψ are given, and ratio of the time of the first row to the first of these
+# times.
 _KNOTS, _EARLIER = 120, 64
-# Step of difference quotients by the drift, over the largest depth. It is longer than the distance of springs, because
-# the force of a dashpot jumps at each of them.
+# Step of the difference quotients with respect to the drift: change of the depth, as a share of the largest depth. It
+# is longer than the distance between the gaps of two springs, because the force of a dashpot jumps when a spring
+# touches.
 _DRIFT_STEP = 2e-3
-# Offsets, over the largest depth, at which fits are made first.
+# Offsets of the first fits, as shares of the largest depth.
 _OFFSETS = np.linspace(-0.1, 0.1, 21)
-# Number of offsets that replace the last ones, about the interval of the offset, and largest number of replacements.
-# They end if at least the third number of offsets lies within the interval.
+# The offsets of the fits are then replaced by _FINER_OFFSETS offsets that just cover the confidence interval of the
+# offset. This is repeated at most _REPLACEMENTS times, until at least _RESOLVED offsets lie within the interval.
 _FINER_OFFSETS, _REPLACEMENTS, _RESOLVED = 15, 4, 5
-# Number of steps that replace one about the relaxation times found, if the offset is fitted.
+# If the offset is fitted: number of steps of the refined grid of relaxation times in a step of the first grid.
 _FINER = 4
-# Number of bisections that find each end of the interval of the offset.
+# Number of bisections that find each end of the confidence interval of the offset.
 _BISECTIONS = 5
-# Number of offsets within the interval at which the intervals of ψ are computed.
+# The intervals of ψ are computed at this many offsets within the interval of the offset, or at all if there are fewer.
 _INSIDE = 12
-_HALVINGS = 8  # of a step that does not make the sum of squares smaller
+# Largest number of trials with a halved step if the sum of squares does not decrease.
+_HALVINGS = 8
 
 
 def fit_force(
     curve: LoadingCurve, load: Load, place: Integers, force: Array, kind: str, scatter: float | None, shift: Shift
 ) -> RecordFit:
-    """Fit a medium to a measured force.
+    """Fit a medium to the measured force at a known depth.
 
-    load : depth over time, with samples at the rows of the record
-    place : index of the sample of each row
+    curve : loading curve of the indenter
+    load : depth as a function of time, with a sample at the time of each row of the record
+    place : index of the sample of the load for each row, shape (rows,)
     force : measured force in consistent units, shape (rows,)
-    kind, scatter, shift : as in creep_fit.fit_growing_depth; the scatter is that of the force
+    kind : kind of medium: "table", "prony" or "springpot"
+    scatter : standard deviation of the force; None to find it from the record; nan for a fit without intervals
+    shift : choice of the errors of the zero of the depth that are fitted
 
-    Raises ValueError if the record shows no force, and for a depth beyond the last level of the curve.
+    Raises ValueError if the record shows no force or no relaxation, and if a fitted offset is too large.
     """
     lags = load.time[place] - load.time[0]
     record = _ForceRecord(curve, load, place, force, shift)
@@ -110,7 +120,7 @@ def fit_force(
     unknowns = _unknowns_of_region(fit) if shift.offset else 1
     intervals = _intervals(record, fits, time, distance_of(np.hypot(scatter, resolution), freedom, unknowns))
     low, high, shift_low, shift_high = intervals
-    # Before the first row only the area of the pulse counts.
+    # Before the first row, ψ may be a high pulse: the record shows only its area. So ψ has no upper limit there.
     high[time < first * (1 - 1e-12)] += np.inf
     low[low < resolution / record.elastic_force] = 0.0
     prony, residual = _prony(fit), force - fit.force
@@ -128,24 +138,37 @@ def fit_force(
 
 
 def _with_finer_times(times: Array, found: Array) -> Array:
-    """Return times at equal ratios, with more of them about those that were found, as other offsets need others."""
+    """Return a grid of relaxation times that is refined around the times `found`.
+
+    The other times are kept, because fits at other offsets may need them.
+
+    times : grid of times at equal ratios
+    """
     apart = np.abs(np.log(np.divide.outer(times, found))).min(axis=1) > 1.5 * np.log(times[1] / times[0])
     return np.sort(np.append(times[apart], finer_times(found, times, _FINER)))
 
 
 def _scatter(record: "_ForceRecord", fit: "_Fit", scatter: float | None, exact: float) -> tuple[float, float]:
-    """Return the standard deviation of the force, as given or about a fit, and its degrees of freedom."""
+    """Return the standard deviation of the force, and its number of degrees of freedom.
+
+    scatter : standard deviation if it is known; None to find it from the residuals of the fit
+    exact : if the standard deviation that is found is at most this, the record counts as exact
+    """
     if scatter is not None:
         return scatter, np.inf
     return scatter_of(record.force - fit.force, fit.amounts, fit.drift.size + record.fits_offset, exact)
 
 
 def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None, resolution: float) -> list["_Fit"]:
-    """Return fits at offsets that hold the best one and the ends of its interval.
+    """Return fits at increasing offsets, which include the best offset and enclose its confidence interval.
 
-    The force is not linear in the offset: within its rounding by noise, branches that relax before the first rows may
-    replace a part of it. So the best fit is sought at every offset. An early row of a dashpot determines the offset so
-    well that only a fine grid of offsets shows the interval.
+    The force is not linear in the offset. Besides, branches that relax before the first rows can replace a part of the
+    offset within the noise of the record. Therefore a separate fit is made at each of a series of offsets. If the
+    medium has a dashpot, an early row determines the offset so well that only a fine grid of offsets shows the
+    interval.
+
+    times : grid of relaxation times
+    scatter, resolution : standard deviation of the force (None if not known), and error of the computed force
     """
     offsets = _OFFSETS * record.load.values.max()
     fits = [record.fit(times, offset) for offset in offsets]
@@ -163,7 +186,7 @@ def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None
         inside = _inside(record, fits, scatter, resolution)
         if inside.size >= _RESOLVED:
             break
-    # Beyond the interval the sum of squares may rise steeply: only bisection finds the ends.
+    # Outside the interval the sum of squares may rise so steeply that only bisection finds the ends of the interval.
     for _ in range(_BISECTIONS):
         inside = _inside(record, fits, scatter, resolution)
         first, last = int(inside[0]), int(inside[-1])
@@ -176,7 +199,10 @@ def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None
 
 
 def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, resolution: float) -> Integers:
-    """Return the numbers of the fits, made at several offsets, whose offset lies within its interval."""
+    """Return the indices of the fits, each made at one offset, whose offset lies within its confidence interval.
+
+    scatter, resolution : standard deviation of the force (None if not known), and error of the computed force
+    """
     squares = np.array([record.squares(fit) for fit in fits])
     best = int(squares.argmin())
     deviation, freedom = _scatter(record, fits[best], scatter, resolution)
@@ -186,11 +212,11 @@ def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, r
 
 
 def _unknowns_of_region(fit: "_Fit") -> int:
-    """Return the number of unknowns whose joint region gives the intervals if the offset is fitted.
+    """Return the number of unknowns whose joint confidence region gives the intervals if the offset is fitted.
 
-    Branches that relax before the first rows, and the drift, can replace a part of the offset. The exact values then
-    lie at the edge of the values that fit, where the region of one unknown is too narrow. So all of them count: the
-    offset, the drift, and the amounts above 0.
+    The drift, and branches that relax before the first rows, can replace a part of the offset. The exact values then
+    lie at the edge of the values that fit, where the confidence region of a single unknown is too narrow. So all
+    unknowns count: the offset, the drift, and the amounts above 0.
     """
     return 1 + fit.drift.size + int(np.count_nonzero(fit.amounts))
 
@@ -198,9 +224,12 @@ def _unknowns_of_region(fit: "_Fit") -> int:
 def _intervals(
     record: "_ForceRecord", fits: list["_Fit"], time: Array, distance: float
 ) -> tuple[Array, Array, Array, Array]:
-    """Return the ends of the intervals of ψ at these times, low and high, and of offset and drift, low and high.
+    """Return the lower and the upper ends of the intervals of ψ, and the lower and the upper ends of offset and drift.
 
-    fits : at one or more offsets, in order; distance : as in non_negative.extremes, nan for no intervals
+    fits : fits at one or more offsets, in increasing order
+    time : times of the intervals of ψ, shape (times,)
+    distance : an interval contains all values whose best fit exceeds the smallest sum of squared residuals by at most
+        distance²; nan for no intervals
     """
     fitted = record.fits_offset + fits[0].drift.size
     if np.isnan(distance):
@@ -215,7 +244,7 @@ def _intervals(
         target = record.force - fit.force + fit.columns @ fit.amounts + fit.signed @ fit.drift
         left = np.sqrt(distance**2 - (record.squares(fit) - squares.min()))
         low, high = extremes(fit.columns, target, values, left, fit.signed)
-        # At the end of the interval of the offset nothing else may move.
+        # The values of the fit itself belong to the intervals. At an end of the interval of the offset, no others do.
         lows.append(np.minimum(low, np.append(values @ fit.amounts, fit.drift)))
         highs.append(np.maximum(high, np.append(values @ fit.amounts, fit.drift)))
     low, high = np.min(lows, axis=0), np.max(highs, axis=0)
@@ -228,7 +257,12 @@ def _intervals(
 
 
 def _crossing(offsets: Array, excess: Array) -> float:
-    """Return where the excess becomes positive for good; between two offsets it is taken for straight."""
+    """Return the offset after which the excess is positive at all further offsets in the arrays.
+
+    The excess is interpolated linearly between two offsets.
+
+    excess : sum of squared residuals at each offset, less the largest sum within the confidence interval
+    """
     k = int(np.flatnonzero(excess <= 0)[-1])
     if k == offsets.size - 1:
         return float(offsets[k])
@@ -236,11 +270,11 @@ def _crossing(offsets: Array, excess: Array) -> float:
 
 
 class _Path(NamedTuple):
-    """Depth over time with a sample at every first touch of a spring.
+    """Depth as a function of time, with a sample at the first touch of every spring.
 
-    time, depth : shape (samples,)
-    touches : index of the sample at which each spring touches that ever does, shape (springs that touch,)
-    place : index of the sample of each row of the record
+    time, depth : times, and depths at these times, shape (samples,)
+    touches : index of the sample of the first touch, for every spring that ever touches, shape (springs that touch,)
+    place : index of the sample of each row of the record, shape (rows,)
     """
 
     time: Array
@@ -250,9 +284,15 @@ class _Path(NamedTuple):
 
 
 class _Fit(NamedTuple):
-    """Amounts G∞ and G_j of branches with these times, offset and drift, and the linearised force at them.
+    """Unknowns of a fit, and the force at the rows of the record with its derivatives.
 
-    drift, signed : of shape (1,) and (rows, 1), or (0,) and (rows, 0) if the drift is not fitted
+    times : grid of relaxation times τ_j, shape (branches,)
+    amounts : G∞ and G_j, shape (1 + branches,)
+    offset : offset of the depth, which is given in a fit
+    drift : drift of the depth, shape (1,); or shape (0,) if the drift is not fitted
+    force : force at the rows, shape (rows,)
+    columns : derivatives of the force with respect to the amounts, shape (rows, 1 + branches)
+    signed : derivative of the force with respect to the drift, shape (rows, 1); or (rows, 0) if it is not fitted
     """
 
     times: Array
@@ -265,7 +305,7 @@ class _Fit(NamedTuple):
 
 
 class _ForceRecord:
-    """Least squares in force: amounts of relaxation moduli against the measured force."""
+    """A record of a measured force, and the least-squares fits of the amounts G∞ and G_j to this force."""
 
     def __init__(self, curve: LoadingCurve, load: Load, place: Integers, force: Array, shift: Shift) -> None:
         self.curve, self.load, self.place, self.force = curve, load, place, force
@@ -275,17 +315,20 @@ class _ForceRecord:
         self.gap, spring = merged(
             row.gap, row.stiffness, load.values.max(), _FEWER_SPRINGS if shift.offset else _SPRINGS
         )
-        # k and Σ k g of the first n springs, n = 0 to all of them.
+        # Sums of stiffness, and of stiffness × gap, of the first n springs, n = 0, 1, …
         self.stiffness = np.append(0.0, np.cumsum(spring))
         self.moment = np.append(0.0, np.cumsum(spring * self.gap))
         self.elastic_force = load.values.max() * self.stiffness[-1] - self.moment[-1]
         self.grows = bool((np.diff(load.values) >= 0).all())
 
     def fit(self, times: Array, offset: float) -> _Fit:
-        """Return the amounts of branches with these times, and the drift, that fit best at an offset."""
+        """Fit the amounts of a spring and of branches, and the drift if it is fitted, at a given offset.
+
+        times : relaxation times of the branches
+        """
         drift = np.zeros(self.drifts.shape[1])
         path = self._path(offset, drift)
-        # Springs of an elastic body are in contact at first.
+        # First guess: as in an elastic body, the springs with gaps below the depth are in contact.
         columns = self._columns(path, times, np.searchsorted(self.gap, path.depth[path.place]))
         amounts, _ = non_negative(columns, self.force)
         if self.grows and not drift.size:
@@ -311,11 +354,11 @@ class _ForceRecord:
         return fit
 
     def squares(self, fit: _Fit) -> float:
-        """Return the sum of the squared residuals."""
+        """Return the sum of the squared residuals of a fit."""
         return float(((self.force - fit.force) ** 2).sum())
 
     def _linearised(self, times: Array, amounts: Array, offset: float, drift: Array) -> _Fit:
-        """Return the force of these amounts and its derivatives."""
+        """Return a _Fit with the given unknowns: their force at the rows, and the derivatives of this force."""
         path, force, in_contact = self._force(times, amounts, offset, drift)
         columns = self._columns(path, times, in_contact)
         signed = np.empty((force.size, drift.size))
@@ -326,7 +369,10 @@ class _ForceRecord:
         return _Fit(times, amounts, offset, drift, force, columns, signed)
 
     def _force(self, times: Array, amounts: Array, offset: float, drift: Array) -> tuple[_Path, Array, Integers]:
-        """Return the depth, the force at the rows, and the numbers of springs in contact there."""
+        """Return the path of the depth, the force at the rows, and the number of springs in contact at the rows.
+
+        times, amounts : relaxation times τ_j of the branches, and G∞ and G_j
+        """
         path = self._path(offset, drift)
         branches = amounts[1:] > 0
         if self.grows or not branches.any():
@@ -340,9 +386,9 @@ class _ForceRecord:
         return path, moved.force[self.place], moved.in_contact[self.place]
 
     def _path(self, offset: float, drift: Array) -> _Path:
-        """Return the depth over time, corrected by offset and drift, with samples at the touches of springs."""
+        """Return the depth as a function of time, corrected by offset and drift, with samples at touches of springs."""
         depth = self.load.values - offset - self.drifts @ drift
-        # Before the first sample the indenter is not in contact.
+        # Add a sample out of contact before the first sample, so that a load that starts at a depth starts with a step.
         time, depth = np.append(self.load.time[0], self.load.time), np.append(min(depth[0], 0.0), depth)
         gap = self.gap
         after = np.searchsorted(np.maximum.accumulate(depth), gap, side="right")
@@ -359,9 +405,11 @@ class _ForceRecord:
         )
 
     def _columns(self, path: _Path, times: Array, in_contact: Integers) -> Array:
-        """Return the forces at the rows of a spring and of branches of modulus 1, shape (rows, 1 + times).
+        """Return, for each row of the record, the force in a medium of one spring or one branch of modulus 1.
 
-        in_contact : number of springs in contact at each row
+        The shape is (rows, 1 + times): first the elastic spring, then a branch for each relaxation time.
+
+        in_contact : number of springs of the row in contact at each row of the record
         """
         in_contact = np.minimum(in_contact, path.touches.size)
         stiffness = self.stiffness[in_contact]
@@ -372,7 +420,8 @@ class _ForceRecord:
         _, to_force = branch_states(intervals, elastic, times)
         _, to_depth = branch_states(intervals, path.depth, times)
         touch = path.touches[np.maximum(in_contact, 1) - 1]
-        since = np.maximum(path.time[path.place] - path.time[touch], 0.0)  # rows without contact do not count
+        # The time since the last touch. It may be negative for rows without contact, whose forces are set to 0 below.
+        since = np.maximum(path.time[path.place] - path.time[touch], 0.0)
         kept = np.exp(-since[:, None] / times)
         memory = to_depth[path.place] - kept * to_depth[touch]
         columns = kept * to_force[touch] + stiffness[:, None] * memory
@@ -382,7 +431,7 @@ class _ForceRecord:
 
 
 def _prony(fit: _Fit) -> Prony:
-    """Return the medium of a fit."""
+    """Return the medium of a fit as a Prony series. Raises ValueError if no branch has an amount above 0."""
     branches = fit.amounts[1:] > 0
     moduli, times = fit.amounts[1:][branches], fit.times[branches]
     if not branches.any():
@@ -394,11 +443,12 @@ def _prony(fit: _Fit) -> Prony:
 
 
 def _springpot(record: _ForceRecord, fit: _Fit) -> tuple[Springpot, Array]:
-    """Return the springpot that fits best at the offset and the drift of a fit, and the residuals of the force.
+    """Return the springpot that fits the force best, and the residuals of the force.
 
-    The force at a prescribed depth is proportional to the modulus.
+    Offset and drift are taken from a fit of springs and dashpots. Only the exponent is searched for, because the force
+    at a prescribed depth is proportional to the modulus.
     """
-    from scipy.optimize import minimize_scalar  # takes long to import
+    from scipy.optimize import minimize_scalar  # this import takes long
 
     depth = Load(record.load.time, depth=record.load.values - fit.offset - record.drifts @ fit.drift)
     times = record.load.time[record.place]

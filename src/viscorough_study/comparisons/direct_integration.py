@@ -1,8 +1,9 @@
 """Compare direct integration of the viscous problem with the law, with and without the factor 1/Γ(2 − α).
 
-The integration proceeds from contact event to contact event and never uses the correspondence with the elastic problem.
-If the correspondence is exact, the depth at time t is the elastic depth under the force GFt/η, for any topography;
-Eqs. (7) to (9) multiply this depth by 1/Γ(2 − α).
+Direct integration proceeds from one contact event to the next; at each event another element of the indenter touches.
+It never uses the elastic problem. If the viscous problem corresponds exactly to the elastic problem, the depth at time
+t under the force F is the elastic depth under the force GFt/η, for any topography. Eqs. (7) to (9) of the paper
+multiply this elastic depth by 1/Γ(2 − α).
 """
 
 import numpy as np
@@ -21,23 +22,29 @@ COLUMNS = {
     "depth_ratio": ("depth of the direct integration over the elastic depth under the force GFt/η", "1"),
     "with_gamma": ("this ratio by Eq. 8: 1/Γ(2 − α); α is exact for sphere and cone, 1/(1 + H) for rough discs", "1"),
 }
-# α of bodies z ∝ rⁿ: F ∝ u^(1 + 1/n), so k ∝ F^(1/(n + 1))
+# {name: (body of revolution, α of its stiffness k ∝ F^α)}. A body z ∝ rⁿ has F ∝ u^(1 + 1/n), so α = 1/(n + 1).
 BODIES = {"sphere": (reference.sphere(1.0), 1 / 3), "cone": (reference.cone(1.0), 1 / 2)}
-RADII = 6, 0.35  # smallest contact radius compared [elements], which the grid resolves, and largest [L]
-BODY_FRACTION = 0.4  # contact fraction slightly above the fraction at the largest radius
-DISC_FRACTION = 0.5  # largest contact fraction in the integration of rough discs
-FIRST_EVENT = 10  # first event of a rough disc: before it, too few elements are in contact for a power law
-LAST_FORCE = 0.9  # fraction of the largest force that both curves reach
-TOLERANCE = 1e-6  # tolerance of the elastic curve
+# Contact radii of sphere and cone: smallest radius in elements, which the grid still resolves; largest radius in units
+# of L.
+RADII = 6, 0.35
+# Last contact fraction in the integration of sphere and cone, slightly above the fraction at the largest radius.
+BODY_FRACTION = 0.4
+DISC_FRACTION = 0.5  # last contact fraction in direct integration and elastic curve of a rough disc
+# The comparison of a rough disc begins at this contact event: before it, too few elements touch for a power law.
+FIRST_EVENT = 10
+# The comparison of a rough disc ends at this share of the largest force that integration and elastic curve both reach.
+LAST_FORCE = 0.9
+TOLERANCE = 1e-6  # tolerance of the elastic loading curve of a rough disc
 
 
 def compare_direct(*, hursts, elements, impulses, seed):
-    """Return depths by direct integration over elastic depths, as a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return ratios of the depth by direct integration to the elastic depth, a pandas.DataFrame with `COLUMNS`.
 
     For sphere and cone the elastic depth is the exact solution, so the ratio includes the error of the grid. For rough
-    discs, one for each Hurst exponent, it is the depth of the same disc by boundary elements.
-    hursts : Hurst exponents;
-    elements : across all indenters; impulses : number of impulses ∫F dt/η per indenter
+    discs, one per Hurst exponent, the elastic depth is computed by boundary elements on the grid of the same disc.
+    hursts : Hurst exponents of the rough discs
+    elements : number of elements across every indenter
+    impulses : number of impulses ∫F dt/η at which the depths of an indenter are compared
     seed : root of the discs' seeds
     """
     rows = []
@@ -58,7 +65,7 @@ def compare_direct(*, hursts, elements, impulses, seed):
 
 
 def _rows(case, alpha, events, impulse, elastic_depth):
-    """Rows of one indenter, one for each impulse."""
+    """Return the table rows of one indenter, with the columns of `COLUMNS`: one row for each impulse."""
     counts = events.contact_count[events.event_at(impulse)]
     ratios = events.depth_at(impulse) / elastic_depth
     factor = 1 / gamma_function(2 - alpha)

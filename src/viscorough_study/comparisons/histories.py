@@ -1,9 +1,10 @@
 """Compare motions of the row of springs with direct integration: loading, unloading and reloading.
 
-A row of independent springs has the same loading curve as the surface (docs/theory.md, Any history). With every spring
-replaced by a unilateral viscoelastic element, `viscorough.kinetics` gives force and depth for any history.
-`viscorough.march` integrates the same motion in time without the curve. It is of second order in the time step: if the
-motion of the springs is exact, half the step reduces the deviation to a quarter.
+The row of springs is a model of a surface: independent springs that have the same loading curve as the surface
+(docs/theory.md, Any history). If each spring is replaced by a viscoelastic element that can push but not pull, the row
+gives force and depth for any history (`viscorough.kinetics`). Direct integration (`viscorough.march`) computes the same
+motion in time without the loading curve. Its error is of second order in the time step. If the motion of the row is
+exact, half the time step therefore reduces the deviation between the two motions to a quarter.
 """
 
 from itertools import pairwise
@@ -31,22 +32,27 @@ COLUMNS = {
     "deviation": ("direct integration less row of springs, over the largest force or depth of the motion", "1"),
     "deviation_coarse": ("the same with time steps twice as long", "1"),
 }
-MEDIUM = StandardLinearSolid(4.0, 1.0, 1.0)  # the shear modulus relaxes from 4 G to G, with τ = 1
-DURATIONS = 0.1, 1.0, 10.0  # fast, as fast as the medium relaxes, slow
-RAMPS = 0.0, 1.0, 0.0, 1.0  # depth at the ends of the ramps, over its largest value
-RECOVERY_TIME = 10.0  # longer than the retardation time of 4 τ
-STEPS = 60  # long time steps in every linear part of a history; short steps are half as long
-FRACTION = 0.05  # largest contact fraction: about 165 elements on a disc of 65 elements across
-LAST = 0.99  # share of the curve that the motions use
+MEDIUM = StandardLinearSolid(4.0, 1.0, 1.0)  # its shear modulus relaxes from 4 G to G with the relaxation time τ = 1
+# Durations of a ramp, or of a constant force, in units of τ: fast, as fast as the medium relaxes, and slow.
+DURATIONS = 0.1, 1.0, 10.0
+RAMPS = 0.0, 1.0, 0.0, 1.0  # depths between which the ramps of a force curve lead, as shares of the largest depth
+# Time over which the depth is recorded after the force is removed, in units of τ; the retardation time is 4 τ.
+RECOVERY_TIME = 10.0
+# Number of coarse time steps in every linear part of a history; fine steps are half as long.
+STEPS = 60
+# Largest contact fraction of the loading curves, about 165 elements of a disc with 65 elements across.
+FRACTION = 0.05
+LAST = 0.99  # the motions use the loading curve up to this share of its last depth and force
 TOLERANCE = 1e-6  # tolerance of the loading curve
 
 
 def compare_histories(*, hursts, elements, seed):
     """Return motions by the row of springs and by direct integration, a pandas.DataFrame with `COLUMNS`.
 
-    Each Hurst exponent has one disc with two kinds of motion at three durations. In force curves the contact opens and
-    closes again. All recoveries of a disc start at the same depth.
-    hursts : Hurst exponents; elements : across all discs; seed : root of the discs' seeds
+    There is one disc per Hurst exponent. Each disc undergoes two kinds of motion, and each kind has three durations. In
+    a force curve the depth is prescribed; the contact opens and closes again. In a recovery a constant force is
+    removed; all recoveries of a disc start at the same depth.
+    hursts : Hurst exponents; elements : number of elements across every disc; seed : root of the discs' seeds
     """
     tables = []
     for hurst in hursts:
@@ -63,7 +69,10 @@ def compare_histories(*, hursts, elements, seed):
 
 
 def _compare(disc, curve, load):
-    """Return {column: values} at the ends of the long steps. Heights of the disc have h = L = 1."""
+    """Return {column: values} of one motion at the ends of the coarse time steps.
+
+    disc : rough disc with h = L = 1; curve : its LoadingCurve; load : history of force or depth
+    """
     fine, coarse = (_with_steps(load, number) for number in (2 * STEPS, STEPS))
     quantity = "force" if load.by_depth else "depth"
     springs = kinetics(curve, coarse, MEDIUM)
@@ -81,6 +90,6 @@ def _compare(disc, curve, load):
 
 
 def _with_steps(load, number):
-    """Return the load with this number of time steps in each of its linear parts."""
+    """Return the load with `number` time steps in each of its linear parts."""
     parts = [np.linspace(start, end, number + 1) for start, end in pairwise(load.time)]
     return load.with_times(np.unique(np.concatenate(parts)))[0]

@@ -25,16 +25,20 @@ COLUMNS = {
     "low": ("lower end of its 95 % interval", "1"),
     "high": ("upper end of its 95 % interval", "1"),
 }
-OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, for quantities that need it
+# Columns of a value of this study. Only comparisons with Persson's law need `across`, the elements across the discs.
+OURS = ["hurst", "value", "low", "high", "across"]
 NONE = dict.fromkeys(OURS, np.nan)
-X_COMPARED = 0.01  # X in region (b) for the comparison of lines with their discs
+X_COMPARED = 0.01  # X, in region (b), at which lines are compared with their discs
 
 
 def literature(scaling, interface, reduction, *, entries, conventions):
-    """Return a row for every source, quantity and Hurst exponent: a pandas.DataFrame with `COLUMNS`, by year.
+    """Return published values and the values of this study, a pandas.DataFrame with `COLUMNS`.
 
-    entries : content of resources/literature/stiffness.yaml
-    scaling, interface, reduction : the tables of these names; conventions : conventions of the figures
+    The table has a row for every source, quantity and Hurst exponent, and is sorted by year.
+
+    scaling, interface, reduction : tables of results with these names
+    entries : published findings, content of resources/literature/stiffness.yaml
+    conventions : {convention: value} of the figures (fits.conventions)
     """
     fitted = fits(scaling, conventions, source="discs", case_group="base")
     alpha = {"alpha": 1 - fitted["beta"], "alpha_low": 1 - fitted["beta_high"], "alpha_high": 1 - fitted["beta_low"]}
@@ -57,31 +61,38 @@ def literature(scaling, interface, reduction, *, entries, conventions):
 
 
 def _values(table, name):
-    """Return rows (dicts with the keys of OURS) of a quantity of a table and its interval, by ascending H."""
+    """Return the values and intervals of a column, as a list of dicts with the keys `OURS`, by ascending H.
+
+    table : table with the columns `name`, `name`_low and `name`_high
+    """
     table = table.rename(columns={name: "value", f"{name}_low": "low", f"{name}_high": "high"})
     return table.reindex(columns=OURS).sort_values("hurst").to_dict("records")
 
 
 def cited(source, year):
-    """Cite a source in running text: up to three surnames, or the first and "et al.", and the year."""
+    """Return the citation of a source in running text: its authors and the year.
+
+    Of more than three authors it names only the first, followed by "et al.".
+    """
     names = source.replace(" and ", ", ").split(", ")
     return f"{source if len(names) < 4 else names[0] + ' et al.'} {year}"
 
 
 def persson_u0(hurst, band):
-    """Return u₀/h of p ∝ exp(−u/u₀) at small pressures, without the fitted factor γ of later work.
+    """Return u₀/h of Persson's law p ∝ exp(−u/u₀) at small pressures p, where u is the mean separation.
 
-    With the spectrum C ∝ q^(−2−2H) between q₀ and ζq₀ the theory gives the elastic energy (π/2)E* ∫ q² C P dq per unit
-    area, where P = erf(w p/E*) and w(q) = (π ∫ q³ C dq)^(−1/2) up to q. From p du = −dU follows at small pressures
+    The factor γ that later work fitted to this law is not included. The surface has the spectrum C ∝ q^(−2−2H) at wave
+    numbers q from q₀ to ζq₀. The theory gives the elastic energy U = (π/2)E* ∫ q² C P dq per unit area. Here P is
+    erf(w p/E*), and w(q) is (π ∫ q³ C dq)^(−1/2), integrated from q₀ to q. From p du = −dU follows at small pressures
 
         u₀ = √π ∫ q² C w dq = h √(H/π) ∫₁^ζ x^(−2H) [(x^(2−2H) − 1)/(2 − 2H)]^(−1/2) dx / √(1 − ζ^(−2H)).
 
-    hurst : H in (0, 1]; band : ζ, longest over shortest wavelength, above 1
+    hurst : H in (0, 1]; band : ζ, the ratio of the longest to the shortest wavelength, above 1
     Source: B. N. J. Persson, Phys. Rev. Lett. 99, 125502 (2007).
     """
-    from scipy.integrate import quad  # takes long to import
+    from scipy.integrate import quad  # this import takes long
 
-    def integrand(s):  # substitute x = exp(s²): regular at x = 1, and defined at H = 1
+    def integrand(s):  # with x = exp(s²) the integrand is regular at x = 1, and defined for H = 1
         return 2 * np.exp((1 - 2 * hurst) * s**2) / np.sqrt(exprel((2 - 2 * hurst) * s**2))
 
     integral, _ = quad(integrand, 0, np.sqrt(np.log(band)))
@@ -89,7 +100,10 @@ def persson_u0(hurst, band):
 
 
 def _theirs(entry, row):
-    """Return columns with the source's value for the Hurst exponent and the grid of a row of this study."""
+    """Return the columns `theirs_low` and `theirs_high`: the range that a source states, or that its law gives.
+
+    entry : source in stiffness.yaml; row : values of this study, whose Hurst exponent and grid enter the law
+    """
     theirs = entry.get("theirs") or entry.get("factor") or {"low": 1.0, "high": 1.0}
     laws = {"exponent_alpha": reference.exponent_alpha(row["hurst"]), "persson_u0": _persson(row)}
     scale = laws.get(entry.get("law"), 1.0 if "theirs" in entry else np.nan)
@@ -97,5 +111,8 @@ def _theirs(entry, row):
 
 
 def _persson(row):
-    """Return u₀/h of Persson's law without γ, for waves from the diameter to two elements; nan without a grid."""
+    """Return u₀/h of Persson's law without γ for the wavelengths on the grid of `row`; nan if `row` has no grid.
+
+    The wavelengths extend from the diameter of the disc to the width of two elements.
+    """
     return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["across"]) else np.nan

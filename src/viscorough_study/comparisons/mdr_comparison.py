@@ -1,13 +1,13 @@
-"""Compare the method of dimensionality reduction with boundary elements, surface by surface.
+"""Compare the method of dimensionality reduction (MDR) with boundary elements, surface by surface.
 
-The line that represents a surface has the spectrum C1D = π q C2D (Eq. 13). Here C2D belongs to the same realization of
-the surface, averaged over rings of wave vectors. The method does not specify the phases, so they are independent and
-random.
+The MDR represents a surface by a line of springs with the spectrum C1D = π q C2D (Eq. 13). Here C2D is the spectrum of
+the same realization of the surface, averaged over all wave vectors of equal length q. The method does not specify the
+phases of the waves of a line, so they are independent and random.
 
 The literature finds that the method fails for contact area and separation (Lyashenko, Pastewka & Persson, Tribology
-Letters 52, 223 (2013)). The contact fraction of a line is its κ on every grid. The contact fraction of a disc falls as
-finer waves are resolved, so their ratio depends on the grid. The mean gap of a disc requires its deflections and is
-computed only at integer powers of ten.
+Letters 52, 223 (2013)). The contact fraction of a line equals its κ on every grid. The contact fraction of a disc falls
+as the grid resolves finer waves. The ratio of the two contact fractions therefore depends on the grid. The mean gap of
+a disc requires the deflections of the half-space, which are computed only if X is an integer power of ten.
 """
 
 import numpy as np
@@ -37,17 +37,19 @@ COLUMNS = {
     "chance": ("bound within which 95 % of the correlations of as many unrelated pairs lie, ±", "1"),
     "realizations": ("realizations", "1"),
 }
-FORCE_MARGIN = 1.01  # largest force of a disc's curve over the last compared force
+FORCE_MARGIN = 1.01  # ratio of the largest force of a disc's loading curve to the largest force of the comparison
 
 
 def compare_reduction(*, hursts, elements, realizations, tolerance, seed, **abscissae):
     """Compare lines with discs of the same spectrum; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    hursts : Hurst exponents; realizations : number of discs for each
-    elements : across a disc of diameter and rms height 1, cut from a square of one period
+    Each disc has diameter and rms height 1, and is cut from a periodic square whose side is one period.
+
+    hursts : Hurst exponents; realizations : number of discs for each Hurst exponent
+    elements : number of elements across a disc
     tolerance : tolerance of the loading curves of the discs; seed : root of the surfaces' seeds
-    abscissae : x_low, x_high and per_decade, the range and density of the abscissae X
-    Abscissae beyond the end of any curve are omitted.
+    abscissae : x_low, x_high and per_decade, the range of X and the number of X per decade
+    The table omits every X beyond the end of any loading curve of this Hurst exponent.
     """
     x, tables = abscissa(abscissae["x_low"], abscissae["x_high"], abscissae["per_decade"]), []
     force = 4 * x  # F/G = 4hLX with h = L = 1
@@ -69,10 +71,15 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, **absc
 
 
 def _compare(disc, line, force):
-    """Return ln of κ of disc and line, of the ratio of contact fractions, and of the ratio of forces at equal depth."""
+    """Return four logarithms, each at all forces on the disc.
+
+    They are ln κ of the disc; ln κ of the line; ln of the ratio of the line's contact fraction to the disc's; and ln of
+    the ratio of the line's force to the disc's, where the line has the depth of the disc.
+    disc, line : loading curves; force : F/G on the disc, shape (forces,)
+    """
     (depth, stiffness), log_force = disc.at_force(force), np.log(force)
     fractions = [np.interp(log_force, np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)]
-    # The curve of the line is straight up to the first level.
+    # Up to the first level of the line its force is proportional to the depth.
     straight = np.minimum(np.log(depth / line.depth[0]), 0)
     line_force = straight + np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
     logarithms = np.log([stiffness / 4, line.at_force(force)[1] / 4])
@@ -80,18 +87,19 @@ def _compare(disc, line, force):
 
 
 def is_power_of_ten(x):
-    """Return True for integer powers of ten, to rounding; of the shape of x."""
+    """Return an array of the shape of x: True if an element of x is an integer power of ten within rounding."""
     exponent = np.log10(x)
     return np.abs(exponent - np.rint(exponent)) < 1e-9
 
 
 def mean_gaps(indenter, curve, force, tolerance):
-    """Return the mean gap between indenter and deformed surface over all elements, at F/G; shape (forces,) [length].
+    """Return the gap between indenter and deformed surface, averaged over all elements; shape (forces,) [length].
 
-    curve : LoadingCurve of the indenter; tolerance : tolerance of the contacts of a map, which are solved at the
-        curve's depths.
-    Springs of a line deflect by u − g in contact, on average by F/(4GL), so the mean gap is ⟨g⟩ − u + F/(4GL). Values
-    are nan beyond the end of the curve, and for forces that are nan.
+    indenter : map or line; curve : its LoadingCurve; force : F/G, shape (forces,)
+    tolerance : tolerance of the contacts of a map, which are solved at the depths of the curve at these forces
+    The mean gap of a line is ⟨g⟩ − u + F/(4GL), where g is the gap before loading and u the depth: springs in contact
+    deflect by u − g, and the mean deflection of all springs is F/(4GL). The gap is nan if the force is nan or beyond
+    the end of the curve.
     """
     depth, _ = curve.at_force(force)
     if indenter.heights.ndim == 1:
@@ -105,13 +113,15 @@ def mean_gaps(indenter, curve, force, tolerance):
 
 
 def _table(hurst, x, compared):
-    """Return rows of one Hurst exponent at abscissae with all quantities defined, except for the gaps.
+    """Return the table rows of one Hurst exponent: a row for each X with all quantities defined, except the gap.
 
-    compared : results of _compare and ln of the ratio of the mean gaps, shape (realizations, 5, abscissae)
+    compared : results of `_compare`, then ln of the ratio of the line's mean gap to the disc's; shape (realizations, 5,
+        abscissae)
     """
     disc, line, fraction, force, gap = np.moveaxis(compared, 1, 0)
     number = len(compared)
-    with np.errstate(invalid="ignore", divide="ignore"):  # nan if all realizations have the same κ
+    # The correlation is nan if all realizations have the same κ.
+    with np.errstate(invalid="ignore", divide="ignore"):
         correlation = [np.corrcoef(pair)[0, 1] for pair in zip(disc.T, line.T, strict=True)]
     columns = {
         "hurst": hurst,

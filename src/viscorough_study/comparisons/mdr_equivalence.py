@@ -1,9 +1,12 @@
-"""Compare lines with discs of one Hurst exponent: λ over X, errors of a single λ, exponents in equal windows.
+"""Compare mean curves of lines and discs of equal H: λ(X), the error of a constant λ, and exponents in equal windows.
 
-Both are means over ensembles. The "single λ" minimizes the largest error of vt/h over region (b) of the discs, so no
-other λ(H) does better there. The largest error and the range of λ(X) grow with the scatter of the surfaces; therefore
-claims are judged by straight lines fitted to ln λ and ln(vt/h) over ln X. Their ends can have either sign, so their
-intervals are free of this bias.
+The factor λ of C1D = λ q C2D (Eq. 13) relates the spectrum of a line of the MDR to the spectrum of the discs. All
+curves are means over ensembles. The best single λ of a Hurst exponent minimizes the largest error of vt/h in region (b)
+of the discs, so no other λ(H) does better there.
+
+The scatter of the surfaces always enlarges the largest error and the range of λ(X). Claims are therefore judged by
+straight lines, which are fitted to ln λ and to the error of ln(vt/h) as functions of ln X. The rise of a straight line
+can have either sign, so its interval is free of this bias.
 """
 
 import numpy as np
@@ -14,7 +17,8 @@ from viscorough_study.fits.intervals import described, three_columns, with_inter
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, named_windows
 
-FRACTION_KEPT = 1 - 1e-9  # fraction of realizations that must be defined at an X of the whole curve
+# An X of the curves is used if at least this fraction of the discs has a value there: all of them, within rounding.
+FRACTION_KEPT = 1 - 1e-9
 REALIZATIONS = ("realizations: the smaller of the numbers of discs and lines", "1")
 
 LAMBDA_COLUMNS = {
@@ -45,9 +49,10 @@ TABLES = {"mdr_lambda": LAMBDA_COLUMNS, "mdr_summary": SUMMARY_COLUMNS, "mdr_exp
 
 
 def mdr_tables(discs, lines, *, seed, fit, conventions):
-    """Return the tables of `compare_ensembles` for pools of base discs and lines.
+    """Return the tables of `compare_ensembles` for the base discs and the lines of two pools (ensembles.pool).
 
-    fit : settings of region (b); conventions : average, and rms convention of the discs
+    fit : number of bootstrap resamples, and settings of region (b)
+    conventions : {"average": average of discs and lines, "rms_convention": rms convention of the discs}
     """
     lines = lines.isel(realization=np.flatnonzero(np.isin(lines["hurst"], discs["hurst"])))
     discs = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
@@ -56,13 +61,14 @@ def mdr_tables(discs, lines, *, seed, fit, conventions):
 
 
 def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
-    """Return the three tables of discs and lines, {name in `TABLES`: table with its columns}.
+    """Return the three tables that compare discs with lines, {name: table}, with the names and columns in `TABLES`.
 
-    discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae; common Hurst exponents
-        are compared
-    average, resamples, seed : arguments of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
+    discs, lines : {H: ensemble (ensembles.averages) in one rms convention}; all ensembles have the same abscissae. Only
+        Hurst exponents that discs and lines share are compared
+    average, resamples, seed : arguments of the bootstrap, see viscorough_study.fits.power_law.fit_power_law
     limits : arguments of viscorough_study.fits.power_law.named_windows
-    Without a region (b) there are no rows of λ, and the values of the other tables are nan.
+    If the discs have no region (b), the table of λ has no rows for this Hurst exponent, and the values of the summary
+    are nan. A difference of exponents is nan if discs or lines lack the window.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, {name: [] for name in TABLES}
     for hurst in sorted(set(discs) & set(lines)):
@@ -78,9 +84,10 @@ def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
 
 
 def _lambda_rows(discs, lines, window, number, **bootstrap):
-    """Return rows of λ over X and the row of the summary, for one Hurst exponent.
+    """Return the rows of table mdr_lambda, one for each X, and the row of mdr_summary, for one Hurst exponent.
 
-    window : region (b) of the discs, or None; number : number of realizations
+    window : region (b) of the discs as (X_low, X_high), or None
+    number : the smaller of the numbers of discs and lines
     """
     if window is None:
         return [], {}
@@ -103,15 +110,22 @@ def _lambda_rows(discs, lines, window, number, **bootstrap):
 
 
 def _rise(x, values):
-    """Return the rise of the least-squares line in ln X from the first to the last X; values : shape (samples, X)"""
+    """Fit values by a straight line in ln X (least squares), and return its rise from the first to the last X.
+
+    values : shape (samples, X)
+    Returns an array of shape (samples,).
+    """
     offset = np.log(x) - np.log(x).mean()
     return values @ offset / (offset @ offset) * np.ptp(offset)
 
 
 def _exponent_rows(discs, lines, windows, number, *, seed, **bootstrap):
-    """Return rows of the exponents of one Hurst exponent; rows without a window have nan.
+    """Return the rows of table mdr_exponents for one Hurst exponent: a row for each of `WINDOWS`.
 
-    windows : named windows of discs and of lines; number : number of realizations
+    The row of a window that discs or lines do not have contains only its name.
+
+    windows : windows of the discs and windows of the lines, each from `named_windows`
+    number : the smaller of the numbers of discs and lines
     """
     regions, kappa = ([rules[rule] for rules in windows] for rule in ("default", "kappa"))
     # Different seeds make the bootstrap samples of discs and lines independent.

@@ -1,9 +1,11 @@
-"""Error and cost of every model of the mean of many surfaces: grids, the MDR and the law.
+"""Compare error and cost of every model of the mean of many surfaces: boundary elements on grids, the MDR, the law.
 
-The truth is the geometric mean of all discs on the finest grid. The velocity of a mean over n surfaces has the error
-√⟨b² + s²/n⟩: the deviation b of the model, as far as the scatter of its realizations does not explain it, and the
-scatter s of single surfaces, both of ln(vt/h) at fixed X = Ft/(4ηhL), with the mean over X from 0.01 to 1. A model
-without surfaces has the error b. The time is n times the time of one curve (performance.one_surface).
+The exact mean is the geometric mean of all discs on the finest grid; the law, which describes arithmetic means, is
+compared with the arithmetic mean of the same discs. If a model averages the velocities of n surfaces, its error is
+√⟨b² + s²/n⟩. Here b is the deviation of the model's mean from the exact mean, less the part that the scatter of the
+realizations explains, and s is the standard deviation among single surfaces. Both refer to ln(vt/h) at fixed
+X = Ft/(4ηhL), and ⟨ ⟩ is the mean over X from 0.01 to 1. A model that needs no surfaces has the error b. The processor
+time is n times the time of one curve (performance.one_surface).
 """
 
 import numpy as np
@@ -17,7 +19,9 @@ from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, PAPER
 
 X = (0.01, 1.0)
 SURFACES = (1, 4, 16, 64, 256)
-TOLERANCE = 1e-2  # of the curves whose time is taken: finer ones have the same mean (docs/verification.md)
+# Tolerance of the loading curves whose times are used. Curves of finer tolerance have the same mean
+# (docs/verification.md).
+TOLERANCE = 1e-2
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
     "quantity": ("velocity, or exponent β of the power law", ""),
@@ -30,9 +34,11 @@ COLUMNS = {
 
 
 def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *, conventions):
-    """Error and cost of every model of the mean; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return error and cost of every model of the mean, a pandas.DataFrame with the columns of `COLUMNS`.
 
-    discs, lines, size_discs : pools; mdr_lambda, scaling, one_surface : tables; conventions : of the figures
+    discs, lines, size_discs : pools (ensembles.pool); size_discs has grids from coarse to fine
+    mdr_lambda, scaling, one_surface : tables of results with these names
+    conventions : {convention: value} of the figures (fits.conventions)
     """
     rms = conventions["rms_convention"]
     base = ensembles(select(discs, group="base"), "hurst", rms_convention=rms)
@@ -71,7 +77,7 @@ def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *,
 
 
 class _Mean:
-    """Mean and scatter of ln(vt/h) of an ensemble, at the X of the comparison."""
+    """Mean and scatter of ln(vt/h) of an ensemble, at the X from 0.01 to 1 that are compared."""
 
     def __init__(self, ensemble):
         here = (ensemble["x"].values >= X[0] * 0.999) & (ensemble["x"].values <= X[1] * 1.001)
@@ -82,11 +88,14 @@ class _Mean:
 
     @property
     def scatter(self):
-        """Standard deviation of ln(vt/h) of single surfaces."""
+        """Return the standard deviation of ln(vt/h) among single surfaces, a root mean square over X."""
         return float(np.sqrt(np.nanmean(self.variance)))
 
     def deviation(self, other):
-        """Deviation of another mean, without the part that the scatter of both explains."""
+        """Return the deviation of another mean from this mean, a root mean square over X.
+
+        The part that the scatter of the two ensembles explains is subtracted.
+        """
         by_chance = self.variance / self.number + other.variance / other.number
         return float(np.sqrt(max(np.nanmean((other.logarithm - self.logarithm) ** 2 - by_chance), 0.0)))
 
@@ -97,20 +106,27 @@ def _nearest(values, value):
 
 
 def _grid_time(times, across):
-    """Processor time of a curve with so many elements across; nan if none was timed."""
+    """Return the processor time of a loading curve on a grid with `across` elements across; nan if none was timed."""
     timed = times.query("model == @GRID and across == @across and value == @TOLERANCE")["processor_s"]
     return timed.iloc[0] if len(timed) else np.nan
 
 
 def _line_time(times, points):
-    """Processor time of a line, proportional to its points beyond the longest one that was timed."""
+    """Return the processor time of a line with this number of points.
+
+    It is the time of the timed line with the nearest number of points. If the requested line has more points, the time
+    is increased in proportion to them.
+    """
     timed = times[times["model"] == MDR]
     nearest = timed.loc[np.abs(np.log(timed["value"] / points)).idxmin()]
     return nearest["processor_s"] * max(1.0, points / nearest["value"])
 
 
 def _exponent_rows(hurst, scaling, conventions, lines, times):
-    """Errors of the exponent β in region (b), relative to that of the discs; none without such a region."""
+    """Yield table rows with the errors of exponents β in region (b), relative to β of the discs.
+
+    Yields nothing if the discs have no region (b).
+    """
     discs = fits(scaling, conventions, source="discs", case_group="base").set_index("hurst")["beta"]
     if not np.isfinite(exact := discs.get(hurst, np.nan)):
         return

@@ -1,4 +1,4 @@
-"""Tables of measured surfaces: lengths, power laws of their groups, kinetics, and elastic contacts."""
+"""Make the tables of measured surfaces: their lengths, power laws of groups of them, kinetics, and elastic contacts."""
 
 import json
 import logging
@@ -45,7 +45,8 @@ CONTACTS = {
     "group": ("group of scans", None),
     **SI_COLUMNS,
 }
-# Settings of a scan that determine its rows, apart from the file.
+# Settings of a scan that, together with its file of heights, determine its rows in the table of contacts: settings for
+# reading the file, and the load.
 _READING = ("spacing", "unit", "preparation")
 _LOADING = ("forces", "young_modulus", "poisson_ratio")
 
@@ -53,11 +54,11 @@ _LOADING = ("forces", "young_modulus", "poisson_ratio")
 def measured_contacts(scans):
     """Return the table of contacts of measured surfaces with an elastic half-space; its columns are `CONTACTS`.
 
-    The rows have the columns and numbers of `viscorough contact --grid-error` with the same modulus and forces. A scan
-    that cannot be evaluated has one row with the reason in the column `error`.
+    For each scan the table has the numbers that the command `viscorough contact --grid-error` gives for the same
+    modulus and forces. A scan that cannot be evaluated has one row, with the reason in the column `error`.
 
-    scans : mappings with name, group, file, spacing, unit, preparation, forces [N], young_modulus [Pa] (None for no
-        rows) and poisson_ratio
+    scans : mappings with name, group, file, spacing, unit, preparation, forces [N], young_modulus [Pa] and
+        poisson_ratio. A scan without forces, or with the modulus None, has no rows
     """
     lines = []
     for scan in scans:
@@ -72,7 +73,7 @@ def measured_contacts(scans):
 
 
 def _evaluated_scan(scan):
-    """Return the LoadRows of a measured surface under its forces."""
+    """Solve the elastic contact of one scan under all its forces, and return its LoadRows (io.load_tables)."""
     reading, loading = ({name: scan[name] for name in names} for names in (_READING, _LOADING))
     modulus = scan["young_modulus"] / young_over_shear(scan["poisson_ratio"])
     settings = f"{__version__} {json.dumps(reading | loading, sort_keys=True)}"
@@ -85,13 +86,14 @@ def _evaluated_scan(scan):
 
 
 def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):
-    """Return {"measured_scans", "measured_fits", "measured_kinetics": table} of measured surfaces.
+    """Return three tables of measured surfaces, {"measured_scans", "measured_fits", "measured_kinetics": table}.
 
-    Their columns are `COLUMNS`, fit_table.COLUMNS and `KINETICS`.
-    pool : pool of all scans; curves, names, forces : for each scan the Content of its curve, its name and its forces
-        [N]
-    fit : settings in section `scaling`; seed : of its bootstrap
-    loading : media and times, as in `measured_motions`
+    Their columns are `COLUMNS`, fit_table.COLUMNS and `KINETICS`, in this order.
+    pool : pool of all scans (ensembles.pool)
+    curves, names, forces : for each scan, the Content of the file of its loading curve, its name, and a list of its
+        forces [N]
+    fit : settings in section `scaling`; seed : seed of the bootstrap of the fits
+    loading : media and times, arguments of `measured_motions`
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
     for name, batch, scan_forces in zip(names, curves, forces, strict=True):
@@ -111,9 +113,10 @@ def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):
 def measured_motions(curve, forces, *, media, times):
     """Return tables of time, depth and velocity of a measured surface, one for each medium and constant force.
 
-    curve : LoadingCurve of the surface; forces [N]
-    media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
-    Times at which a depth lies beyond the end of the curve are omitted, and tables without a time are left out.
+    curve : LoadingCurve of the surface; forces : constant forces [N]
+    media : mappings, each with a name and the parameters of a medium (io.medium_files)
+    times : {"low", "high", "per_decade"}, the range [s] and the number per decade of the times
+    Times at which the depth lies beyond the end of the curve are omitted. A table that has no times left is left out.
     """
     tables = []
     for (name, medium), force in product(named_media(media).items(), forces):

@@ -1,9 +1,10 @@
 """Compute kinetics of ensembles in media other than the paper's, under a constant force from time 0 on.
 
-In any linear viscoelastic medium of creep compliance J(t) the depth is the depth of the loading curve at F/G = F J(t).
-So u/h is one function of X = F J(t)/(4hL) for all media, and vt/h = a X/κ(X) with the exponent a = d ln J/d ln t of J.
-The paper's J = t/η gives its vt/h = X/κ. If X/κ = X^β/ζ, the exponent of vt/h in time is β a + d ln a/d ln t: a power
-law in X is a power law in time only while J is a power law.
+In a linear viscoelastic medium with the creep compliance J(t), the depth at time t is the depth of the elastic loading
+curve at F/G = F J(t). So u/h is the same function of X = F J(t)/(4hL) in all media. The velocity is vt/h = a X/κ(X),
+where a = d ln J/d ln t is the local exponent of J. The paper's medium has J = t/η, so a = 1 and vt/h = X/κ. If X/κ is a
+power law, X^β/ζ, the exponent of vt/h in time is β a + d ln a/d ln t. A power law in X is therefore a power law in time
+only while J is a power law.
 """
 
 from itertools import product
@@ -27,19 +28,21 @@ COLUMNS = {
     "exponent": ("local exponent d ln(vt/h)/d ln t, fitted over a quarter of a decade to either side", "1"),
     "realizations": ("realizations in the mean", "1"),
 }
-HALF_WIDTH = 0.25  # decades of time to either side in fits of local exponents
+HALF_WIDTH = 0.25  # the fit of a local exponent extends over this many decades of time to either side
 
 
 def named_media(cases):
-    """Return {name: medium} for mappings with a name and the keys of a medium."""
+    """Return {name: medium} of mappings, each with a name and the parameters of a medium (io.medium_files)."""
     return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
 
 
 def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
-    """Return the `media_table` of batches of loading curves.
+    """Return the `media_table` of the loading curves in batch files.
 
-    curves : Content of the batches; discs : names of the ensembles to use; rms_convention : convention of h
-    cases : [name and further keys of a medium]; times : low, high [s] and per_decade; force : F [N]
+    curves : iterable of the Content of each file; discs : names of the cases whose discs are used
+    rms_convention : convention of the rms height h (fits.conventions); force : F [N]
+    cases : media, as mappings for `named_media`
+    times : {"low", "high", "per_decade"}, the range [s] and the number per decade of the times
     """
     ensembles = {}
     for batch in curves:
@@ -57,11 +60,13 @@ def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
 def media_table(ensembles, media, *, force, times):
     """Return means over the realizations of every ensemble in every medium, a pandas.DataFrame with `COLUMNS`.
 
-    ensembles : {H: groups of loading curves that end at one X, each (curves, their rms heights, diameter)} [m]
+    ensembles : {H: groups of realizations}. A group is (curves, rms heights [m], diameter [m]); its loading curves were
+        computed up to the same X
     media : {name: medium of viscorough.media.kinds} in Pa and s; force : F [N]
     times : t > 0, logarithmically uniform [s]
-    At each time the mean is over the groups whose curves all reach it. Times that no group reaches are omitted. X
-    refers to the mean rms height.
+    A curve reaches a time if the depth at this time is on the curve. The mean at a time includes a group if all
+    its curves reach this time. Times that no group reaches are omitted, and so are times with a velocity of 0. X is
+    computed with the mean rms height.
     """
     parts = []
     for (name, medium), (hurst, groups) in product(media.items(), ensembles.items()):
@@ -87,7 +92,7 @@ def media_table(ensembles, media, *, force, times):
 
 
 def _motions(curves, rms, _, medium, *, force, times):
-    """Return u/h and vt/h of a group of curves, each of shape (curves, times); nan at times that some do not reach."""
+    """Return u/h and vt/h of a group of curves, each of shape (curves, times); nan if not all curves reach a time."""
     time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
     depth, velocity = np.full((2, len(curves), times.size), np.nan)
     for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
@@ -98,5 +103,8 @@ def _motions(curves, rms, _, medium, *, force, times):
 
 
 def reached_times(last, force, medium, times):
-    """Return the times at which the creep under a constant force is at most the last F/G of a loading curve."""
+    """Return the times at which the depth under a constant force is on a loading curve, that is F J(t) <= last.
+
+    last : F/G at the end of the loading curve; J : creep compliance of the medium
+    """
     return times[force * medium.creep_compliance(times) <= last]

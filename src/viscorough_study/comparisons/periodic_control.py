@@ -1,15 +1,16 @@
-"""Check the model of two springs in series on a periodic half-space, which has no flat punch.
+"""Check the model of interface and flat punch in series (fits.interface) on a periodic half-space, which has no punch.
 
-The surfaces have the same spectra as the discs. Under the mean pressure p the mean separation is ū, and g_per = −dū/(h
-d ln p) is the compliance of the interface; there is no punch to subtract. If the interface's part g of vt/h of a disc
-is a property of the interface alone, the two agree at equal mean pressure, p/E* = (4/π) X h/L. If g_per is constant,
-the pressure is exponential in the separation as in Persson's theory, with u₀/h = g_per; 0.4 is quoted from Pastewka et
-al. (Phys. Rev. E 87, 062809 (2013)) for extended surfaces. With a roll-off the largest g_per lies at larger X, so the
-largest values are compared, not values at one X.
+The periodic surfaces have the same spectra as the discs. If p is the mean pressure and ū the mean separation, the
+compliance of the interface is g_per = −dū/(h d ln p); there is no compliance of a punch to subtract. The contribution
+of the interface to vt/h of a disc is g. If g is a property of the interface alone, g and g_per are equal at the same
+mean pressure, p/E* = (4/π) X h/L. If g_per is constant, the pressure is exponential in the separation, like in
+Persson's theory, with u₀/h = g_per; for extended surfaces u₀/h = 0.4 is quoted from Pastewka et al. (Phys. Rev. E 87,
+062809 (2013)). If the spectrum has a roll-off, g_per is largest at a larger X. Therefore the largest values of g_per
+are compared, not the values at the same X.
 
-The half-space is solved by conjugate gradients projected on pressures that are nowhere negative and have the mean p
-(Polonsky & Keer, Wear 231, 206 (1999)), with the kernel 2/(E*|q|) in Fourier space and none at q = 0. It is independent
-of the solver of the library.
+The contact problem is solved by conjugate gradients, projected on pressures that are nowhere negative and have the mean
+p (Polonsky & Keer, Wear 231, 206 (1999)). In Fourier space the displacement is the pressure times 2/(E*|q|), and 0 at
+q = 0. The solver of the library is not used.
 """
 
 from itertools import product
@@ -24,7 +25,8 @@ from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
 from viscorough_study.run.seeds import periodic_key, realization_seed
 
-TOLERANCE = 1e-3  # tolerance of the gap over the rms height; a tenth of it changes g by less than 1e-4
+# Tolerance of the gap in units of the rms height. A tolerance ten times smaller changes g by less than 1e-4.
+TOLERANCE = 1e-3
 ITERATIONS_MAX = 5000
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
@@ -36,12 +38,14 @@ COLUMNS = {
 
 
 def periodic_control(*, hursts, points, surfaces, roll_off, seed, **levels):
-    """Return g_per over X, with and without a roll-off, as a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return g_per at several X, for spectra with and without a roll-off, a pandas.DataFrame with `COLUMNS`.
 
-    points : points along a side of the square; surfaces : number for each Hurst exponent and spectrum
-    roll_off : wavelength over the period, and level, as in self_affine_square
+    points : points along a side of the square; surfaces : number of surfaces for each Hurst exponent and spectrum
+    roll_off : {"wavelength": roll-off wavelength as a share of the period, "level": roll_off_level of
+        self_affine_square}
     seed : root of the surfaces' seeds
-    levels : x_low, x_high and per_decade, the range and density of the levels X; g_per is taken between them
+    levels : x_low, x_high and per_decade, the range and the number per decade of the levels X of the contacts; g_per is
+        a difference quotient between neighbouring levels
     """
     x, tables = abscissa(levels["x_low"], levels["x_high"], levels["per_decade"]), []
     rolled_off = {"roll_off_wavelength": points * roll_off["wavelength"], "roll_off_level": roll_off["level"]}
@@ -56,9 +60,10 @@ def periodic_control(*, hursts, points, surfaces, roll_off, seed, **levels):
 
 
 def mean_separations(heights, pressures):
-    """Return ū/h at increasing mean pressures p L/(E* h), shape (pressures,).
+    """Return the mean separation over the rms height, ū/h, at every mean pressure; shape (pressures,).
 
-    heights : heights of a periodic square, shape (n, n), mean 0; any unit
+    heights : heights of a periodic square with side L, shape (n, n), mean 0, in any unit
+    pressures : mean pressures as p L/(E* h), increasing
     """
     shape = np.array(heights / heights.std(), dtype=float)
     pressure, separations = np.full(shape.shape, pressures[0]), []
@@ -69,10 +74,12 @@ def mean_separations(heights, pressures):
 
 
 def periodic_contact(heights, start, tolerance=TOLERANCE):
-    """Return mean separation and pressures of a contact with the same mean pressure as the start.
+    """Return mean separation and pressures of the contact that has the same mean pressure as `start`.
 
-    heights : shape (n, n), mean 0, over the unit of height; start : pressures p L/E* over it, shape (n, n)
-    Raises ConvergenceError if the gap in contact, or an overlap, is above the tolerance after ITERATIONS_MAX.
+    heights : shape (n, n), mean 0, in any unit; the separation and the tolerance have the same unit
+    start : first guess of the pressures, as p L/E* in this unit, shape (n, n)
+    Raises ConvergenceError if after ITERATIONS_MAX iterations an overlap, or the gap at an element with pressure, is
+    still above the tolerance.
     """
     n, mean, pressure = len(heights), start.mean(), start
     waves = 2 * np.pi * np.hypot(fft.fftfreq(n, 1 / n)[:, None], fft.rfftfreq(n, 1 / n))

@@ -1,7 +1,8 @@
-"""The cheapest model that answers a question to a given error, among all measured models.
+"""Find the cheapest of all measured models that answers a question within an allowed error.
 
-Errors and times are the largest over the Hurst exponents of the tables, so that a model suffices for all of them. The
-map of all points agrees with itself, so that it counts with the error that it states for its grid.
+The error and the processor time of a model are its largest values at any Hurst exponent of the tables, so a model that
+suffices does so for every H. The error of a model of one surface is its deviation from the full map, the map of all
+points. The full map does not deviate from itself; its error is the error that it states for its own grid.
 """
 
 import pandas as pd
@@ -9,7 +10,7 @@ import pandas as pd
 from viscorough_study.run.names import CONTACT, GRID, LAW, MDR, MDR_FITTED, MDR_PI, PAPER, REQUEST
 from viscorough_study.run.readable import readable
 
-# (question, table, quantity, errors allowed)
+# Questions: (text, table of the models' errors, quantity in this table, allowed relative errors).
 QUESTIONS = (
     ("mean exponent β", "mean", "exponent", (0.05,)),
     ("mean velocity", "mean", "velocity", (0.05,)),
@@ -31,7 +32,7 @@ COLUMNS = {
 
 
 def sufficient_models(one_surface, mean_accuracy):
-    """The cheapest sufficient model for every question and error; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return the cheapest sufficient model for every question and allowed error, a pandas.DataFrame with `COLUMNS`.
 
     one_surface, mean_accuracy : tables of performance.one_surface and comparisons.mean_of_surfaces
     """
@@ -56,7 +57,11 @@ def sufficient_models(one_surface, mean_accuracy):
 
 
 def _judged_by_itself(table):
-    """Rows of one surface with the stated error of the map to which all others are compared."""
+    """Return the table of one surface, with the error that the full map states instead of its deviation.
+
+    The full map is the map of all points; the errors of all other models are deviations from it. It states only an
+    error of the velocity; its rows of other quantities are dropped.
+    """
     full = (table["model"] == GRID) & (table["across"] == table["across"].max())
     stated = table["stated"].where(table["quantity"] == "velocity")
     kept = ~full | stated.notna()
@@ -64,7 +69,7 @@ def _judged_by_itself(table):
 
 
 def _over_hurst(table):
-    """Candidates that were measured at all Hurst exponents, with the largest error and time over these."""
+    """Return the models that were measured at all Hurst exponents, with their largest error and time at any of them."""
     keys = ["model", "across", "parameter", "value"] if "parameter" in table else ["model", "across", "surfaces"]
     if "parameter" in table:
         table = table.assign(across=table["across"].where(table["model"] != REQUEST))
@@ -75,7 +80,10 @@ def _over_hurst(table):
 
 
 def _names(row):
-    """Name and setting of a model."""
+    """Return two texts for a model: its name, a function of the library or a formula, and its setting.
+
+    row : row of a model from `_over_hurst`
+    """
     model, size = row["model"], f"{row['across']:g} × {row['across']:g}"
     if model == PAPER:
         return "H/(1 + H)", ""

@@ -1,10 +1,11 @@
 """Compare every method with exact solutions: errors and observed orders on grids from coarse to fine.
 
 The bodies have exact solutions (viscorough.reference) and are discretized by n elements across L = 1. The elements are
-squares, except for a second sphere with twice as many columns. Errors are root mean squares, over a range of contact
-radii, of the relative deviation from the exact value: at a single radius the error oscillates with the position of the
-contact edge in the grid. For the same reason there are flat ellipses of several sizes. The observed order is the slope
-of ln(error) over ln(1/n). Boundary elements are solved to a tolerance so small that the error of the grid dominates.
+squares, except for a second sphere with twice as many columns. An error is the root mean square of the relative
+deviation from the exact value at several contact radii, since at a single radius the error oscillates with the position
+of the contact edge in the grid. For the same reason, flat ellipses have several sizes. The observed order is the slope
+of ln(error) as a function of ln(1/n). Boundary elements are solved to such a small tolerance that the error of the grid
+dominates.
 """
 
 import numpy as np
@@ -19,20 +20,25 @@ from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.kinetics import kinetics
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
-RADII = np.linspace(0.2, 0.45, 26)  # contact radii for the comparison of solutions [L]
-ELLIPSES = np.linspace(0.3, 0.5, 11)  # major semi-axes of the flat ellipses [L]; the minor ones are half as long
-FORCE, VISCOSITY = 10.0, 1e6  # force and viscosity of the viscous cases; F/η is far from 1, so a missing F or η shows
+RADII = np.linspace(0.2, 0.45, 26)  # contact radii of the comparison, in units of L
+# Major semi-axes of the flat ellipses, in units of L. Each minor semi-axis is half as long.
+ELLIPSES = np.linspace(0.3, 0.5, 11)
+# Force F and viscosity η of the viscous cases. F/η is far from 1, so an error in the use of F or η would show.
+FORCE, VISCOSITY = 10.0, 1e6
 TOLERANCE = 1e-5  # tolerance of the contact problems on bodies and punches
-ROUGH = {"hurst": 0.7, "seed": 1}  # arguments of self_affine_disc
-EVENTS = 600  # contact events of the direct integration of a rough disc; more would add no information
-EVENTS_APART = 20  # the depth at every twentieth of these events is compared
-CORRESPONDENCE_TOLERANCE = 1e-11  # tolerance of the elastic curve compared with direct integration
+ROUGH = {"hurst": 0.7, "seed": 1}  # arguments of self_affine_disc for the rough disc
+# Direct integration of the rough disc ends after this many contact events; more events would add no information.
+EVENTS = 600
+EVENTS_APART = 20  # depths are compared at every twentieth contact event
+CORRESPONDENCE_TOLERANCE = 1e-11  # tolerance of the elastic curve that is compared with direct integration
 
-# Uniform pressure on elements, collocated at their centres, has an error of second order in force on a smooth body, and
-# of first order if an edge singularity or a count of elements enters. Depth and velocity at a given impulse inherit the
-# orders of force and stiffness. Direct integration and the correspondence are both exact on the same grid.
+# Expected orders of convergence. Boundary elements have uniform pressure and are collocated at their centres. On a
+# smooth body their error in force is of second order. Errors of stiffnesses are of first order, because of the singular
+# pressure at the edge of a flat punch, and so are errors of areas, which are counts of elements. Depth and velocity at
+# a given impulse have the orders of force and stiffness. Direct integration and the correspondence principle are both
+# exact on the same grid, so their deviation has the order 0.
 ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "punch_stiffness": 1, "correspondence": 0}
-GRIDS_FOR_ORDER = 3  # smallest number of grids for an order
+GRIDS_FOR_ORDER = 3  # smallest number of grids to which an order is fitted
 
 COLUMNS = {
     "case": ("body and method", ""),
@@ -47,11 +53,11 @@ COLUMNS = {
 
 
 def validation_table(elements, limits, order_margin):
-    """Return the errors of every case on every grid.
+    """Return errors and observed orders of every case on every grid.
 
     elements : numbers of elements n across L, each at least 9
-    limits : {quantity: largest relative error allowed on the finest grid}, one for each of `ORDERS`
-    order_margin : largest amount by which an observed order may be below the expected one
+    limits : {quantity: largest relative error allowed on the finest grid}, for all quantities in `ORDERS`
+    order_margin : largest allowed difference of the expected order and the observed order
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per case, quantity and grid, grids from coarse to
     fine. `passed` is 1 if the error on the finest grid is within its limit and, for three grids or more, the order is
@@ -67,9 +73,10 @@ def validation_table(elements, limits, order_margin):
 
 
 def judge_errors(errors, limits, order_margin):
-    """Return the validation table of errors; limits, order_margin : as in validation_table
+    """Fit the orders of given errors, and return the table of `validation_table` with its verdicts.
 
-    errors : its columns up to the error, grids from coarse to fine
+    errors : the columns of `COLUMNS` up to "error"; rows of a case and quantity are sorted from coarse to fine grids
+    limits, order_margin : arguments of `validation_table`
     """
     judged = []
     for (_, quantity), rows in errors.groupby(["case", "quantity"], sort=False):
@@ -82,7 +89,7 @@ def judge_errors(errors, limits, order_margin):
 
 
 def failures(table, order_margin):
-    """Return one line per failed case and quantity of a validation table: its error and order, and the limits."""
+    """Return a line of text for each failed case and quantity of a validation table: error, order and their limits."""
     finest = table[(table["passed"] == 0) & (table["elements"] == table["elements"].max())]
     return [
         f"{row.case} {row.quantity}: error {row.error:.2g} on {row.elements} elements, order {row.order:.2g}; "
@@ -92,7 +99,7 @@ def failures(table, order_margin):
 
 
 def _errors_on_grid(n):
-    """Yield every case with {quantity: error} for n elements across L."""
+    """Yield (case, {quantity: error}) for every case on the grid with n elements across L."""
     for name, body in BODIES.items():
         indenter = body.indenter(n)
         yield name, _indentation(indenter, body)
@@ -105,7 +112,10 @@ def _errors_on_grid(n):
 
 
 def _flat_punches(n):
-    """Yield errors of the stiffness of a flat disc, on the grid of the rough discs, and of flat ellipses."""
+    """Yield (case, {quantity: error}) for the stiffness of a flat disc and of flat ellipses.
+
+    The flat disc has the same elements as a rough disc with n elements across.
+    """
     disc = Indenter(cut_disc(np.zeros((n, n)), n), 1 / n)
     x = (np.arange(n) - (n - 1) / 2) / n
     ellipses = [Indenter(np.where((2 * x[:, None]) ** 2 + x**2 <= major**2, 0.0, np.nan), 1 / n) for major in ELLIPSES]
@@ -116,7 +126,11 @@ def _flat_punches(n):
 
 
 def _correspondence(disc):
-    """Return the error of the elastic depths under the impulses of contact events, against direct integration."""
+    """Return the deviation of direct integration from the correspondence principle on a rough disc.
+
+    By the principle, the disc reaches a depth at an impulse ∫F dt/η equal to F/G of the elastic disc at this depth.
+    The result compares this depth with the depth that direct integration gives at this impulse.
+    """
     events = march_events(disc, until_fraction=min(1.0, EVENTS / disc.elements))
     depth = np.unique(events.depth[1:])[::EVENTS_APART]
     elastic = indent(disc, depths=depth, tolerance=CORRESPONDENCE_TOLERANCE)
@@ -124,7 +138,7 @@ def _correspondence(disc):
 
 
 def _indentation(indenter, body):
-    """Return errors of boundary elements at given depths against the elastic solution."""
+    """Return the errors of force, stiffness and area by boundary elements, at given depths of the exact solution."""
     depth = body.mdr_profile(RADII)
     curve = indent(indenter, depths=depth, tolerance=TOLERANCE)
     return {
@@ -135,11 +149,12 @@ def _indentation(indenter, body):
 
 
 def _penetration(indenter, body):
-    """Yield force histories and errors of the correspondence on a curve with automatic levels.
+    """Yield (force history, {quantity: error}) for viscous motions computed from a loading curve.
 
-    Constant force: F = FORCE. Rising force: F(t) = 2 FORCE t/T until T, with the same impulse at T.
+    The levels of the curve are placed automatically. The history "constant" has F = FORCE until time T. The history
+    "rising" has F(t) = 2 FORCE t/T, and so the same impulse at T.
     """
-    loading = body.force(body.mdr_profile(RADII))  # F/G, and impulse over viscosity
+    loading = body.force(body.mdr_profile(RADII))  # values of F/G, and also of the impulse ∫F dt/η
     curve = indent(indenter, tolerance=TOLERANCE, until_force=1.01 * loading[-1])
     depth = body.depth(loading)
     times = np.append(0, loading * VISCOSITY / FORCE)
@@ -152,12 +167,12 @@ def _penetration(indenter, body):
 
 
 def _reduction(line, body):
-    """Return errors of the line of the MDR, at given forces, against the elastic solution."""
+    """Return the errors of depth and stiffness of a line by the MDR, at given forces of the exact elastic solution."""
     depth = body.mdr_profile(RADII)
     reduced_depth, stiffness = reduce(line).at_force(body.force(depth))
     return {"depth": _error(reduced_depth, depth), "stiffness": _error(stiffness, body.stiffness(depth))}
 
 
 def _error(value, exact):
-    """Return the root mean square of the relative deviation."""
+    """Return the root mean square of the relative deviation of values from exact values."""
     return float(np.sqrt(np.mean((value / exact - 1) ** 2)))

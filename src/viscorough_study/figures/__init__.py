@@ -1,1 +1,1 @@
-"""Figures, one module for each: it draws a matplotlib Figure from tables and ensembles, and computes nothing."""
+"""Figures of the study. Each module draws one matplotlib Figure from tables and ensembles, and computes no results."""

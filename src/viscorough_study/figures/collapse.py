@@ -1,19 +1,19 @@
-"""Draw the scaling collapse of the curves of all grids, and the exponents that collapse them."""
+"""Draw the curves of all grids in scaled variables, in which they collapse, and the exponents β that collapse them."""
 
 import numpy as np
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
 
-LIGHTEST = 0.35  # opacity of the coarsest grid
-SHIFT = 3.0  # factor between curves of successive H
+LIGHTEST = 0.35  # opacity of the curves of the coarsest grid; the finest grid has opacity 1
+SHIFT = 3.0  # factor by which the curves of successive Hurst exponents are shifted apart
 
 
 @style.figure
 def plot_collapse(curves, collapse, infinite):
-    """Draw vt/h (a) and its interface part (b) on all grids over the law, and the compatible exponents (c).
+    """Draw vt/h (a) and its interface part (b) on all grids, relative to the law, and the compatible exponents (c).
 
-    curves, collapse, infinite : tables of fits.infinite_grid.collapse_tables
+    curves, collapse, infinite : tables collapse_curves, collapse and infinite_grid of fits.infinite_grid
     """
     figure = style.new_figure(130)
     places = figure.subplot_mosaic([["whole", "interface"], ["exponents", "exponents"]])
@@ -30,7 +30,11 @@ def plot_collapse(curves, collapse, infinite):
 
 
 def _curves(axes, curves, looks):
-    """Draw (vt/h)/X^(H/(1+H)) of every grid over the scaled force, shifted by a factor for each H."""
+    """Draw the ratio of vt/h to X^(H/(1+H)) on every grid against the scaled force X N^(1+H).
+
+    N is the number of elements across. The curves of each H are shifted by a constant factor.
+    curves : rows of vt/h, or of its interface part; looks : {H: line properties}
+    """
     for rank, (hurst, look) in enumerate(looks.items()):
         grid_curves = curves[curves["hurst"] == hurst].groupby("number")
         for opacity, (number, curve) in zip(np.linspace(LIGHTEST, 1, len(grid_curves)), grid_curves, strict=True):
@@ -40,7 +44,7 @@ def _curves(axes, curves, looks):
 
 
 def _exponents(axes, collapse, infinite):
-    """Draw β − H/(1 + H) over H: intervals of exponents that collapse the curves, and infinitely fine grids."""
+    """Draw β − H/(1 + H) against H: intervals of β that collapse the curves, and β of an infinitely fine grid."""
     axes.axhline(0, color=style.GREY, linestyle=":", linewidth=0.8)
     looks = {"whole": {"color": style.BLUE, "marker": "o"}, "interface": {"color": style.VERMILION, "marker": "s"}}
     discs = collapse[(collapse["source"] == "discs") & (collapse["x_high"] == collapse["x_high"].iloc[0])]

@@ -1,4 +1,4 @@
-"""Draw the effect of the conventions that the paper leaves open on exponent and prefactor."""
+"""Draw how the exponent β and the prefactor ζ depend on the conventions that the paper leaves open."""
 
 import numpy as np
 from matplotlib.ticker import NullLocator
@@ -27,9 +27,10 @@ CONVENTION_LABELS = {
 
 @style.figure
 def plot_conventions(scaling, conventions):
-    """Draw β − H/(1 + H) and ζ/(2 − H) of the discs with 95 % intervals, as one convention or the surfaces change.
+    """Draw β − H/(1 + H) and ζ/(2 − H) of the discs, each with its 95 % interval, under one change at a time.
 
-    scaling : scaling table; conventions : {column of the table: value}, changed one at a time
+    Each row of the figure changes one of the usual conventions, or the group of surfaces.
+    scaling : scaling table; conventions : {column of the table: value}, the usual conventions
     """
     discs = scaling[scaling["source"] == "discs"]
     looks, changes = style.hurst_looks(discs["hurst"]), _changes(discs, conventions)
@@ -65,11 +66,12 @@ def plot_conventions(scaling, conventions):
 
 
 def _changes(discs, conventions):
-    """Return the rows of the figure, (label, {column: value}): the usual conventions, then one change each."""
+    """Return the rows of the figure as (label, {column: value}): first the usual conventions, then a row per change."""
     base = conventions | {"case_group": "base"}
     rows = [("as in other figures", base)]
     for column, labels in CONVENTION_LABELS.items():
-        available = set(discs[column]) if column in discs else set(labels)  # readings of the law follow from a fit
+        # The convention gamma is no column of the table; every fit can be converted to both of its values.
+        available = set(discs[column]) if column in discs else set(labels)
         others = [value for value in labels if value != conventions[column] and value in available]
         rows += [(labels[value], base | {column: value}) for value in others]
     groups = [name for name in discs["case_group"].unique() if name != "base"]

@@ -1,4 +1,4 @@
-"""Compare direct integration of the viscous problem with the law, with and without the factor 1/Γ(2 − α)."""
+"""Draw direct integration of the viscous problem and the law, with and without the factor 1/Γ(2 − α)."""
 
 import numpy as np
 
@@ -8,10 +8,10 @@ from viscorough_study.run.readable import readable
 
 @style.figure
 def plot_direct_integration(table):
-    """Draw the depth by direct integration over the elastic depth, and Eq. 8, against the elements in contact.
+    """Draw the ratio of viscous to elastic depth, by direct integration and by Eq. 8, against the elements in contact.
 
-    table : table of comparisons.direct_integration; each indenter has a panel, with the largest deviation of the ratio
-        from 1
+    Each indenter has a panel, which states the largest deviation of the ratio from 1.
+    table : table of comparisons.direct_integration
     """
     cases = list(table["case"].unique())
     layout = {"columns": min(3, len(cases)), "height": 42, "rest": 16, "xlabel": "elements in contact"}

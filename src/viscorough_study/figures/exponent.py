@@ -1,4 +1,4 @@
-"""Draw Figure 4 of the paper: the exponent β over the Hurst exponent."""
+"""Draw Figure 4 of the paper: the exponent β against the Hurst exponent."""
 
 import numpy as np
 
@@ -9,9 +9,9 @@ from viscorough_study.fits.conventions import fits
 
 @style.figure
 def plot_exponent(scaling, conventions, hurst_range):
-    """Draw β over the Hurst exponent, with 95 % intervals: lines, discs and Eq. 10.
+    """Draw β of lines and of discs, with 95 % intervals, and β of Eq. 10 against the Hurst exponent H.
 
-    scaling : scaling table; conventions : {convention: value}
+    scaling : scaling table; conventions : {convention: value} of the drawn fits (fits.conventions)
     hurst_range : range of H in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
     """
     looks = style.hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])

@@ -1,4 +1,4 @@
-"""Failure map: error and verdict of every method in every stress-test case that applies to it."""
+"""Draw the failure map: error and verdict of every method in every stress-test case that can affect the method."""
 
 from itertools import pairwise
 
@@ -18,7 +18,7 @@ MEANINGS = {
     "unnoticed": "wrong without notice",
 }
 LETTERS = {verdict: verdict[0].upper() for verdict in MEANINGS}
-# {difficulty that affects only some methods: prefixes of their names}
+# Groups of stress-test cases whose difficulty affects only some methods: {group: first words of the methods' names}.
 CONCERNED = {
     "step size": ("explicit steps",),
     "force in time": ("explicit steps",),
@@ -31,11 +31,11 @@ NORM = LogNorm(FLOOR, 10)
 
 @style.figure
 def plot_failure_map(table):
-    """Error, as colour and number, and verdict, as letter, of every method (columns) in every case (rows).
+    """Draw the error (colour and number) and the verdict (letter) of every method (columns) in every case (rows).
 
-    table : of viscorough_study.robustness.failure_map
-    A cell is blank where the difficulty does not apply to the method, unless the method refuses the case or fails
-    unnoticed.
+    A cell is blank if the difficulty of the case does not affect the method, unless the method refuses the case or
+    fails unnoticed.
+    table : table of viscorough_study.robustness.failure_map
     """
     methods, rows = list(table["method"].unique()), list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
     figure, axes = style.new_subplots(3.7 * len(rows) + 58)
@@ -69,13 +69,17 @@ def plot_failure_map(table):
 
 
 def _concerns(cell):
-    """Whether the difficulty of a case applies to the method, or the method refuses it or fails unnoticed."""
+    """Return True for cells that are not blank.
+
+    The difficulty of the case affects the method, or the method refuses the case or fails unnoticed.
+    cell : row of the table of the failure map
+    """
     names = CONCERNED.get(cell.group)
     return names is None or cell.method.startswith(names) or cell.verdict in ("refused", "unnoticed")
 
 
 def _cell_text(cell):
-    """Error to one digit and letter of the verdict; for a refusal only the letter."""
+    """Return the text in a cell: error (one digit) and letter of the verdict; for a refusal only the letter."""
     if cell.verdict == "refused":
         return LETTERS["refused"]
     number = f"{cell.error:.0e}".replace("e-0", "e-").replace("e+00", "").replace("e+0", "e")

@@ -1,11 +1,11 @@
-"""Where methods fail: shares of right and wrong results by method and by kind of case, and three causes of failure."""
+"""Draw shares of right and wrong results, by method and by kind of case, and the errors of three causes of failure."""
 
 import numpy as np
 
 from viscorough_study.figures import style
 from viscorough_study.run.names import BOX, RANGE, STEPS
 
-# {outcome: its label, its verdicts in the failure map, and its color}, from left to right in a bar
+# {outcome: (label, verdicts in the failure map, color)}, in the order of a bar from left to right
 OUTCOMES = {
     "right": ("right", ("holds", "model"), style.BLUE),
     "refused": ("refused, with a reason", ("refused",), style.PALE),
@@ -13,7 +13,7 @@ OUTCOMES = {
     "stated": ("wrong, a model beyond its documented range", ("stated",), "#f7dc9c"),
     "silent": ("silently wrong: {}", ("unnoticed",), style.BLACK),
 }
-# {method of the failure map: its name here}
+# {method of the failure map: its name in this figure}
 METHODS = {
     "path, dense": "boundary elements, dense",
     "path, grid, double": "boundary elements, double",
@@ -25,18 +25,18 @@ METHODS = {
     "media, steps": "media: time steps",
     "power law with Γ": "power law with Γ",
 }
-BAR = 0.72  # height of a bar
-ERRORS = (1.0, 0.1, 0.01, 1e-3)  # ticks
+BAR = 0.72  # height of a bar, in units of the distance between bars
+ERRORS = (1.0, 0.1, 0.01, 1e-3)  # ticks of the axes of errors
 ERROR, SHARE = "relative error", "share of the cases"
-FLOOR = 3e-4  # smallest error drawn
-HURST = 0.4  # of the power law, or the nearest one
+FLOOR = 3e-4  # lower end of the axes of errors
+HURST = 0.4  # panel (e) shows the Hurst exponent of the table that is nearest to this value
 
 
 @style.figure
 def plot_failures(table, knobs):
-    """Bars of outcomes by method (a) and by kind of case (b), and the error over three settings (c, d, e).
+    """Draw bars of outcomes by method (a) and by kind of case (b), and the error against three settings (c, d, e).
 
-    table : of robustness.failure_map; knobs : of robustness.knobs
+    table : table of robustness.failure_map; knobs : table of robustness.knobs
     """
     figure = style.new_figure(110)
     upper, lower = figure.subfigures(2, 1, height_ratios=[3, 2])
@@ -61,7 +61,10 @@ def plot_failures(table, knobs):
 
 
 def _draw_bars(axes, table):
-    """Draw a bar of shares for every name, and the number of silent failures at its end."""
+    """Draw a bar for every name in a column, with the shares of all outcomes, and its number of silent failures.
+
+    table : table of the failure map with the column `name`
+    """
     names = list(dict.fromkeys(table["name"]))
     for place, name in enumerate(names):
         verdicts, left = table.loc[table["name"] == name, "verdict"], 0.0

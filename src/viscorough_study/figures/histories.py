@@ -1,16 +1,17 @@
-"""Plot the force over depth for loading, unloading and reloading, and the recovery after a force is removed."""
+"""Draw the force against the depth in loading, unloading and reloading, and the depth after a force is removed."""
 
 from viscorough_study.figures import style
 
-FORCE_CURVE, RECOVERY = "force curve", "recovery"  # as in the table
-SYMBOLS = 25  # number of symbols of a motion
+FORCE_CURVE, RECOVERY = "force curve", "recovery"  # names of the motions in the table
+SYMBOLS = 25  # approximate number of symbols on the curve of a motion
 
 
 @style.figure
 def plot_histories(table):
-    """Plot motions of one disc: lines by the row of springs, symbols by direct integration.
+    """Draw motions of one disc: lines are computed by the row of springs, symbols by direct integration.
 
-    table : table of viscorough_study.comparisons.histories. The figure shows the Hurst exponent in the middle.
+    table : table of viscorough_study.comparisons.histories; the figure shows the disc with the middle (median) Hurst
+        exponent
     """
     exponents = sorted(table["hurst"].unique())
     hurst = exponents[len(exponents) // 2]

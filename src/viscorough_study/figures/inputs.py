@@ -1,4 +1,8 @@
-"""Read figure inputs other than tables; a function has the name of the argument and takes {argument: path}."""
+"""Read the inputs of figures that are not tables.
+
+Each function reads one argument of the functions that draw figures, and has the name of this argument. The parameter
+`files` is {argument: path of its file}.
+"""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles import pool
@@ -12,21 +16,21 @@ def examples(files):
 
 
 def ensembles(files):
-    """Return the base discs of a pool, one ensemble per case."""
+    """Return a list of the base discs of a pool, one ensemble (ensembles.pool) per case."""
     return list(pool.ensembles(pool.select(read_dataset(files["ensembles"]), group="base"), "case").values())
 
 
 def discs(files):
-    """Return the base discs of a pool, one ensemble per Hurst exponent."""
+    """Return a list of the base discs of a pool, one ensemble per Hurst exponent, by ascending exponent."""
     by_hurst = pool.ensembles(pool.select(read_dataset(files["discs"]), group="base"), "hurst")
     return [by_hurst[hurst] for hurst in sorted(by_hurst)]
 
 
 def lines(files):
-    """Return the lines of a pool, one ensemble per Hurst exponent."""
+    """Return a list of the lines of a pool, one ensemble per Hurst exponent."""
     return list(pool.ensembles(read_dataset(files["lines"]), "hurst").values())
 
 
 def groups(files):
-    """Return {group: ensemble of its measured surfaces} of a pool."""
+    """Return the measured surfaces of a pool, {group of surfaces: ensemble}."""
     return pool.ensembles(read_dataset(files["groups"]), "group")

@@ -1,4 +1,7 @@
-"""Draw interface and flat punch in series: g over X, the library's law over g, and u₀/h over the Hurst exponent."""
+"""Draw the model of interface and flat punch in series: g against X, the law relative to g, and u₀/h against H.
+
+Here g is the interface's part of vt/h, and u₀/h is the value of g on its plateau (fits.interface).
+"""
 
 import numpy as np
 import pandas as pd
@@ -7,20 +10,22 @@ from viscorough.law.calibrated_law import ACROSS, LARGEST_DEVIATION, interface_c
 from viscorough_study.comparisons.literature import cited
 from viscorough_study.figures import style
 
-SHIFT = 0.012  # distance in H between markers of grids and methods
+SHIFT = 0.012  # distance in H between the markers of different grids or methods at the same Hurst exponent
 X_SHOWN = (1e-4, 30.0)
-LEAST_SHARE = 0.01  # smallest share of g in vt/h for the law over g: vt/h is known to 0.1 %
+# Curves in (c) are drawn only if g is at least this share of X, the punch's part of vt/h: vt/h is known to 0.1 %.
+LEAST_SHARE = 0.01
 LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an ensemble
 
 
 @style.figure
 def plot_interface(table, curves, literature, periodic):
-    """Draw g of discs and periodic surfaces (a) and of lines (b), g of the law over g of discs (c), u₀/h (d).
+    """Draw g of discs and periodic surfaces (a), g of lines (b), g of the law relative to discs (c), and u₀/h (d).
 
-    table, curves : tables of fits.interface; literature : table of comparisons.literature, for u₀/h in (d)
-    periodic : table of comparisons.periodic_control
     All means are arithmetic, because compliances add. (a) to (c) show each Hurst exponent on the base grid only. The
-    law of the library is in (a) and (c), only on its own grid and at its own Hurst exponents.
+    law of the library is drawn in (a) and (c), only for the grid and the Hurst exponents of its calibration.
+
+    table, curves : tables interface and interface_curves of fits.interface
+    literature : table of comparisons.literature, for u₀/h in (d); periodic : table of comparisons.periodic_control
     """
     base = pd.concat([_on_base_grid(rows) for _, rows in table.groupby("source")])
     shown = curves.merge(base[[*LABELS, "plateau_low", "plateau_high"]], on=LABELS)
@@ -62,7 +67,10 @@ def plot_interface(table, curves, literature, periodic):
 
 
 def _on_base_grid(rows):
-    """Return rows of a source on the base grid: base ensembles, and Hurst exponents that only the grid study has."""
+    """Return the rows of a source that were computed on the base grid.
+
+    They are the base ensembles, and the ensembles of the grid study for values of H that the base ensembles lack.
+    """
     is_size = rows["case_group"] == "sizes"
     base = rows[~is_size]
     further = rows[is_size & rows["across"].isin(base["across"]) & ~rows["hurst"].isin(base["hurst"])]
@@ -70,7 +78,11 @@ def _on_base_grid(rows):
 
 
 def _draw_law(axes, ratios, curve, law, look):
-    """Draw g of the law of the library in its range, and over g of a curve, with the interval of the curve."""
+    """Draw g of the library's law within the law's range of X, and the ratio of this g to g of a curve.
+
+    The band of the ratio is the interval of the curve.
+    axes, ratios : axes of g and of the ratio
+    """
     curve = curve[curve["x"].between(law.x_low, law.x_high)]
     law_part = law.velocity(curve["x"].to_numpy()) - curve["x"]
     axes.plot(curve["x"], law_part, color=style.BLACK, linewidth=0.6)
@@ -81,7 +93,7 @@ def _draw_law(axes, ratios, curve, law, look):
 
 
 def _name_discs(axes, table):
-    """State the number of discs in the mean of each curve of the law."""
+    """State how many discs are averaged in each curve that is compared with the law."""
     shown = table[(table["across"] == ACROSS) & table["hurst"].isin(interface_calibration()["hurst"])]
     hurst_by_number = shown.sort_values("hurst").groupby("realizations", sort=False)["hurst"]
     labels = [f"{number:g} discs: $H$ = {', '.join(f'{h:g}' for h in hurst)}" for number, hurst in hurst_by_number]
@@ -90,7 +102,7 @@ def _name_discs(axes, table):
 
 
 def _draw_literature(axes, literature):
-    """Draw u₀/h from the literature, labelled directly: as a line if it is independent of H, otherwise as a band."""
+    """Draw and label u₀/h of published sources: as a line if u₀/h is independent of H, otherwise as a band."""
     stated = literature[literature["quantity"] == "u0"].dropna(subset=["hurst", "theirs_low"])
     for (source, year), rows in stated.groupby(["source", "year"], sort=False):
         name, hurst, low, high = cited(source, year), rows["hurst"], rows["theirs_low"], rows["theirs_high"]
@@ -104,9 +116,9 @@ def _draw_literature(axes, literature):
 
 
 def _draw_plateaus(axes, table, looks):
-    """Draw u₀/h over H, with a marker for each grid of the discs, and a marker for the lines.
+    """Draw u₀/h against H, with a different marker for each grid of the discs, and a marker for the lines.
 
-    Lines are shown on the base grid only: their u₀ varies far less with the number of points than with H.
+    Lines are shown on the base grid only, because u₀ of lines varies far less with the number of points than with H.
     """
     discs = table["source"] == "discs"
     names = np.where(discs, table["across"].astype(str) + " across", "lines (MDR)")

@@ -10,7 +10,7 @@ from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.fits.conventions import fits
 from viscorough_study.run.readable import readable
 
-# {quantity: its label in the table of combinations, and the size of its unit}
+# {quantity: (label in the table of combinations, unit of the label in SI units)}
 QUANTITIES = {
     "force": ("$F$ (N)", 1.0),
     "viscosity": (r"$\eta$ (Pa s)", 1.0),
@@ -21,16 +21,18 @@ QUANTITIES = {
 
 @style.figure
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
-    """Draw vt/h over X as in the paper's Figure 2, velocity over time in SI units, and a table of the combinations.
+    """Draw vt/h against X (the paper's Figure 2), velocity against time in SI units, and a table of the combinations.
+
+    A case is a Hurst exponent with a combination of force, viscosity, diameter and rms height.
 
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
-    scaling : scaling table, which has region (b); conventions : {column of the table: value}
-    fraction_min : smallest fraction of defined realizations for which a mean is drawn
+    scaling : scaling table, with the ends of region (b); conventions : {column of the table: value}
+    fraction_min : a mean is drawn if at least this fraction of the realizations has a value
 
-    Region (a), with one element in contact, is grey, and its last decade is drawn. Bars at the bottom are the windows
-    of region (b). The rms height is the combination's value, which is exact if h is taken over the same points as in
-    the generation.
+    Region (a), with one element in contact, is grey; only its last decade is drawn. Bars at the bottom mark region (b)
+    of each Hurst exponent. Velocities in SI units use the rms height of the combination. These velocities are
+    exact if h is measured over the points whose rms height was set when the surfaces were generated.
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in ensembles)
     figure = style.new_figure(112)
@@ -44,7 +46,8 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
         force, viscosity, length, rms = (combinations[case][name] for name in ("force", "viscosity", "diameter", "rms"))
         time = 4 * curve.x * viscosity * rms * length / force
         velocity = curve.velocity * rms / time
-        one_element = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)  # and the next
+        # The grey curve of one element includes the first X with several elements, so that it meets the coloured curve.
+        one_element = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)
         for axes, x, y in ((raw, time, velocity), (collapsed, curve.x, curve.velocity)):
             axes.plot(x[one_element], y[one_element], color=style.PALE, zorder=1)
             axes.plot(x[curve.several], y[curve.several], label=case, **look)
@@ -65,12 +68,12 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
 
 
 def _combination(case):
-    """Return the name of the combination in the name of a case, <Hurst exponent>_<combination>."""
+    """Return the combination from the name of a case, which has the form <Hurst exponent>_<combination>."""
     return case.partition("_")[2]
 
 
 def _tabulate(axes, combinations):
-    """Draw a table of the combinations: a column for each, a row for each quantity."""
+    """Draw a table with a column for each combination and a row for each quantity."""
     axes.axis("off")
     cells = [
         [readable(at[quantity] / size) for at in combinations.values()] for quantity, (_, size) in QUANTITIES.items()
@@ -83,7 +86,10 @@ def _tabulate(axes, combinations):
 
 
 def _mark_limits(axes, across):
-    """Draw the limits (a) and (c), vt/h = X/κ of one element and of a flat punch, over X."""
+    """Draw the lines vt/h = X/κ of region (a), with κ of one element, and of region (c), with κ of a flat punch.
+
+    across : number of elements across the discs
+    """
     bottom, top = axes.get_ylim()
     axes.autoscale(False)
     for stiffness, low, start, text, side in (
@@ -92,14 +98,14 @@ def _mark_limits(axes, across):
     ):
         axes.plot([stiffness * low, stiffness * top], [low, top], color=style.GREY, linestyle=":", linewidth=0.8)
         y = low * (top / low) ** start
-        # The line through the origin has slope 1 in the logarithms; this is its angle on the page.
+        # Angle of the line in linear coordinates; transform_rotates_text converts it to the angle on the page.
         angle = np.degrees(np.arctan(1 / stiffness))
         along = {"rotation": angle, "rotation_mode": "anchor", "transform_rotates_text": True}
         axes.text(stiffness * y, y, text, color=style.GREY, va=side, **along)
 
 
 def _mark_windows(axes, looks, scaling, conventions):
-    """Draw the windows of region (b) as bars at the bottom, over X."""
+    """Mark region (b) of each Hurst exponent by a horizontal bar at the bottom of the axes."""
     bar = {"linewidth": 2.5, "solid_capstyle": "butt", "transform": axes.get_xaxis_transform()}
     for rank, (hurst, look) in enumerate(reversed(looks.items())):
         for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():

@@ -1,9 +1,9 @@
-"""Levels placed automatically for a scene, compared with levels placed by hand and naively."""
+"""Draw error and cost of loading curves whose levels are placed automatically, by hand, and naively."""
 
 from viscorough_study.figures import style
 from viscorough_study.run.names import AUTOMATIC, BY_HAND, NAIVE
 
-# {choice: label, color, marker}
+# {placement of the levels: (label, color, marker)}
 CHOICES = {
     AUTOMATIC: ("automatic", style.BLUE, "o"),
     BY_HAND: ("by hand, after trials", style.GREEN, "s"),
@@ -14,15 +14,15 @@ TITLES = {
     "region (b)": "Rough disc, light contact",
     "full curve": "Rough disc, to 90 % contact",
 }
-ERRORS = (0.1, 1e-2, 1e-3, 1e-4)  # ticks
-FLOOR = 3e-5  # smaller errors are drawn at this value, as a line of the axes
+ERRORS = (0.1, 1e-2, 1e-3, 1e-4)  # ticks of the axis of errors
+FLOOR = 3e-5  # smaller errors are drawn at this value, at a tick labelled with ≤
 
 
 @style.figure
 def plot_level_placement(table):
-    """Error of the depth over processor time, a curve for each choice of levels, for every scene.
+    """Draw the error of the depth against processor time: a panel per scene, a curve per placement of the levels.
 
-    table : of viscorough_study.performance.level_placement
+    table : table of viscorough_study.performance.level_placement, which explains the scenes
     """
     names = list(table["scene"].unique())
     figure, panels = style.new_panels(

@@ -10,15 +10,16 @@ from viscorough_study.fits.conventions import fits
 
 @style.figure
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
-    """Draw vt/h over the right side of Eq. 12 with its Γ, and below it their ratio.
+    """Draw vt/h against the right side of Eq. 12 with its factor Γ, and in the lower panel the ratio of the two.
 
-    discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13), and
-        are drawn at the Hurst exponents of discs
-    scaling : scaling table, which has region (b); conventions : {column of the table: value}
-    fraction_min : smallest fraction of defined realizations for which a mean is drawn
+    discs, lines : ensemble datasets, one for each Hurst exponent. Lines have the rms height of the discs (Eq. 13); only
+        lines with a Hurst exponent of discs are drawn
+    scaling : scaling table, with the ends of region (b); conventions : {column of the table: value}
+    fraction_min : a mean is drawn if at least this fraction of the realizations has a value
 
-    Symbols, about eight per decade of X, are filled in region (b); bars are two standard errors to either side.
-    Region (a) is omitted. The lower panel is cut to the range of the ratios in region (b).
+    Discs are drawn as about eight symbols per decade of X, filled in region (b) and hollow elsewhere. Their bars extend
+    two standard errors to either side. Region (a) is omitted. The lower panel is cut to the range of the ratios in
+    region (b), but extends at least from 0.5 to 2.
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in discs)
     figure, panels = style.new_subplots(120, 2, width=style.NARROW, sharex=True, height_ratios=(1.7, 1))
@@ -54,7 +55,10 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
 
 
 def _draw_discs(panels, curve, hurst, windows, look):
-    """Draw the symbols of one Hurst exponent, filled in its windows, and return the ratios drawn in them."""
+    """Draw the symbols of one Hurst exponent, filled in region (b), and return the drawn ratios in region (b).
+
+    curve : mean curve of the discs; windows : rows of fits, with the ends x_low and x_high of region (b)
+    """
     look = look | {"linestyle": "", "markersize": 3, "capsize": 0, "elinewidth": 0.8}
     right_side = reference.rate_law(curve.x, hurst, gamma=True)
     step = max(1, np.searchsorted(curve.x, 10 * curve.x[0]) // 8)

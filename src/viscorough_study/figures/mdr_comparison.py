@@ -1,4 +1,4 @@
-"""Compare the method of dimensionality reduction (MDR) with boundary elements, surface by surface."""
+"""Draw the comparison of the method of dimensionality reduction (MDR) with boundary elements, surface by surface."""
 
 import numpy as np
 
@@ -7,11 +7,12 @@ from viscorough_study.figures import style
 
 @style.figure
 def plot_mdr_comparison(table):
-    """Compare lines with discs of the same spectrum: κ (a, b), contact fraction (c), gap (d), correlation (e), force
-    (f).
+    """Draw ratios of lines to discs with the same spectrum (a to d, f), and the correlation of their κ (e).
 
+    The ratios are the mean ratio of κ (a), the typical factor between κ of line and disc for a single surface (b), and
+    the mean ratios of the contact fraction (c), of the mean gap (d), and of the force at the depth of the disc (f).
+    Bands are 95 % intervals of the means; in (e) the band contains 95 % of the correlations of unrelated pairs.
     table : table of viscorough_study.comparisons.mdr_comparison
-    Bands are 95 % intervals of the means; in (e), 95 % of the correlations of unrelated pairs.
     """
     figure, panels = style.new_subplots(185, 3, 2, sharex=True)
     stiffness, scatter, area, gap, correlation, force = panels.flat

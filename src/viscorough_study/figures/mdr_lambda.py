@@ -1,4 +1,4 @@
-"""Draw λ of the lines that represent discs, and the agreement of lines and discs with the best λ."""
+"""Draw λ (Eq. 13) of the lines that represent discs, and how well lines with the best λ agree with the discs."""
 
 import numpy as np
 
@@ -6,18 +6,19 @@ from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.figures import style
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
-_SHIFT = 0.02  # distance in H between the markers of one Hurst exponent
-# The axes end this factor beyond the values of region (b), in which the paper claims a constant λ. Below region (b) λ
-# falls, because lines have finer grids. Above it λ grows without bound as contact becomes complete.
+_SHIFT = 0.02  # distance in H between the markers of different windows at the same Hurst exponent
+# The paper claims a constant λ only in region (b), so the vertical axes end this factor beyond the values in region
+# (b). At smaller X, λ falls, because lines have finer grids. At larger X, λ grows without bound as contact becomes
+# complete.
 _MARGIN = 1.3
 
 
 @style.figure
 def plot_mdr_lambda(lambdas, exponents):
-    """Draw λ over X (a), vt/h of lines with the best single λ over vt/h of discs (b), and exponents in equal windows
-    (c).
+    """Draw λ against X (a), the ratio of vt/h of lines to discs (b), and the differences of their exponents (c).
 
-    lambdas, exponents : tables of viscorough_study.comparisons.mdr_equivalence
+    The lines of (b) have the best single λ of their Hurst exponent. The exponents of (c) are fitted in equal windows.
+    lambdas, exponents : tables mdr_lambda and mdr_exponents of viscorough_study.comparisons.mdr_equivalence
     """
     figure, (values, ratios, differences) = style.new_subplots(75, 1, 3)
     looks = style.hurst_looks(exponents["hurst"])
@@ -48,5 +49,5 @@ def plot_mdr_lambda(lambdas, exponents):
 
 
 def _limits(rows, name):
-    """Return limits of a logarithmic axis around a column and its intervals; None without rows."""
+    """Return the ends of a logarithmic axis that shows the intervals of the column `name`; None without rows."""
     return (rows[f"{name}_low"].min() / _MARGIN, rows[f"{name}_high"].max() * _MARGIN) if len(rows) else None

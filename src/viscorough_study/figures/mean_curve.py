@@ -1,4 +1,4 @@
-"""Mean velocity of an ensemble in the conventions of the figures, for the kinetics and the master curve."""
+"""Select the mean velocity of an ensemble in the conventions of the figures."""
 
 from types import SimpleNamespace
 
@@ -8,16 +8,18 @@ from viscorough_study.figures.style import count_text
 
 
 def mean_curve(ensemble, conventions, fraction_min):
-    """Return means over the defined realizations of an ensemble dataset, arrays of shape (abscissae,).
+    """Return the mean curve of an ensemble dataset: a namespace of arrays of shape (abscissae,).
 
-    conventions : {column of the scaling table: value}
-    fraction_min : smallest fraction of defined realizations for which a mean is drawn
+    conventions : {column of the scaling table: value}, which selects the average and the rms convention
+    fraction_min : a mean is unbiased if at least this fraction of the realizations has a value
 
-    x : X; velocity : vt/h, nan if too few realizations are defined for an unbiased mean
+    The namespace has these arrays:
+    x : abscissae X
+    velocity : mean of vt/h over the realizations that have a value, nan if the mean is biased
     error : two standard errors of ln(vt/h)
-    several : True if the mean is drawn and several elements are in contact, beyond region (a)
+    several : True if the mean is unbiased and several elements are in contact, that is, beyond region (a)
     """
-    available = ensemble["rms_convention"].values.tolist()  # lines have a single convention
+    available = ensemble["rms_convention"].values.tolist()  # lines have a single rms convention
     mean = ensemble.sel(rms_convention=conventions["rms_convention"] if len(available) > 1 else available[0])
     defined = mean["fraction_defined"].values >= fraction_min
     return SimpleNamespace(
@@ -29,7 +31,10 @@ def mean_curve(ensemble, conventions, fraction_min):
 
 
 def realizations_text(ensembles):
-    """Return the number of averaged realizations as text; the smallest number applies at the largest X."""
+    """Return the number of averaged realizations as text, such as "6 to 54".
+
+    The smallest number counts only realizations whose curve was computed up to the largest X.
+    """
     counts = []
     for ensemble in ensembles:
         until_x = np.broadcast_to(ensemble["until_x"].values, ensemble.sizes["realization"])

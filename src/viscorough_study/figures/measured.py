@@ -1,4 +1,4 @@
-"""Measured surfaces compared with generated discs."""
+"""Draw measured surfaces in comparison with generated discs."""
 
 import numpy as np
 
@@ -11,13 +11,13 @@ _LINES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))
 
 @style.figure
 def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min):
-    """Draw vt/h over X of measured and generated surfaces (a), and the depth over time under given forces (b).
+    """Draw vt/h of measured and generated surfaces against X (a), and the depth against time under given forces (b).
 
-    groups : {name: ensemble dataset of its scans}; discs : ensemble datasets of discs, one for each Hurst exponent
-    scaling : table of fits of the groups; kinetics : table of depth over time by scan, medium and force, which may be
-        empty
+    groups : {name of a group of scans: its ensemble dataset}
+    discs : ensemble datasets of generated discs, one for each Hurst exponent
+    scaling : table measured_fits; kinetics : table measured_kinetics, which may be empty (comparisons.measured)
     conventions : {column of a scaling table: value}
-    fraction_min : smallest fraction of defined discs for which a mean is drawn
+    fraction_min : a mean is drawn if at least this fraction of the discs has a value
     """
     figure, (law, motion) = style.new_subplots(85, 1, 2)
     looks, hursts = style.series_looks(groups), style.hurst_looks(ds["hurst"].item() for ds in discs)

@@ -1,4 +1,4 @@
-"""Kinetics of the discs in other media."""
+"""Draw the kinetics of the discs in media other than the paper's."""
 
 import numpy as np
 
@@ -6,16 +6,19 @@ from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
 from viscorough_study.run.cases import medium_label
 
-_LOWEST = 1e-6  # lower end of the axis over the largest velocity, since velocities in a solid decay exponentially
+# Lower end of the axis of velocities, as a share of the largest velocity, since velocities in a solid decay
+# exponentially.
+_LOWEST = 1e-6
 HOLLOW = {"linestyle": "", "markersize": 3, "markerfacecolor": "none"}
 
 
 @style.figure
 def plot_media(table):
-    """Draw vt/h over time, a panel for each medium, and the depth u/h over X = F J(t)/(4hL) for all media.
+    """Draw vt/h against time, with a panel for each medium, and u/h of all media against X = F J(t)/(4hL).
 
+    J is the creep compliance of the medium. Dotted lines have slope 1. Dashed lines have the slope H/(1 + H) of Eq. 10,
+    and meet the curve at X = 0.01.
     table : table of viscorough_study.comparisons.media_kinetics
-    Dotted lines have slope 1; dashed lines have the slope H/(1 + H) of Eq. 10 and pass through X = 0.01.
     """
     names, looks = list(dict.fromkeys(table["medium"])), style.hurst_looks(table["hurst"])
     figure, panels = style.new_panels(len(names) + 1, 2, height=55, rest=15)
@@ -40,7 +43,10 @@ def plot_media(table):
 
 
 def _plot_velocity(axes, table, looks):
-    """Draw vt/h over t in one medium, with guides."""
+    """Draw vt/h against time in one medium, with guide lines of the slopes 1 and H/(1 + H).
+
+    table : rows of this medium; looks : {H: line properties}
+    """
     for hurst, part in table.groupby("hurst"):
         axes.plot(part["time"], part["velocity"], **looks[hurst] | {"marker": ""})
     axes.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $vt/h$")

@@ -1,4 +1,4 @@
-"""Exponent β of ensembles on grids from coarse to fine."""
+"""Draw the exponent β of ensembles on grids from coarse to fine."""
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
@@ -9,11 +9,11 @@ CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 
 @style.figure
 def plot_sizes(table, conventions):
-    """Draw β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
+    """Draw β against the number of elements, in region (b) for discs (a) and lines (b), in a fixed window (c, d).
 
+    The fixed window in (c) and (d) is the fixed window of the table with the largest X. Colours distinguish Hurst
+    exponents. Dotted lines are H/(1 + H), Eq. 10. Crosses are controls: discs whose spectrum has a roll-off.
     table : table of fits.fit_table.sizes_table; conventions : {column of the table: value}
-    The fixed window is the window at the largest X. Colours distinguish Hurst exponents; dotted lines are H/(1 + H),
-    Eq. 10; crosses are controls, discs whose spectrum has a roll-off.
     """
     fixed = table[~table["window_rule"].isin(FITTED["window_rule"])].sort_values("x_low", kind="stable")
     rules = [conventions["window_rule"], *fixed["window_rule"].tail(1)]
@@ -35,13 +35,13 @@ def plot_sizes(table, conventions):
 
 
 def _panel(axes, table, conventions, source, looks):
-    """Draw β of discs or lines in one window."""
+    """Draw β of one source, "discs" or "lines", in the window that the conventions name."""
     own_rms = {"rms_convention": "line"} if source == "lines" else {}
     for rank, (hurst, look) in enumerate(looks.items()):
         rows = fits(table, conventions | own_rms, source=source, case_group="sizes", hurst=hurst)
         axes.axhline(exponent_beta(hurst), color=look["color"], linestyle=":", linewidth=0.8)
         for row in rows.sort_values("elements").itertuples():
-            shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # keeps intervals apart
+            shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # so that intervals of different H do not overlap
             style.mark_with_interval(axes, shifted, row.beta, (row.beta_low, row.beta_high), look)
     if source == "discs":
         for row in fits(table, conventions, source="discs", case_group="controls").itertuples():

@@ -1,35 +1,37 @@
-"""Speed against accuracy: of one surface, of the mean of many surfaces, and of the solver on its grid."""
+"""Draw error against processor time: for one surface, the mean of many surfaces, and the solver on a given grid."""
 
 import numpy as np
 
 from viscorough_study.figures import style
 from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, REQUEST
 
-ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # lines of equal error
-SMALL_ERRORS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)
+ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # ticks of the axes of errors in (a) to (c)
+SMALL_ERRORS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)  # ticks of the axis of errors in (d)
 TIME, ERROR = "processor time (s)", "error of the velocity $v$"
-LEFT = 0.02  # place of a model without cost, as a share of the width of the axes
-LEAST_DISTANCE = 0.055  # of labels, as a share of the height of the axes
-GRIDS = (style.SKY_BLUE, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE)  # from coarse to fine
+LEFT = 0.02  # horizontal place of a model that costs no time, as a share of the width of the axes
+LEAST_DISTANCE = 0.055  # smallest vertical distance of labels, as a share of the height of the axes
+# Colors of the grids, from coarse to fine.
+GRIDS = (style.SKY_BLUE, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE)
 PATH = "path, at the depths"
-# {method: label, color, and place of the label from the first point}
+# {method: (label, color, offset of the label from the first point [points])}
 SOLVERS = {
     PATH: ("viscorough", style.BLUE, (-4, 5)),
     "implicit": ("implicit steps", style.GREEN, (5, -9)),
     "explicit, logarithmic steps": ("explicit steps", style.PURPLE, (5, 2)),
 }
-RACE, RACE_TOLERANCE = "eight levels", 1e-6  # task of the other solvers, and residual to which it is solved
-ACROSS = 257  # largest grid of the solvers
+# Task of the comparison with other solvers, and the residual that all solvers reach in this task.
+RACE, RACE_TOLERANCE = "eight levels", 1e-6
+ACROSS = 257  # largest number of elements across in (d)
 FLOOR = 1e-10  # smaller errors are drawn at this value
 
 
 @style.figure
 def plot_speed(one_surface, means, methods, other_solvers):
-    """Error over processor time, for one surface (a, b), the mean of many (c), and the solver on its grid (d).
+    """Draw error against processor time: one surface (a, b), the mean of many (c), the solver on a given grid (d).
 
     one_surface, means, methods : tables of performance.one_surface, comparisons.mean_of_surfaces and
         performance.measurement
-    other_solvers : rows of resources/published/other_solvers.csv, with ratios of times
+    other_solvers : rows of resources/published/other_solvers.csv, with ratios of their times to times of viscorough
     """
     figure, ((left, right), (many, solver)) = style.new_subplots(122, 2, 2)
     velocity = one_surface[one_surface["quantity"] == "velocity"]
@@ -53,7 +55,7 @@ def _lines_of_equal_error(axes, errors, limits):
 
 
 def _limits(rows):
-    """Ends of the axis of errors."""
+    """Return the ends of the axis of errors that shows all rows."""
     return 0.5 * rows["error"].min(), max(2 * rows["error"].max(), 0.6)
 
 
@@ -62,7 +64,7 @@ def _power(number):
 
 
 def _draw_free(axes, rows, above=False):
-    """Draw the law, which costs nothing, at the left edge, with its label above or below it."""
+    """Draw the law, which costs no time, as a marker at the left edge, and its label above or below the marker."""
     place, edge = (LEFT, rows["error"].iloc[0]), axes.get_yaxis_transform()
     look = {"color": style.VERMILION, "clip_on": False}
     axes.plot(*place, "D", transform=edge, markersize=5, **look)
@@ -71,7 +73,10 @@ def _draw_free(axes, rows, above=False):
 
 
 def _label_ends(axes, ends, side="right"):
-    """Label curves on one side, without overlap; ends : [(text, (least, largest) x, y, color)]"""
+    """Label curves at their left or right ends, so that the labels do not overlap.
+
+    ends : list of (label, (smallest, largest) x of the curve, y of the label, color); side : "left" or "right"
+    """
     bottom, top = np.log(axes.get_ylim())
     lowest = -np.inf
     for text, x, y, color in sorted(ends, key=lambda end: end[2]):
@@ -82,18 +87,18 @@ def _label_ends(axes, ends, side="right"):
 
 
 def _say(axes, text):
-    """State what distinguishes the points of each curve."""
+    """Write a text in the upper right corner of the axes: what changes from point to point along a curve."""
     axes.text(0.97, 0.96, text, transform=axes.transAxes, ha="right", va="top", color=style.GREY)
 
 
 def _draw_curve(axes, curve, look, color, label):
-    """Draw a curve, and return its label, as for `_label_ends`."""
+    """Draw a curve, and return the entry of the curve in the list `ends` of `_label_ends`."""
     axes.plot("processor_s", "error", look, data=curve, color=color, markersize=3)
     return label, tuple(curve["processor_s"].agg(["min", "max"])), curve["error"].iloc[-1], color
 
 
 def _draw_one_surface(axes, rows):
-    full = rows[rows["model"] == GRID]["across"].max()  # to which all are compared
+    full = rows[rows["model"] == GRID]["across"].max()  # the full map, with which all models are compared
     grids = rows[(rows["model"] == GRID) & (rows["across"] < full)]
     ends = [
         _draw_curve(axes, curve, "o-", color, f"{across:g} × {across:g}")
@@ -160,7 +165,11 @@ def _draw_solvers(axes, methods, velocity, other_solvers):
 
 
 def _draw_others(axes, rough, other_solvers):
-    """Draw other solvers at the error of the elastic path that has the residual to which they are solved."""
+    """Draw other solvers as points in the axes of error against processor time.
+
+    All solvers are run to the residual `RACE_TOLERANCE`, so their error is the error of viscorough's elastic path at
+    this tolerance. The time of a solver is the time of the elastic path, times the published ratio of their times.
+    """
     own = rough[(rough["method"] == PATH) & (rough["value"] <= RACE_TOLERANCE)]
     races = [race for race in other_solvers if race["task"] == RACE]
     if not len(own) or not races:
@@ -169,7 +178,7 @@ def _draw_others(axes, rough, other_solvers):
     nearest = min((race["hurst"] for race in races), key=lambda value: abs(value - hurst))
     ratios = {}
     for race in races:
-        if race["hurst"] == nearest:  # of several modes of a solver the fastest
+        if race["hurst"] == nearest:  # of several modes of a solver only the fastest is drawn
             name = race["solver"].split()[0]
             ratios[name] = min(race["ratio"], ratios.get(name, np.inf))
     for rank, (name, ratio) in enumerate(sorted(ratios.items(), key=lambda item: item[1])):

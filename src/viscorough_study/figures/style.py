@@ -23,10 +23,10 @@ from viscorough.io.atomic import atomic_write
 from viscorough_study.run.readable import readable
 
 MM = 1 / 25.4
-WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one column
-SMALL = 7  # points
-DPI = 200  # resolution of pictures
-FEW_DECADES = 2.1  # logarithmic axes over fewer decades need ticks between decades
+WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one column [inch]
+SMALL = 7  # size of the smallest text [points]
+DPI = 200  # resolution of PNG files [dots per inch]
+FEW_DECADES = 2.1  # logarithmic axes that span fewer decades also have ticks between decades
 GREY, PALE = "0.4", "0.8"
 # The colours of Okabe and Ito, distinguishable with any colour vision.
 BLACK, BLUE, SKY_BLUE, GREEN = "#000000", "#0072b2", "#56b4e9", "#009e73"
@@ -35,7 +35,7 @@ ORANGE, VERMILION, PURPLE = "#e69f00", "#d55e00", "#cc79a7"
 SERIES_COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, SKY_BLUE, ORANGE)
 SERIES_MARKERS = "osD^v<>ph*X"
 DASHED, DASH_DOTTED, DOTTED = (0, (6, 1.5)), (0, (6, 1, 1, 1)), (0, (1.5, 1))
-# Markers and line styles of the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, as `hurst_looks` orders them.
+# Markers and line styles of the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, in this order, for `hurst_looks`.
 HURST_MARKERS = "X^o>P*vDs<p"
 HURST_LINES = (DOTTED, DASH_DOTTED, "-", DASHED, DASHED, DOTTED, DASH_DOTTED, DOTTED, DASHED, "-", "-")
 
@@ -60,7 +60,7 @@ STYLE = {
     "legend.handlelength": 2.2,
     "legend.labelspacing": 0.3,
     "figure.constrained_layout.use": True,
-    "pdf.fonttype": 42,  # TrueType: embedded, and the text can be searched
+    "pdf.fonttype": 42,  # embed TrueType fonts, so that the text can be searched
 }
 
 
@@ -68,9 +68,9 @@ in_style = rc_context(STYLE)
 
 
 def figure(plot):
-    """Decorate a plotting function: it draws in this style, with the ticks of `_set_ticks` on logarithmic axes.
+    """Decorate a function that draws a figure, so that it draws in `STYLE`, with `_set_ticks` on logarithmic axes.
 
-    It refuses a table without rows as its first argument.
+    The decorated function raises ValueError if its first argument is a table without rows.
     """
 
     @wraps(plot)
@@ -81,7 +81,7 @@ def figure(plot):
             raise ValueError(f"{plot.__name__}: the table has no rows; at least one is needed")
         drawn = plot(*arguments, **options)
         for axes in drawn.axes:
-            # Labels of minor ticks are empty, but matplotlib would measure each of them.
+            # Labels of minor ticks are empty. They are turned off, because matplotlib would still measure each of them.
             axes.tick_params(which="minor", labelbottom=False, labelleft=False)
             for axis in (axes.xaxis, axes.yaxis):
                 if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
@@ -97,17 +97,20 @@ def new_figure(height, width=WIDE):
 
 
 def new_subplots(height, rows=1, columns=1, width=WIDE, **options):
-    """Return a figure, as from `new_figure`, and its axes, as from Figure.subplots."""
+    """Return a new figure and its axes.
+
+    height, width : size of the figure, see `new_figure`; rows, columns, options : arguments of Figure.subplots
+    """
     figure = new_figure(height, width)
     return figure, figure.subplots(rows, columns, **options)
 
 
 def new_panels(count, columns, height, rest, *, xlabel="", ylabel="", **sharing):
-    """Return a figure and the list of its `count` panels, in rows of `columns`.
+    """Return a figure and a list of its `count` panels (axes), with `columns` panels in a row.
 
-    height : height of a row of panels; rest : total height of titles, labels and legends [mm]
-    xlabel : label of the lowest panel of a column; ylabel : label of the first panel of a row; sharing : as in
-    Figure.subplots
+    height : height of a row of panels [mm]; rest : total height of titles, labels and legends [mm]
+    xlabel : label of the lowest panel of each column; ylabel : label of the first panel of each row
+    sharing : sharex and sharey of Figure.subplots
     """
     rows = -(-count // columns)
     figure, grid = new_subplots(height * rows + rest, rows, columns, squeeze=False, **sharing)
@@ -124,9 +127,10 @@ def new_panels(count, columns, height, rest, *, xlabel="", ylabel="", **sharing)
 
 @in_style
 def save_figure(figure, *paths):
-    """Write a figure atomically to each path, in the format of its suffix (.png, .pdf).
+    """Write a figure to files; the suffix of each path (.png or .pdf) determines the format of the file.
 
-    The same figure gives the same bytes. Raises ValueError for another suffix, and for a path that cannot be written.
+    Files are written atomically, and the same figure gives the same bytes. Raises ValueError for another suffix, and
+    for a path that cannot be written.
     """
     for path in paths:
         if (suffix := Path(path).suffix) not in _WRITERS:
@@ -134,16 +138,20 @@ def save_figure(figure, *paths):
         figure.set_dpi(DPI)
         with atomic_write(path) as temporary:
             _WRITERS[suffix](figure, temporary)
-        figure.set_layout_engine("none")  # keep the layout of the first format; computing it takes as long as drawing
+        # Keep the layout of the first file: to compute it again would take as long as drawing.
+        figure.set_layout_engine("none")
 
 
 def _write_pdf(figure, path):
-    # Figure.savefig would draw everything twice.
+    # Figure.savefig is not used, because it would draw everything twice.
     FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None})
 
 
 def _write_png(figure, path):
-    """Write a PNG file of at most 256 colours, with a third of the size: the page embeds all figures."""
+    """Write a PNG file of at most 256 colours, which is a third as large as a file of all colours.
+
+    Size matters because the page embeds all figures.
+    """
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     colours = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3]).quantize(256, dither=Image.Dither.NONE)
@@ -154,23 +162,24 @@ _WRITERS = {".png": _write_png, ".pdf": _write_pdf}
 
 
 def hurst_looks(exponents):
-    """Return {Hurst exponent: color, marker, linestyle}, by ascending exponent."""
+    """Return {Hurst exponent: line properties}, by ascending exponent; the properties are color, marker, linestyle."""
     looks = {}
     for hurst in sorted(set(exponents)):
-        # Distinct for all multiples of 0.1, and for neighbouring exponents. The power spreads the colours near H = 1.
+        # Ranks, and so markers, differ for all multiples of 0.1, and for neighbouring exponents. The power 1.5 spreads
+        # the colours near H = 1.
         rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["viridis"](0.85 * hurst**1.5)
         looks[hurst] = {"color": color, "marker": HURST_MARKERS[rank], "linestyle": HURST_LINES[rank]}
     return looks
 
 
 def series_looks(names):
-    """Return {name: color, marker}, in the order of the names; the pairs differ, even if colours repeat."""
+    """Return {name: line properties}, in the order of the names; no two names share both color and marker."""
     looks = zip(dict.fromkeys(names), cycle(SERIES_COLORS), cycle(SERIES_MARKERS), strict=False)
     return {name: {"color": color, "marker": marker} for name, color, marker in looks}
 
 
 def count_text(counts):
-    """Return a number, or the smallest and largest number, as text: "6", "6 to 54"."""
+    """Return the smallest and the largest count as text, such as "6 to 54", or "6" if all counts are equal."""
     low, high = min(counts), max(counts)
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"
 
@@ -181,17 +190,20 @@ def handle(label, **look):
 
 
 def hurst_handles(looks, **changes):
-    """Return legend handles of the Hurst exponents; changes : line properties that replace those of the looks"""
+    """Return a legend entry for each Hurst exponent.
+
+    looks : {Hurst exponent: line properties}; changes : line properties of all entries, which override `looks`
+    """
     return [handle(f"$H={hurst:g}$", **(look | changes)) for hurst, look in looks.items()]
 
 
 def draw_band(axes, rows, name, color, alpha=0.15):
-    """Draw a band over x between the columns `name`_low and `name`_high."""
+    """Fill the band between the columns `name`_low and `name`_high as functions of the column x."""
     axes.fill_between(rows["x"], rows[f"{name}_low"], rows[f"{name}_high"], color=color, alpha=alpha, linewidth=0)
 
 
 def mark_with_interval(axes, x, y, interval, look, along="y"):
-    """Draw a marker at (x, y) and its interval (low, high) along x or y, which need not contain it."""
+    """Draw a marker at (x, y), and an interval (low, high) along x or y; the marker may lie outside the interval."""
     middle, half = np.mean(interval), np.diff(interval) / 2
     center = (x, middle) if along == "y" else (middle, y)
     axes.errorbar(*center, **{f"{along}err": half}, fmt="none", ecolor=look["color"])
@@ -199,9 +211,11 @@ def mark_with_interval(axes, x, y, interval, look, along="y"):
 
 
 def _set_ticks(axis):
-    """Set ticks of a logarithmic axis: at decades, over few decades also at 2 and 5, below one decade evenly spaced.
+    """Set the ticks of a logarithmic axis.
 
-    If not every decade has a major tick, the other decades have minor ticks. Otherwise minor ticks divide the decades.
+    Major ticks are at decades. On an axis of few decades they are also at 2 and 5 times each decade; on an axis of less
+    than one decade they are evenly spaced. If not every decade has a major tick, minor ticks mark the other decades.
+    Otherwise minor ticks divide the decades.
     """
     decades = np.ptp(np.log10(axis.get_view_interval()))
     axis.set_major_locator(LogLocator(numticks=9))

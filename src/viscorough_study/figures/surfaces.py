@@ -5,14 +5,15 @@ from matplotlib.ticker import MaxNLocator
 
 from viscorough_study.figures import style
 
-COLORS = "cividis_r"  # from bright to dark, for any colour vision and in greyscale
+COLORS = "cividis_r"  # colours from bright to dark, which suit any colour vision and greyscale
 
 
 @style.figure
 def plot_surfaces(examples):
     """Draw discs side by side, four in a row, all in one colour scale; darker is higher.
 
-    examples : list of (Hurst exponent, heights over rms height of shape (rows, columns), spacing over diameter)
+    examples : list of (Hurst exponent, heights in units of the rms height, spacing in units of the diameter); heights
+        have the shape (rows, columns)
     """
     columns = min(4, len(examples))
     figure, panels = style.new_panels(len(examples), columns, height=47, rest=15, ylabel="$y/L$", sharey=True)

@@ -1,4 +1,4 @@
-"""Draw errors of the solvers against exact solutions."""
+"""Draw the deviations of the solvers from exact solutions."""
 
 import numpy as np
 from matplotlib.ticker import FixedLocator, NullLocator
@@ -10,10 +10,11 @@ LIMIT = {"color": "black", "linewidth": 2}
 
 @style.figure
 def plot_validation(table):
-    """Draw relative errors against exact solutions over the elements across the body, a panel for each quantity.
+    """Draw deviations from exact solutions against the number of elements across, with a panel for each quantity.
 
+    A black bar marks the largest error allowed on the finest grid. The slope of the dotted line that leads to this bar
+    is the expected order.
     table : table of viscorough_study.comparisons.validation
-    The black bar is the limit on the finest grid; a dotted line of the expected order leads to it.
     """
     quantities, cases = table["quantity"].unique(), table["case"].unique()
     looks, grids = _case_looks(cases), np.sort(table["elements"].unique())
@@ -37,7 +38,10 @@ def plot_validation(table):
 
 
 def _case_looks(cases):
-    """Return looks of cases named <body>_<method>: colour of the body, marker of the method."""
+    """Return {case: line properties}: the body of a case determines the colour, the method determines the marker.
+
+    cases : names of the form <body>_<method>
+    """
     bodies, methods = (style.series_looks(case.partition("_")[part] for case in cases) for part in (0, 2))
     looks = {}
     for case in cases:

@@ -1,1 +1,1 @@
-"""Comparisons: MDR, direct integration, exact solutions, other media, measured surfaces, literature."""
+"""Comparisons with the MDR, direct integration, exact solutions, other media, measured surfaces and the literature."""

@@ -1,1 +1,1 @@
-"""The page results/index.html, which presents the results of a run without recomputing anything."""
+"""Generation of the page results/index.html and of the article from the results of a run; nothing is recomputed."""

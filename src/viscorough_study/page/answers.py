@@ -1,4 +1,4 @@
-"""Numbers of the answers at the top of the page, and of the failures of methods."""
+"""Collect the numbers for the answers at the top of the page, and for the section on failures of methods."""
 
 from collections import Counter
 
@@ -10,14 +10,17 @@ from viscorough_study.verdicts.claims import counted_verdicts
 
 
 def verdict_counts(results):
-    """Return [Number] of claims on physics by verdict, from best to worst; all cases of a claim have one verdict."""
+    """Return the number of claims on physics with each verdict, a list of `Number` from the best verdict to the worst.
+
+    A claim has a single verdict, which takes all its cases into account.
+    """
     numbers = counted_verdicts(results.tables["claims"])
     column, origin = "verdict over all cases of a claim on physics", results.origin("claims")
     return [Number(number, "claims", column, counted=verdict, origin=origin) for verdict, number in numbers]
 
 
 def answers(results):
-    """Return {name: numbers} of the sentences that answer the questions at the top of the page."""
+    """Return the numbers in the answers at the top of the page, {name of an answer: one or several numbers}."""
 
     def cases(claim):
         return results.records("claims", claim=claim)
@@ -49,11 +52,16 @@ def answers(results):
 
 
 def failures(results):
-    """Return counts of the failure map, and for every method the number of cases by outcome."""
+    """Return the numbers of the failure map (robustness.failure_map) that the page states.
+
+    cases : number of stress-test cases; unnoticed, warned : number of results with this verdict
+    worst_model : largest finite error among models outside their documented range, or with a warning
+    methods : {method: {verdict: number of cases}}
+    """
     table = results.tables["failure_map"]
     outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
     return {
-        "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # one row per case
+        "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # each method has one row per case
         **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned")},
         "worst_model": results.extremes(outside[np.isfinite(outside["error"])], "failure_map", "error")[1],
         "methods": {name: Counter(rows["verdict"]) for name, rows in table.groupby("method", sort=False)},

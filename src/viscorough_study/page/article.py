@@ -1,4 +1,4 @@
-"""Make the article, results/article.pdf: its text in Typst, filled with contents of the page and further tables."""
+"""Make the article, results/article.pdf: fill its Typst template with the contents of the page and further tables."""
 
 import json
 import re
@@ -17,15 +17,16 @@ from viscorough_study.page.results import Number, read_published
 from viscorough_study.run.readable import readable
 from viscorough_study.verdicts.claims import HELD, KINDS, counted_verdicts
 
-AUDITED, PLAIN = "1e-05", "1e-03"  # tolerances of the audits and curves whose sum rules are shown
-CASES_MAX = 4  # largest number of listed cases with one outcome
+# Tolerances of the audits and of the plain loading curves whose sum rules the article shows (benchmarks/sum_rules.py).
+AUDITED, PLAIN = "1e-05", "1e-03"
+CASES_MAX = 4  # for each outcome of a claim the article lists at most this number of cases
 _MARKUP = re.compile(r"""([\\#*_`$<>@\[\]~/"'=+-])""")
 
 
 def article(project, contents, *, paper, figures, repository):
-    """Return the article as content of a PDF file.
+    """Return the article as the bytes of a PDF file.
 
-    project : folder of the project, which has template, style, citation, literature and published results
+    project : folder of the project, which contains template, style, citation, literature and published results
     contents : contents of a run (assembly.contents_of); paper : content of resources/paper/numbers.yaml
     figures : folder of the figures; repository : address of the code, or an empty text
     """
@@ -46,7 +47,7 @@ def article(project, contents, *, paper, figures, repository):
         raw=Markup,
         citation=citation,
         original=original,
-        repository=Markup(json.dumps(repository)) if repository else "",  # a text of Typst
+        repository=Markup(json.dumps(repository)) if repository else "",  # a string literal of Typst
         paper=paper,
         physics=counted_physics(results.tables["claims"]),
         cases={name: cases_by_outcome(results, name) for name in contents["overall"]},
@@ -70,7 +71,10 @@ def article(project, contents, *, paper, figures, repository):
 
 
 def as_markup(value):
-    """Return a value of a placeholder: numbers of three digits, and texts whose characters are no markup of Typst."""
+    """Return the Typst text of a value that fills a placeholder of the template.
+
+    Numbers have three digits. In texts the characters that mean markup in Typst are escaped, except in `Markup`.
+    """
     if isinstance(value, Markup):
         return value
     if isinstance(value, Number):
@@ -81,16 +85,20 @@ def as_markup(value):
 
 
 def counted_physics(table):
-    """Return claims on physics: their heading, their number, and {verdict: number of claims} from best to worst."""
+    """Return heading, number, and {verdict: number}, from the best verdict to the worst, of the claims on physics.
+
+    table : table of the cases of all claims
+    """
     counts = dict(counted_verdicts(table))
     return {"heading": KINDS["physics"], "all": sum(counts.values()), "counts": counts}
 
 
 def cases_by_outcome(results, claim):
-    """Return {outcome: cases of a claim}, with outcomes "pass", "undecided" and "fail".
+    """Return the cases of a claim by outcome, {"pass", "undecided" and "fail": {"cases": list, "more": number}}.
 
-    Of more than `CASES_MAX` cases of one outcome the list keeps the cases farthest from the paper's value; `more`
-    counts the others. `paper` is the paper's value if the cases share it, otherwise each case has its own.
+    If an outcome has more than `CASES_MAX` cases, the list has only the cases farthest from the paper's value, and
+    `more` is the number of omitted cases. The key "paper" has the paper's value if it is the same for all cases;
+    otherwise it is None, and each case states the paper's value.
     """
     rows = results.rows("claims", claim=claim)
     undecided = rows["verdict"] == "undecided"
@@ -106,13 +114,15 @@ def cases_by_outcome(results, claim):
 
 
 def prefactors(results, conventions):
-    """Compare ζ of the run with Eqs. 4 and 11, at each Hurst exponent of the discs.
+    """Compare ζ of the run with Eqs. 4 and 11, at each Hurst exponent of the discs; return a dict.
 
-    rows : H, Eq. 4, Eq. 11 without its factor 1/Γ(2 − α), ζ with its interval, and its extremes over conventions;
-        ratio_if_radius is ζ over Eq. 11, both with the factor, if L were the radius of the disc
+    rows : a dict for each H: ζ in the usual conventions with its interval; the least and largest ζ in any conventions;
+        Eq. 4; Eq. 11 without its factor 1/Γ(2 − α); and ratio_if_radius, the ratio of ζ to Eq. 11, both with the
+        factor, if L were the radius of the disc
     between : True if ζ lies between both formulas at every H
-    conventions : number of combinations of conventions;
-        agreeing : largest number of them, over formulas and H, with ζ equal to the formula within its tolerance
+    conventions : number of combinations of conventions
+    agreeing : number of combinations for which ζ equals a formula within its tolerance; the largest number for any
+        formula and H
     radius : smallest and largest ratio_if_radius
     """
     every, rows = results.rows("scaling", source="discs", case_group="base"), []
@@ -122,7 +132,7 @@ def prefactors(results, conventions):
         numbers |= {"least": zeta.min(), "largest": zeta.max()}
         without_gamma = eq_11 * _gamma(reference.exponent_beta(row.hurst))
         numbers |= {"eq_4": reference.zeta_elastic(row.hurst), "eq_11": without_gamma}
-        # X and κ double if L is the radius, so ζ = κ/X^α grows by 2^β.
+        # If L is the radius instead of the diameter, X and κ double, so ζ = κ/X^α grows by the factor 2^β.
         rows.append(numbers | {"ratio_if_radius": 2**row.beta * row.zeta / _gamma(row.beta) / eq_11})
     ratios = [row["ratio_if_radius"] for row in rows]
     both = results.tables["claims"].query("claim in ('zeta_elastic', 'zeta_viscous')")
@@ -141,12 +151,15 @@ def _gamma(beta):
 
 
 def small_hurst(results):
-    """Return the parts of the departure at the smallest Hurst exponent of the discs; None for a part without value.
+    """Return the numbers that discuss the smallest Hurst exponent of the discs, where β departs from H/(1 + H).
 
-    hurst : the Hurst exponent; region : the row of table `plateaus` with the length of region (b)
-    own, equal : β of lines minus β of discs, each in its own region (b), and both at the same X
+    hurst : smallest Hurst exponent; region : its row of table `plateaus`, with the length of region (b)
+    own : β of lines minus β of discs, with lines and discs fitted in their own regions (b)
+    equal : β of lines minus β of discs, with both fitted in the same range of X
     grid : factor by which a tenfold number of elements changes κ at u/h = 1
-    literature : exponents α of others at H = 0 and 1, and those of this run at the smallest H
+    literature : row of table `literature` with the range of α that others found from H = 1 to H = 0, and with α of
+        this run at its smallest H
+    The last four are None if the run has no value.
     """
     claims, plateaus = results.tables["claims"], results.rows("plateaus", case_group="base")
     hurst = plateaus["hurst"].min()
@@ -171,13 +184,16 @@ def small_hurst(results):
 
 
 def citation_key(source):
-    """Return the key of a source: up to three surnames and the year, as in "persson-2007"."""
+    """Return the key of a source in the bibliography: up to three surnames and the year, such as "persson-2007"."""
     names = source["source"].replace(" and ", ", ").split(", ")
     return "-".join([*names[:3], str(source["year"])]).lower().replace(" ", "-")
 
 
 def sources_by_basis(sources):
-    """Return {basis of statements on them: keys of the sources}, for a sentence that cites all of them."""
+    """Return {basis: keys of the sources}: the basis on which statements on these sources rest, such as "abstract".
+
+    sources : entries of resources/literature/stiffness.yaml, with the basis as `sure`
+    """
     groups = {}
     for source in sources:
         groups.setdefault(source["sure"], []).append(citation_key(source))
@@ -185,9 +201,11 @@ def sources_by_basis(sources):
 
 
 def bibliography(original, sources):
-    """Return references in the YAML of Hayagriva, which Typst reads: the paper (key "paper"), and sources with titles.
+    """Return the bibliography as YAML text in the format Hayagriva, which Typst reads.
 
-    original : entry of CITATION.cff; sources : entries of resources/literature/stiffness.yaml
+    The paper has the key "paper", a source has its `citation_key`.
+    original : entry of the paper in CITATION.cff
+    sources : entries of resources/literature/stiffness.yaml that have a title
     """
     authors = [f"{author['family-names']}, {author['given-names']}" for author in original["authors"]]
     place = f"{original['journal']} {original['volume']}, {original['start']}"
@@ -207,7 +225,11 @@ def _entry(title, authors, place, year):
 
 
 def control(results):
-    """Return the largest g of periodic surfaces and its X, for each Hurst exponent, without and with a roll-off."""
+    """Return, for each Hurst exponent, the rows of table `periodic` with the largest g.
+
+    g is the compliance of the interface (comparisons.periodic_control).
+    whole, rolled : row with the largest g without a roll-off, and with a roll-off
+    """
     table, rows = results.tables["periodic"], []
     for hurst, part in table.groupby("hurst"):
         kinds = (part[part["roll_off_wavelength"].notna() == flag] for flag in (False, True))
@@ -217,7 +239,11 @@ def control(results):
 
 
 def sum_rules_shown(content):
-    """Return, for each indenter, levels and relative deviations of both integrals, of a plain curve and of an audit."""
+    """Return, for each indenter, the relative deviations from the two sum rules (viscorough.contact.sum_rules).
+
+    plain : deviations of a plain loading curve; audit : deviations of an audit; levels : number of levels of the audit
+    content : content of docs/results/sum_rules.json
+    """
     return [
         {
             "indenter": name,

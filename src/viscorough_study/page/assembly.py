@@ -16,11 +16,12 @@ from viscorough_study.verdicts.claims import findings
 
 
 def contents_of(project, discs, lines, *, tables, claims, numbers):
-    """Return {name: content} of a run, for the templates of page and article.
+    """Return {name: content} of a run, the variables of the templates of page and article.
 
-    project : folder of the project, which has published numbers, the verdicts of the full scale, and the list of tables
-    discs, lines : paths of the pools
-    tables : paths of CSV files, whose stems name them
+    project : folder of the project, which contains published numbers, the verdicts at full scale, and the list of
+        tables
+    discs, lines : paths of the pools (ensembles.pool)
+    tables : paths of CSV files; a table has the name of its file without the suffix
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
     """
     tables = {Path(path).stem: path for path in tables}

@@ -29,10 +29,13 @@ VERDICT_SHORT = {
 
 
 def verdicts(results, statements, published):
-    """Return {kind: claims}, each claim with its statement, its verdict, and the numbers of the displayed cases.
+    """Return the claims by kind, {heading of the kind: list of claims}.
 
-    statements : content of resources/paper/claims.yaml
-    published : table of the verdicts at full scale; `full_scale` is this verdict if it differs
+    A claim is a dict with its statement, its verdict, and the numbers of the displayed cases. The key `full_scale` has
+    the verdict at full scale, with the case that decides it, if this verdict differs from the verdict of the run;
+    otherwise it is None.
+
+    statements : content of resources/paper/claims.yaml; published : table of claims at full scale
     """
     claims, at_full_scale = {heading: [] for heading in KINDS.values()}, overall(published)
     for name, verdict in overall(results.tables["claims"]).items():
@@ -61,9 +64,11 @@ def verdicts(results, statements, published):
 
 
 def other_solvers(path):
-    """Return times of other solvers over the elastic path: their versions, rows, date and machine of measurement.
+    """Return published ratios of the times of other solvers to the time of viscorough's elastic path.
 
-    path : table of published ratios
+    rows : a dict for each task, with the ratios by solver; versions : {solver: version}
+    measured, machine : date and machine of the measurement
+    path : CSV file of the published ratios
     """
     table = pd.read_csv(path)
     names = ["task", "hurst", "elements", "levels"]
@@ -76,7 +81,10 @@ def other_solvers(path):
 
 
 def media(results):
-    """Return the exponent of vt/h in time by medium and H: at the first time, near X = 0.01, at the last time."""
+    """Return the exponent of vt/h in time, for each medium and H, at three times: first, middle and last.
+
+    The middle time is the time with X nearest to 0.01.
+    """
     table, rows = results.tables["media"], []
     for (name, hurst), part in table.groupby(["medium", "hurst"], sort=False):
         middle = np.log(part["x"] / 0.01).abs().idxmin()
@@ -87,9 +95,9 @@ def media(results):
 
 
 def measured(results, conventions):
-    """Return measured scans, their contacts, and the power law of each group in the conventions of the figures.
+    """Return measured scans, their contacts, and the power law of each group of scans in the given conventions.
 
-    Lists are empty if there are none.
+    The lists are empty if the run has no measured scans.
     """
     if "measured_scans" not in results.tables:
         return {"scans": [], "contacts": [], "groups": []}
@@ -105,12 +113,12 @@ def measured(results, conventions):
 
 
 def scale(discs, lines, numbers):
-    """Return the scale of a run, from its ensembles, and of the paper.
+    """Return the scale of a run and of the paper: numbers of elements, discs and lines.
 
-    Its name is "coarse" if the discs are too coarse for a power law. It is "paper" if there are at least as many discs
-    and lines as in the paper, and the discs are as fine. Otherwise it is "trial".
-    discs, lines : paths of the pools;
-    numbers : content of resources/paper/numbers.yaml
+    The scale of the run is read from its ensembles. Its name is "coarse" if the discs are too coarse for a power law.
+    The name is "paper" if the run has at least as many discs and lines as the paper, and discs that are at least as
+    fine. Otherwise the name is "trial".
+    discs, lines : paths of the pools (ensembles.pool); numbers : content of resources/paper/numbers.yaml
     """
     pools = {"discs": _pool(discs), "lines": _pool(lines)}
     elements, reduction = numbers["boundary_elements"], numbers["reduction"]
@@ -132,7 +140,13 @@ def scale(discs, lines, numbers):
 
 
 def _pool(path):
-    """Return realizations and settings of the first case of a pool, and its Hurst exponents and groups."""
+    """Return the scale of a pool (ensembles.pool), read from its file.
+
+    realizations : number of realizations of the first case; description : settings of the first case
+    hurst : Hurst exponents in the group of the first case
+    cases_per_hurst : number of cases in this group with the Hurst exponent of the first case
+    groups : names of all groups
+    """
     with opened(path) as file:
         settings = json.loads(file.getncattr("settings"))
         case, hurst, group = (np.ma.getdata(file[name][...]) for name in ("case", "hurst", "group"))

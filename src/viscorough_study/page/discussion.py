@@ -2,7 +2,7 @@
 
 from viscorough_study.comparisons.literature import cited
 
-# {quantity of the table: its name on the page}
+# {quantity in the table `literature`: its description on the page}
 QUANTITIES = {
     "alpha": "α, exponent of the stiffness in the force; here 1 − β of discs",
     "u0": "u₀/h, decay length of the pressure with the separation; here the plateau of the interface",
@@ -18,9 +18,11 @@ KNOWN = {
 
 
 def discussion(results):
-    """Return sources by year, and for each quantity the values of this study and of the literature by Hurst exponent.
+    """Return published sources, and the values of each quantity in this study and in the literature.
 
-    quantities : {quantity: records of its first row at each H, with theirs : [(citation, low, high)]}
+    sources : rows of the table, one for each source, by year
+    quantities : {quantity: a record for each H}. A record has the value of this study, and as `theirs` the list of
+        published ranges, [(citation, low, high)]
     """
     table, quantities = results.tables["literature"], {name: [] for name in QUANTITIES}
     for (name, hurst), rows in table.dropna(subset="hurst").groupby(["quantity", "hurst"]):
@@ -38,5 +40,5 @@ def discussion(results):
 
 
 def _credit(row):
-    """Return the citation of a number, marked if it is quoted from later work."""
+    """Return the citation of a published number, with a remark if the number was quoted from later work."""
     return cited(row["source"], row["year"]) + (", as quoted" if row["sure"] == "quoted" else "")

@@ -12,7 +12,7 @@ from markupsafe import Markup
 from viscorough_study.run.readable import readable
 
 SCALE = 0.675  # pixels of the page per pixel of a figure
-WIDE = 600  # pixels; wider images scroll on a phone
+WIDE = 600  # images of more pixels in width scroll on a phone
 
 
 def render(template, style, figures, captions, *, conventions, **content):
@@ -20,7 +20,7 @@ def render(template, style, figures, captions, *, conventions, **content):
 
     template, style : text of the template and of the style sheet
     figures : {name: path of its PNG}; captions : {name: path of its caption for Snakemake's report}
-    conventions : conventions of the figures, named in captions
+    conventions : conventions of the figures, which the captions state
     content : variables of the template
     """
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True)
@@ -34,7 +34,10 @@ def render(template, style, figures, captions, *, conventions, **content):
 
 
 def number(value, scale=1, unit=""):
-    """Return a Number as an element that names its place in a table; a dash for None."""
+    """Return a Number as an HTML element, whose attributes name its place in a table; a dash for None or nan.
+
+    scale : factor of the displayed value; unit : text after it
+    """
     if value is None or (text := readable(scale * value.value)) == "–":
         return "–"
     attributes = Markup(" ").join(Markup('{}="{}"').format(*attribute) for attribute in value.attributes.items())
@@ -42,14 +45,15 @@ def number(value, scale=1, unit=""):
 
 
 def percent(value):
-    """Return a Number in percent."""
+    """Return a Number as an HTML element, see `number`, in percent."""
     return number(value, scale=100, unit=" %")
 
 
 def embedded_png(content):
-    """Return src, width and height of an image, and True if it scrolls on a phone.
+    """Return {"src", "width", "height", "wide"} of an image element; wide is True if the image scrolls on a phone.
 
-    The smallest text of the figures, 7 points, becomes 13 pixels high.
+    The width is chosen so that the smallest text of the figures, 7 points, becomes 13 pixels high.
+    content : bytes of a PNG file
     """
     width, height = struct.unpack(">II", content[16:24])
     source = "data:image/png;base64," + base64.b64encode(content).decode("ascii")
@@ -58,7 +62,10 @@ def embedded_png(content):
 
 
 def caption(text, conventions):
-    """Return a caption of the report, reStructuredText with placeholders of Snakemake, as HTML."""
+    """Return a caption of Snakemake's report as HTML.
+
+    text : reStructuredText with placeholders for the conventions
+    """
     snakemake = {"params": {"conventions": conventions}}
     text = jinja2.Template(text, undefined=jinja2.StrictUndefined).render(snakemake=snakemake)
     parts = publish_parts(text, writer="html5", settings_overrides={"report_level": 2, "halt_level": 2})

@@ -12,15 +12,18 @@ import pandas as pd
 from viscorough_study.run.tables import read_recorded, read_table
 from viscorough_study.verdicts.claims import JUDGES
 
-MAY_BE_EMPTY = ("convention", "reason", "setting")  # columns of texts
-_ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}  # options of pandas.read_csv
+MAY_BE_EMPTY = ("convention", "reason", "setting")  # columns of texts, which may be empty
+# Options of pandas.read_csv, by which only empty fields are nan.
+_ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}
 
 
 @dataclass(frozen=True)
 class Number:
-    """A number of the page and its place in a table of results/tables: column, and row of the CSV counted from 0.
+    """A number on the page, and its place in a table of results/tables.
 
-    counted : for a number of rows, the value counted in the column; such a number has no row
+    value : the number; table : name of the table; column : name of the column
+    row : row of the CSV file, counted from 0 without the header; None if the number is a count of rows
+    counted : if the number is a count of rows, the value in the column that these rows have
     origin : rule that made the table and source file of the computation, as text
     """
 
@@ -35,7 +38,7 @@ class Number:
     def attributes(self):
         """Return attributes of the HTML element that holds the number: its value, a tooltip, and its place.
 
-        The tooltip has the line in the CSV file, counted from 1 with the header.
+        The tooltip states the line of the CSV file, counted from 1, with the header as line 1.
         """
         if self.counted is None:
             place = f"line {self.row + 2}, column {self.column}"
@@ -49,10 +52,11 @@ class Number:
 
 @dataclass(frozen=True)
 class Results:
-    """Tables by name, as pandas.DataFrames indexed by the row of the CSV, and their recorded settings.
+    """The tables of a run, with their recorded settings and their origins.
 
-    settings : {table: mapping}, empty for tables without recorded settings
-    origins : {table: (rule, source file)} from `table_origins`; without it, numbers state no origin
+    tables : {name: pandas.DataFrame}, indexed by the row of the CSV file
+    settings : {name of a table: mapping}; the mapping is empty if no settings were recorded
+    origins : {name of a table: (rule, source file)} from `table_origins`; numbers of other tables state no origin
     """
 
     tables: dict
@@ -60,26 +64,29 @@ class Results:
     origins: dict = field(default_factory=dict)
 
     def rows(self, table, **chosen):
-        """Return rows of a table with these values, {column: value}."""
+        """Return the rows of a table that have the values in `chosen`, {column: value}."""
         rows = self.tables[table]
         return rows[(rows[list(chosen)] == list(chosen.values())).all(axis=1)]
 
     def number(self, table, row, column):
-        """Return the number at a place of a table."""
+        """Return the Number in a row and a column of a table."""
         value = float(self.tables[table].at[row, column])
         return Number(value, table, column, int(row), origin=self.origin(table, row))
 
     def record(self, table, row):
-        """Return {column: Number, or text} of one row."""
+        """Return one row of a table as a record, {column: Number, or text}."""
         values = self.tables[table].loc[row].items()
         return {name: value if isinstance(value, str) else self.number(table, row, name) for name, value in values}
 
     def records(self, table, **chosen):
-        """Return the records of the rows with these values, {column: value}."""
+        """Return the records of the rows that have the values in `chosen`, {column: value}."""
         return [self.record(table, row) for row in self.rows(table, **chosen).index]
 
     def extremes(self, rows, table, column):
-        """Return the smallest and largest number in a column of some rows of a table; (None, None) if there is none."""
+        """Return the smallest and the largest Number in a column; (None, None) if the column has no number.
+
+        rows : rows of the table that are searched
+        """
         ends = rows[column].dropna().agg(["idxmin", "idxmax"]) if rows[column].notna().any() else ()
         return tuple(self.number(table, row, column) for row in ends) or (None, None)
 
@@ -89,7 +96,10 @@ class Results:
         return Number(number, table, column, counted=counted, origin=self.origin(table))
 
     def origin(self, table, row=None):
-        """Return the rule of a table and the source file of its computation; a claim's row names its criterion."""
+        """Return the rule that made a table and the source file of the computation as text, empty if unknown.
+
+        For a row of the table `claims`, the source file is the module with the criterion of this claim.
+        """
         if table not in self.origins:
             return ""
         rule, source = self.origins[table]
@@ -99,8 +109,9 @@ class Results:
 
 
 def table_origins(registry):
-    """Return {table: (rule that makes it, source file of its function or, without a function, of its script)}.
+    """Return {table: (rule that makes the table, source file of the computation)}.
 
+    The source file contains the function of the rule, or is the script of a rule that has no function.
     registry : section `tables` of workflow/results.yaml
     """
     origins = {}
@@ -112,14 +123,15 @@ def table_origins(registry):
 
 
 def _source_file(module):
-    """Return the path of a module in the folder of the project."""
+    """Return the path of a module's source file, relative to the folder of the project."""
     return f"src/{module.replace('.', '/')}.py"
 
 
 def read_results(tables, origins):
-    """Read Results from {name: path of the CSV}; the NetCDF files have the same names in the same folder.
+    """Read the Results of a run: tables from CSV files, and their settings from NetCDF files.
 
-    origins : from `table_origins`
+    tables : {name: path of the CSV file}; the NetCDF file has the same path, except for the suffix .nc
+    origins : {name of a table: (rule, source file)} from `table_origins`
     """
     files = {name: Path(path).with_suffix(".nc") for name, path in tables.items()}
     settings = {name: read_recorded(file, "settings", missing={}) for name, file in files.items()}
@@ -128,7 +140,7 @@ def read_results(tables, origins):
 
 
 def read_published(path):
-    """Read a CSV file that the project keeps; empty texts, which pandas reads as nan, become ""."""
+    """Read a CSV file of published results; empty fields are "" in columns of texts, and nan in other columns."""
     return _with_empty_texts(pd.read_csv(path, **_ONLY_EMPTY_IS_MISSING))
 
 

@@ -1,1 +1,1 @@
-"""Cost and accuracy of every method."""
+"""Measurements of the cost and the accuracy of every method."""

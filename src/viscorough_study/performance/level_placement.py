@@ -1,9 +1,10 @@
-"""Placement of the levels of a loading curve: by `indent`, by hand, and naively, on the same scenes.
+"""Compare three placements of the levels of a loading curve on the same scenes: by `indent`, by hand, and naively.
 
-A scene is an indenter and a range of force; it is solved to several accuracies of the depth at any force in that range.
-Levels by hand are in equal ratios of depth over exactly that range, which must be known beforehand; their number is the
-smallest that reaches the accuracy. Naive levels are in equal steps of depth; their number is likewise the smallest. The
-numbers are found by trials, whose time does not count. The tolerance of every level is the required accuracy.
+The levels of a curve are the depths of its computed contacts. A scene is an indenter and a range of force; the depth at
+any force in the range is required to several accuracies. Levels by hand are in equal ratios of depth. They cover
+exactly the range, which must be known beforehand. Naive levels are in equal steps of depth. By hand and naively, the
+number of levels is the smallest number that reaches the accuracy. It is found by trials, whose time does not count. The
+tolerance of every level is the required accuracy.
 """
 
 import logging
@@ -21,10 +22,12 @@ from viscorough_study.run.names import AUTOMATIC, BY_HAND, NAIVE
 
 ACCURACIES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
 NUMBERS = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # numbers of levels tried
-LONGEST = 10.0  # a choice is not tried with more levels once it takes so many times as long as the automatic one
-MARGIN = 0.01  # by which levels extend beyond the range of depth, whose ends are known only to the tolerance
-PROBES = 60  # forces at which the depth is compared
-REFERENCE_TOLERANCE = 1e-9  # of the reference depths
+# A placement is not tried with more levels if its time exceeds the time of automatic levels by more than this factor.
+LONGEST = 10.0
+# Levels extend beyond the range of depth by this share, because the ends of the range are known only to the tolerance.
+MARGIN = 0.01
+PROBES = 60  # number of forces in the comparison of depths
+REFERENCE_TOLERANCE = 1e-9  # tolerance of the reference depths
 COLUMNS = {
     "scene": ("scene", ""),
     "choice": ("placement of the levels", ""),
@@ -37,9 +40,9 @@ COLUMNS = {
 
 
 def scenes(elements, hurst, seed):
-    """The scenes: one asperity, and a rough disc in region (b) alone and over a full curve.
+    """Return the scenes: one asperity, a rough disc in region (b) only, and the same disc on its full curve.
 
-    Returns tuples: name, indenter, contact fractions at the ends of the range of force.
+    A scene is a tuple: name, indenter, and the contact fractions at the lower and the upper end of the range of force.
     """
     asperity = reference.sphere(1.0).indenter(elements)
     disc = self_affine_disc(hurst, elements, seed=seed)
@@ -52,19 +55,23 @@ def scenes(elements, hurst, seed):
 
 
 def compare_scenes(*, elements, hurst, seed, repeats):
-    """The three choices of levels for every scene, on one thread; a pandas.DataFrame with the columns of `COLUMNS`."""
-    with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
+    """Compare the three placements of levels on every scene; return a pandas.DataFrame with the columns of `COLUMNS`.
+
+    elements, hurst, seed : arguments of `scenes`; repeats : number of interleaved repeats, whose median times count
+    """
+    # Use one thread. Snakemake gives the job all cores, so that no other job disturbs the timing.
+    with threadpool_limits(1):
         return pd.concat([compare(*scene, repeats) for scene in scenes(elements, hurst, seed)])
 
 
 def compare(name, indenter, first_fraction, last_fraction, repeats, *, accuracies=ACCURACIES, numbers=NUMBERS):
-    """Cost and error of the three choices of levels for a scene.
+    """Compare cost and error of the three placements of levels on one scene.
 
-    name, indenter, first_fraction, last_fraction : as of `scenes`
-    repeats : number of interleaved repeats, of which the times are medians
-    accuracies : required of the depth, from loose to fine; numbers : of levels to try, increasing
+    name, indenter, first_fraction, last_fraction : a scene, as returned by `scenes`
+    repeats : number of interleaved repeats, whose median times count
+    accuracies : required accuracies of the depth, from loose to fine; numbers : numbers of levels to try, increasing
 
-    Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per choice and accuracy.
+    Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per placement and accuracy.
     """
     coarse = indent(indenter, tolerance=1e-2, until_fraction=last_fraction)
     ends = np.interp([first_fraction, last_fraction], coarse.contact_fraction, coarse.depth)
@@ -74,7 +81,8 @@ def compare(name, indenter, first_fraction, last_fraction, repeats, *, accuracie
         BY_HAND: lambda number: np.geomspace(first, last, number),
         NAIVE: lambda number: np.linspace(0, last, number + 1)[1:],
     }
-    # With the margin of levels by hand: the level of a contact fraction first reached at a force may lie beyond it.
+    # Begin below the required contact fraction, with the same margin as levels by hand: the first level with this
+    # contact fraction may lie above the smallest force of the range.
     start = {"start_fraction": first_fraction * (1 - MARGIN), "until_fraction": 1, "until_force": exact.force[-1]}
     rows, fewest = [], dict.fromkeys(depths, numbers[0])
     for accuracy in accuracies:
@@ -87,7 +95,7 @@ def compare(name, indenter, first_fraction, last_fraction, repeats, *, accuracie
                 row = _row(choice, accuracy, partial(path, depths=placed(number)), exact)
                 if row["reached"] or row["processor_s"] > LONGEST * automatic["processor_s"]:
                     break
-            fewest[choice] = number  # a finer accuracy needs no fewer levels
+            fewest[choice] = number  # a finer accuracy needs at least this number of levels
             rows.append(row)
     times = timing.interleaved({i: row["function"] for i, row in enumerate(rows)}, repeats)
     table = pd.DataFrame(rows).assign(scene=name, processor_s=[seconds for _, seconds in times.values()])
@@ -95,7 +103,10 @@ def compare(name, indenter, first_fraction, last_fraction, repeats, *, accuracie
 
 
 def _row(choice, accuracy, levels, exact):
-    """Choice, function that computes its curve, number of levels, error and time."""
+    """Compute a loading curve; return its placement of levels, function, number of levels, error and time.
+
+    levels : function that computes the curve; exact : curve with the reference depths
+    """
     curve, _, seconds = timing.timed(levels)
     depth, _ = curve.at_force(exact.force)
     error = np.nan_to_num(np.abs(depth / exact.depth - 1), nan=1.0).max()

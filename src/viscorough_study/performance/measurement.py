@@ -33,9 +33,14 @@ COLUMNS = {
 
 
 def measure_problems(*, problems, seed, levels, repeats, longest):
-    """Apply `measure` on one thread to problems given by arguments of `named_problem`; seed : root of rough discs"""
+    """Measure cost and error of every method on several problems; return a pandas.DataFrame like `measure`.
+
+    problems : list of arguments of `named_problem`; seed : root seed of rough discs; levels : depths of each problem
+    repeats, longest : arguments of `measure`
+    """
     compile_kernels()  # load compiled code before the timing
-    with threadpool_limits(1):  # Snakemake gives the job all cores, so no other job runs
+    # Use one thread. Snakemake gives the job all cores, so that no other job disturbs the timing.
+    with threadpool_limits(1):
         indenters = (named_problem(**problem, levels=levels, root=seed) for problem in problems)
         return pd.concat([measure(indenter, repeats, longest=longest) for indenter in indenters], ignore_index=True)
 
@@ -43,9 +48,9 @@ def measure_problems(*, problems, seed, levels, repeats, longest):
 def measure(problem, repeats, *, longest, methods=METHODS):
     """Measure cost and error of every method that can solve a problem, at every value of its parameter.
 
-    repeats : number of interleaved repeats after the first run, which gives errors, and the time of runs longer than
-        MAX_REPEATED
-    longest : seconds after which a method is neither repeated nor tried at finer values
+    repeats : number of interleaved repeats after a first run. Errors are taken from the first run. Times are medians of
+        the repeats; a run that exceeds MAX_REPEATED or `longest` is not repeated, and the time of the first run counts
+    longest : a run of at least this time [s] is not repeated, and its method is not tried at finer values
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, one row per method and value.
     """
@@ -60,7 +65,7 @@ def measure(problem, repeats, *, longest, methods=METHODS):
             error = np.sqrt(np.mean((velocity / problem.velocity - 1) ** 2))
             row = {"method": method.name, "group": method.group, "parameter": method.parameter, "value": float(value)}
             rows.append(row | {"error": error, "steps": steps} | dict(zip(TIMES, seconds, strict=True)))
-            spent = min(seconds)  # on a busy machine only the wall time grows
+            spent = min(seconds)  # the processor time, if the wall time grows on a busy machine
             if spent < min(longest, MAX_REPEATED):
                 functions[len(rows) - 1] = function
             if spent >= longest:

@@ -1,7 +1,8 @@
-"""All methods for the velocity of penetration.
+"""Define all methods that compute the velocity of penetration.
 
-A method solves a Problem: it gives the velocities vt = (F/G)/(k/G) at the problem's levels. Each method has a parameter
-that trades accuracy for cost; `measurement` measures both.
+A method solves a Problem (performance.problems): it computes the velocities vt = (F/G)/(k/G) at the levels (depths) of
+the problem. Each method has a parameter that trades accuracy for cost; performance.measurement measures accuracy and
+cost.
 """
 
 import warnings
@@ -22,12 +23,14 @@ from viscorough.viscous.integration.stepping import march_steps
 
 @dataclass(frozen=True)
 class Method:
-    """A method; `values` are the values of its parameter, from coarse to fine.
+    """A method, and the values of its parameter that are measured.
 
-    run : function of problem and value; returns the velocities vt at the problem's levels, and the number of steps:
-        levels, events, time steps or points
-    group : group in tables and figures; largest : largest number of elements across in measurements
-    rough_only : True if it applies to rough discs only
+    name, group : names of the method and of its group in tables and figures
+    parameter : name of the parameter that trades accuracy for cost; values : its values, from coarse to fine
+    run : function of a Problem and a value; returns the velocities vt at the levels of the problem, and the number of
+        steps (levels of a curve, events, time steps, or points of a line)
+    largest : largest number of elements across the indenters on which the method is measured
+    rough_only : True if the method applies to rough discs only
     """
 
     name: str
@@ -43,14 +46,14 @@ class Method:
 
 
 def _automatic(problem, tolerance):
-    """Choose levels automatically, and interpolate between them."""
+    """Interpolate the velocities on a loading curve whose levels are placed automatically."""
     curve = indent(problem.indenter, tolerance=tolerance, until_fraction=1, until_force=problem.force[-1] * (1 + 1e-12))
     _, stiffness = curve.at_force(problem.force)
     return problem.force / stiffness, curve.depth.size
 
 
 def _at_levels(problem, tolerance):
-    """Take exactly the problem's depths, with the exact tangent stiffness there."""
+    """Solve the contact at exactly the depths of the problem, with the exact tangent stiffness."""
     curve = indent(problem.indenter, tolerance=tolerance, depths=problem.depth)
     return curve.force / curve.stiffness, curve.depth.size
 
@@ -59,23 +62,26 @@ def _at_levels(problem, tolerance):
 
 
 def _events(problem, fraction):
-    """Integrate directly from contact event to contact event, up to a contact fraction."""
+    """Integrate the viscous problem from contact event to contact event, up to a contact fraction."""
     events = march_events(problem.indenter, until_fraction=fraction)
     return problem.force / events.resistance[events.event_at(problem.force)], events.impulse.size
 
 
 def _steps(scheme, problem, number):
-    """Take a number of steps of the impulse in equal ratios, and interpolate between their ends."""
+    """Integrate the viscous problem in steps, and interpolate the velocity between the ends of the steps.
+
+    scheme : scheme of `march_steps`; number : number of steps, which are in equal ratios of the impulse ∫F dt/η
+    """
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AccuracyWarning)  # the table contains the error of too few steps
+        warnings.simplefilter("ignore", AccuracyWarning)  # too few steps are intended: their error is measured
         steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size
 
 
 def _implicit(problem, tolerance):
-    """Take backward Euler steps that end at the problem's impulses."""
+    """Integrate the viscous problem by backward Euler steps that end at the impulses of the problem."""
     steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
     return problem.force / steps.resistance, steps.impulse.size
 
@@ -84,14 +90,17 @@ def _implicit(problem, tolerance):
 
 
 def _reduction(problem, points):
-    """Apply the MDR to a body's exact line, or for a rough disc to one random line of the same h, L and H."""
+    """Apply the MDR: to the line that is exactly equivalent to a body, or to a random line for a rough disc.
+
+    The random line has the same h, L and H as the rough disc. points : number of points of the line
+    """
     line = problem.body.mdr_line(points) if problem.body else self_affine_line(problem.hurst, points, seed=problem.seed)
     _, stiffness = reduce(line, until_force=problem.force[-1] * (1 + 1e-12)).at_force(problem.force)
     return problem.force / stiffness, points
 
 
 def _law(problem, gamma):
-    """Evaluate the closed law, Eq. 12, with or without the factor 1/Γ(2−α), in units of h = 1."""
+    """Evaluate the closed law, Eq. 12, in units of h = 1; gamma : 1 with the factor 1/Γ(2−α), 0 without"""
     return reference.rate_law(problem.force / 4, problem.hurst, gamma=bool(gamma)), 0
 
 

@@ -1,9 +1,10 @@
-"""Error and cost of every model of one surface: grids and tolerances, requested errors, the MDR and the law.
+"""Measure error and cost of every model of one surface: grids and tolerances, requested errors, the MDR, and the law.
 
-The error is the deviation from the same surface on a finer grid, the map of all points. It is a root mean square of
-ln(v/v_full) over X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several surfaces; likewise for the contact area
-and for the creep compliance that a record of the depth gives. The error of the pressures is that of the solver on a
-given grid: pressures of a self-affine surface have no limit on finer grids.
+The error of a model is its deviation from the full map, the map of all points of the same surface. The error of the
+velocity v is the root mean square of ln(v/v_full) at X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several
+surfaces. The errors of the contact area, and of the creep compliance that is identified from a record of the depth, are
+defined in the same way. The error of pressures is only the error of the solver on a given grid, because pressures of a
+self-affine surface have no limit as the grid becomes finer.
 """
 
 import logging
@@ -30,16 +31,17 @@ from viscorough_study.run.seeds import one_surface_key, realization_seed
 
 X = (0.01, 3.0)
 PER_DECADE = 50
-STEPS = (16, 8, 4, 2)  # every n-th point of the full map
-FEWEST_ACROSS = 17  # of the coarsest grid
+STEPS = (16, 8, 4, 2)  # coarser grids have every n-th point of the full map
+FEWEST_ACROSS = 17  # smallest number of points across a grid
 TOLERANCES = (1e-1, 1e-2, 1e-3)
-FULL_TOLERANCE = 1e-3  # of the curve of all points
+FULL_TOLERANCE = 1e-3  # tolerance of the loading curve of the full map
 REQUESTS = (0.2, 0.1, 0.05)
 POINTS = tuple(2**n for n in (8, 11, 14, 17))
-# Pressures are compared at this X, on every second point, with the pressures to the finest tolerance.
+# Pressures are compared at X = CONTACT_X, on the grid of every second point (CONTACT_STEP). The reference pressures
+# have the tolerance EXACT_TOLERANCE.
 CONTACT_X, CONTACT_STEP, CONTACT_TOLERANCES, EXACT_TOLERANCE = 0.1, 2, (1e-1, 1e-2, 1e-3), 1e-8
-SHORT, REPEATS = 0.1, 2  # seconds below which a computation is repeated so many times
-# The creep test: a constant force, in units of h = L = 1, on a solid whose modulus relaxes by a factor of 100.
+SHORT, REPEATS = 0.1, 2  # a computation of less than SHORT seconds is repeated REPEATS times
+# Medium and times of the creep test, a constant force on a solid whose modulus relaxes by a factor of 100 (h = L = 1).
 SOLID, TIMES = StandardLinearSolid(100.0, 1.0, 1.0), np.geomspace(1e-2, 1e3, 60)
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
@@ -57,13 +59,15 @@ LABELS = ["hurst", "quantity", "model", "across", "parameter", "value"]
 
 
 def measure_surfaces(*, hurst, elements, surfaces, seed):
-    """Cost and error of every model, on one thread; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Measure cost and error of every model; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    hurst : Hurst exponents; elements : across the full map; surfaces : number for each exponent; seed : root seed
+    hurst : Hurst exponents; elements : number of elements across the full map
+    surfaces : number of surfaces for each Hurst exponent; seed : root of the surfaces' seeds
     """
     compile_kernels()  # so that loading compiled code is not timed
     rows = []
-    with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
+    # Use one thread. Snakemake gives the job all cores, so that no other job disturbs the timing.
+    with threadpool_limits(1):
         for exponent in hurst:
             for number in range(surfaces):
                 logging.info("H = %g, surface %d", exponent, number)
@@ -75,9 +79,9 @@ def measure_surfaces(*, hurst, elements, surfaces, seed):
 
 
 def averaged(table):
-    """Rows of single surfaces, with their squared errors averaged and their times by the median."""
+    """Average the rows of single surfaces: return root mean square errors, median times, and mean stated errors."""
     table = table.assign(square=table["error"] ** 2)
-    # Requests choose the grid for each surface.
+    # Requested errors are averaged across grids, because a request chooses its grid for each surface.
     grids = table["across"].where(table["model"] != REQUEST)
     means = {"processor_s": "median", "square": "mean", "stated": "mean", "across": "median", "surface": "nunique"}
     labels = [name for name in LABELS if name != "across"]
@@ -87,7 +91,10 @@ def averaged(table):
 
 
 def surface_rows(hurst, elements, seed):
-    """Rows of every model of one surface, each with quantity, model, across, parameter, value, time, error, stated."""
+    """Return the rows of every model of one surface, as dicts.
+
+    The keys are the columns of `COLUMNS`, except for hurst and surfaces.
+    """
     own_seed, line_seed = seed.spawn(2)
     disc = self_affine_disc(hurst, elements, seed=own_seed)  # h = L = 1
     x = np.geomspace(*X, round(PER_DECADE * np.log10(X[1] / X[0])))
@@ -116,7 +123,7 @@ def surface_rows(hurst, elements, seed):
             table += rows(curve, seconds, GRID, across, "tolerance", tolerance)
     for error in REQUESTS:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", AccuracyWarning)  # the stated error exceeds the requested one
+            warnings.simplefilter("ignore", AccuracyWarning)  # warns if the stated error exceeds the requested error
             curve, seconds = _timed(lambda: indent(disc, error=error, **until))  # noqa: B023
         across = len(disc.heights[:: curve.sampling])
         table += rows(curve, seconds, REQUEST, across, "error", error, curve.mean_grid_error)
@@ -132,14 +139,17 @@ def surface_rows(hurst, elements, seed):
 
 
 def _timed(function):
-    """Result of a function and its processor time: of a short one the least of several."""
+    """Return the result of a function and its processor time, for a short function the shortest of several times."""
     result, _, seconds = timing.timed(function)
     repeats = REPEATS if seconds < SHORT else 0
     return result, min([seconds, *(timing.timed(function)[2] for _ in range(repeats))])
 
 
 def _answers(curve, force, disc):
-    """{quantity: its values at forces F/G}, for h = L = 1."""
+    """Return {quantity: its values at the forces} for the velocity vt and the contact area of a loading curve.
+
+    force : F/G with h = L = 1; forces beyond the ends of the curve are replaced by the force at this end
+    """
     force = np.clip(force, curve.force[0], curve.force[-1])
     fraction = np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)))
     return {"velocity": force / curve.at_force(force)[1], "contact area": fraction}
@@ -150,7 +160,10 @@ def _deviation(values, truth):
 
 
 def _compliance_error(curve, record, force):
-    """Error of the creep compliance that a curve gives for a record of the depth under a constant force."""
+    """Return the error of the creep compliance that is identified with a loading curve from a record of the depth.
+
+    record : depths under the constant force `force`
+    """
     reached = record.depth <= curve.depth[-1]
     found = identify_medium(curve, force, record.time[reached], record.depth[reached])
     here = found.time > 0
@@ -158,13 +171,13 @@ def _compliance_error(curve, record, force):
 
 
 def _reduced_velocity(hurst, points, force, seed):
-    """Velocities vt = (F/G)/(k/G) of one random line with the h, L and H of the surface."""
+    """Return the velocities vt = (F/G)/(k/G) of one random line of the MDR, which has h, L and H of the surface."""
     line = self_affine_line(hurst, points, seed=seed)
     return force / reduce(line, until_force=force[-1] * (1 + 1e-9)).at_force(force)[1]
 
 
 def _pressure_rows(sampled):
-    """Rows of the pressures of one contact on a given grid, over the tolerance."""
+    """Return the rows of the pressures of one contact on a given grid: a row for each tolerance of the solver."""
     force = 4 * CONTACT_X
     exact = contact_at(sampled, force=force, tolerance=EXACT_TOLERANCE).pressure
     scale, rows = np.sqrt(np.nanmean(exact**2)), []

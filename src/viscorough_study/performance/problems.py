@@ -1,4 +1,4 @@
-"""Indenters for the comparison of methods, with reference velocities of penetration.
+"""Define the indenters for the comparison of methods, with reference velocities of penetration.
 
 The velocity v under constant force is given as vt = (F/G)/(k/G), a length (paper, Eqs. 1-3: vt/h = X/κ).
 """
@@ -14,17 +14,17 @@ from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.seeds import method_problem_key, realization_seed
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
-FINAL_X, FINAL_FRACTION = 30.0, 0.9  # X and contact fraction at the end of a rough disc's curve
+FINAL_X, FINAL_FRACTION = 30.0, 0.9  # the curve of a rough disc ends at this X, or at this contact fraction
 REFERENCE_TOLERANCE = 1e-11  # tolerance of the reference velocities of rough discs
 
 
 @dataclass(frozen=True)
 class Problem:
-    """An indenter with h = L = 1 and its reference solution; arrays of shape (levels,).
+    """An indenter with L = 1 (a rough disc also has h = 1), and its reference solution; arrays of shape (levels,).
 
     depth, force, velocity : u, F/G and vt = (F/G)/(k/G) of the reference solution
-    hurst, seed : arguments of a rough disc, otherwise nan and None; body : body of revolution with an exact solution,
-        otherwise None
+    hurst, seed : Hurst exponent and seed of a rough disc; nan and None for a body of revolution
+    body : body of revolution, whose solution is exact; None for a rough disc
     """
 
     name: str
@@ -40,10 +40,11 @@ class Problem:
 def named_problem(name, elements, levels, *, root=None, hurst=None):
     """Return the problem of a body named "sphere", "cone" or "rough disc" (self-affine).
 
-    elements : number across the indenter; levels : number of depths; root, hurst : root seed and Hurst exponent of a
-        disc
-    Sphere and cone are at contact radii from 0.1 to 0.45 L, with the velocities of the exact solution; discs at depths
-    in equal ratios from just above the second contact to FINAL_X or FINAL_FRACTION.
+    elements : number of elements across the indenter; levels : number of depths
+    root, hurst : root seed and Hurst exponent of a rough disc
+    The depths of sphere and cone have contact radii from 0.1 to 0.45 L, and the velocities are exact. The depths of a
+    rough disc are in equal ratios. They begin slightly above the depth of the second contact, and end at FINAL_X or
+    FINAL_FRACTION, whichever the disc reaches first.
     """
     if name == "rough disc":
         seed = realization_seed(root, *method_problem_key(hurst, elements))

@@ -9,13 +9,16 @@ import numpy as np
 
 
 def interleaved(functions, repeats):
-    """Return {name: (wall, processor) seconds} of functions that have run before, medians over interleaved repeats."""
+    """Return {name: (wall, processor) seconds} of functions, as medians over interleaved repeats.
+
+    functions : {name: function without arguments that has run before}; repeats : number of calls of each function
+    """
     times = [[timed(function)[1:] for function in functions.values()] for _ in range(repeats)]
     return dict(zip(functions, map(tuple, np.median(times, axis=0).tolist()), strict=True))
 
 
 def timed(function):
-    """Return the result of a function, and its wall and processor seconds."""
+    """Call a function, and return its result, its wall time and its processor time [s]."""
     wall, processor = time.perf_counter(), time.process_time()
     return function(), time.perf_counter() - wall, time.process_time() - processor
 

@@ -1,1 +1,1 @@
-"""Failures of the methods, and whether they are reported."""
+"""Tests of where the methods fail, and whether they report their failures."""

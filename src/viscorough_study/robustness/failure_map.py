@@ -1,7 +1,8 @@
-"""Failure map: every method on every stress-test case, with its error and whether failures are reported.
+"""Make the failure map: the error of every method in every stress-test case, and whether a failure is reported.
 
-A method holds if its error is within its limit. Otherwise it must have refused with a reason, or warned, or, if it is a
-model, be outside its documented range. Any other failure goes unnoticed, and is a defect.
+A method holds if its error is within its limit. Otherwise the method must have refused the case with a reason, or have
+warned. For an approximate model it is also sufficient that the case is outside the documented range of the model. Any
+other failure goes unnoticed, and is a defect.
 """
 
 import logging
@@ -16,7 +17,7 @@ from viscorough_study.robustness.stress_cases import stress_cases
 from viscorough_study.robustness.stress_solutions import METHODS, MODELS, reference_solution
 from viscorough_study.run.seeds import failure_map_key, realization_seed
 
-MIN_ELEMENTS = 10  # elements in contact below which the grid determines the result, region (a)
+MIN_ELEMENTS = 10  # with fewer elements in contact, in region (a), the grid determines the result
 FEW_ELEMENTS = "fewer than ten elements touch: region (a), which belongs to the grid"
 COLUMNS = {
     "group": ("kind of stress-test case", ""),
@@ -31,7 +32,10 @@ VERDICTS = ("holds", "model", "stated", "warned", "refused", "unnoticed")
 
 
 def map_failures(*, seed, across, grids, hurst_min):
-    """`failure_map` of all stress-test cases, with a warning in the log for every unnoticed failure."""
+    """Return the `failure_map` of all stress-test cases, and log a warning for every unnoticed failure.
+
+    seed : root seed of the cases; across, grids, hurst_min : arguments of `stress_cases`
+    """
     table = failure_map(stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min))
     for row in table[table["verdict"] == "unnoticed"].itertuples():
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
@@ -39,11 +43,15 @@ def map_failures(*, seed, across, grids, hurst_min):
 
 
 def failure_map(cases, methods=METHODS):
-    """Every method on every stress-test case; a pandas.DataFrame with the columns of `COLUMNS`."""
+    """Apply every method to every stress-test case; return a pandas.DataFrame with the columns of `COLUMNS`.
+
+    methods : {name: (function, limit)}, see stress_solutions.METHODS
+    """
     rows, solutions = [], {}
     for case in cases:
         logging.info("%s: %s", case.group, case.name)
-        question = (case.indenter.heights.tobytes(), case.indenter.spacing, case.fractions)  # shared by many cases
+        # Cases with the same indenter and contact fractions share one reference solution.
+        question = (case.indenter.heights.tobytes(), case.indenter.spacing, case.fractions)
         if question not in solutions:
             solutions[question] = reference_solution(case)
         for name, (ratios, limit) in methods.items():
@@ -53,12 +61,17 @@ def failure_map(cases, methods=METHODS):
 
 
 def _cell(case, solution, ratios, limit, *, is_model):
-    """Error, limit, verdict and reason of a method, of which these are the ratios and the limit, on one case."""
+    """Apply one method to one case; return its error, limit, verdict and reason.
+
+    solution : reference solution of the case; limit : largest error for which the method holds
+    ratios : function of case and solution that returns the ratios of the method's results to the reference solution
+    """
     messages, error, verdict = [], 1.0, ""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         try:
-            Load(np.arange(len(case.force), dtype=float), force=np.array(case.force))  # refuses tensile forces
+            # Load raises ValueError for tensile forces.
+            Load(np.arange(len(case.force), dtype=float), force=np.array(case.force))
             error = float(np.abs(np.nan_to_num(ratios(case, solution), nan=0.0) - 1).max())
         except (ValueError, ConvergenceError, MemoryError) as reason:
             messages, verdict = [str(reason)], "refused"
@@ -67,7 +80,7 @@ def _cell(case, solution, ratios, limit, *, is_model):
         verdict = "model" if is_model else "holds"
     elif not verdict:
         limits = {case.stated: is_model, FEW_ELEMENTS: is_model and solution.count[0] < MIN_ELEMENTS}
-        stated = [text for text, applies in limits.items() if text and applies]  # in the documentation of models
+        stated = [text for text, applies in limits.items() if text and applies]  # reasons that models document
         verdict = "warned" if messages else "stated" if stated else "unnoticed"
         messages += stated
     reason = " ".join("; ".join(dict.fromkeys(messages)).split())

@@ -1,11 +1,13 @@
-"""Error over a setting that decides whether a method works: steps, empty space around a map, range of a power law.
+"""Measure errors as functions of a setting that decides whether a method works: steps, box, range of a power law.
 
-- Explicit steps: their number, in equal ratios of time, on a rough disc; largest error of the depth against the
-  integration from contact event to contact event.
-- Box: its width over the width of the map. Fourier transforms convolve periodically: in a box less than twice as wide
-  as the map, distant elements act on each other over the shorter way, across the edge of the box. Error of the
-  stiffness of a disc whose elements all touch, against the same without periods.
-- Power law: X^β/ζ as fitted in region (b), over X = Ft/(4ηhL); error against the geometric mean of vt/h of the discs.
+- Explicit steps: the setting is the number of time steps, in equal ratios of time, on a rough disc. The error is the
+  largest error of the depth, relative to integration from contact event to contact event.
+- Box: a map is surrounded by empty space to form a box. The setting is the ratio of the width of the box to the width
+  of the map. Fourier transforms convolve periodically: in a box less than twice as wide as the map, distant elements
+  act on each other over the shorter distance, across the edge of the box. The error is the error of the stiffness of a
+  flat disc whose elements all touch, relative to a box that is wide enough.
+- Power law: the setting is X = Ft/(4ηhL). The error is the deviation of X^β/ζ, as fitted in region (b), from the
+  geometric mean of vt/h of the discs.
 """
 
 import warnings
@@ -23,10 +25,10 @@ from viscorough_study.fits.conventions import fits
 from viscorough_study.run.names import BOX, RANGE, STEPS
 from viscorough_study.run.seeds import failure_map_key, realization_seed
 
-HURST = 0.7  # of the disc of the explicit steps, as in the stress-test cases
-NUMBERS = (8, 32, 128, 512, 2048)  # of steps
-FRACTIONS = (0.02, 0.5)  # contact fractions between which depths are compared
-COMPARED = 6  # impulses at which depths are compared
+HURST = 0.7  # Hurst exponent of the disc for the explicit steps, like most stress-test cases
+NUMBERS = (8, 32, 128, 512, 2048)  # numbers of explicit steps
+FRACTIONS = (0.02, 0.5)  # smallest and largest contact fraction in the comparison of depths
+COMPARED = 6  # number of impulses ∫F dt/η in the comparison of depths
 COLUMNS = {
     "knob": ("explicit steps, box, or power law", ""),
     "hurst": ("Hurst exponent of the surface; missing for a flat disc", "1"),
@@ -37,9 +39,11 @@ COLUMNS = {
 
 
 def failure_knobs(discs, scaling, *, seed, across, conventions):
-    """Error over the three settings; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Measure the error for several values of each of the three settings; return a pandas.DataFrame with `COLUMNS`.
 
-    discs : pool; scaling : table of power laws; across : elements across the disc and the map; conventions : of figures
+    discs : pool of discs (ensembles.pool); scaling : table of fitted power laws
+    seed : root seed; across : number of elements across the disc of the explicit steps, and across the flat disc
+    conventions : {convention: value} of the figures (fits.conventions)
     """
     rows = [*_step_rows(seed, across), *_box_rows(across), *_range_rows(discs, scaling, conventions)]
     return pd.DataFrame(rows, columns=list(COLUMNS))
@@ -48,7 +52,7 @@ def failure_knobs(discs, scaling, *, seed, across, conventions):
 def _step_rows(seed, across):
     disc = self_affine_disc(HURST, across, seed=realization_seed(seed, *failure_map_key()))
     events = march_events(disc, until_fraction=FRACTIONS[1])
-    # The first element touches at an impulse of zero.
+    # Begin with at least two elements in contact, because the first element touches at an impulse of zero.
     first = events.impulse[np.searchsorted(events.contact_count, max(FRACTIONS[0] * disc.elements, 2))]
     impulses = np.geomspace(first, events.impulse[-1] * (1 - 1e-9), COMPARED)
     for number in NUMBERS:
@@ -67,9 +71,11 @@ def _box_rows(across):
 
 
 def periodic_stiffness(across, width):
-    """Sum of the pressures of a flat disc at a depth of 1, in reduced units, by convolution in a periodic box.
+    """Return the sum of the pressures of a flat disc at a depth of 1, in reduced units, in a periodic box.
 
-    across, width : elements across the disc and across the box
+    Any two elements act on each other over the shorter distance, directly or across the edge of the box, like in a
+    convolution by Fourier transforms.
+    across, width : number of elements across the disc and across the box
     """
     place = np.argwhere(np.isfinite(cut_disc(np.zeros((across, across)), across)))
     row, column = np.moveaxis(np.abs(place[:, None] - place), -1, 0)

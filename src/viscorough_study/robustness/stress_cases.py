@@ -16,16 +16,17 @@ ROLL_OFF = "the spectrum rolls off: there is no power law"
 
 @dataclass(frozen=True)
 class StressCase:
-    """An indenter, its load, and the parameters of the methods.
+    """A stress-test case: an indenter, its load, and the parameters of the methods.
 
-    hurst : Hurst exponent assumed for the power law, and for a line with the same spectrum
-    fractions : contact fractions at the ends of the comparison
-    body : the indenter as a body of revolution with a power-law profile, whose line is exact; or None
-    tolerance : tolerance of the elastic path; steps : number of steps of explicit marching
-    force : F at equal intervals of time; constant by default
-    stated : reason in the documentation of models why they do not apply to this case
-    medium : a viscoelastic medium; None for a Newtonian one
-    medium_load : (time, force) in it, up to a factor of the force
+    group, name : kind of case, and name of the case
+    hurst : Hurst exponent that models assume, for the power law and for a random line of the MDR
+    fractions : contact fractions at the first and the last depth of the comparison
+    body : body of revolution with a power-law profile that the indenter represents, for which the MDR is exact; or None
+    tolerance : tolerance of the elastic loading path; steps : number of explicit time steps
+    force : values of the force F at equal intervals of time; constant by default
+    stated : documented reason why models do not apply to this case; empty if they apply
+    medium : viscoelastic medium; None for a Newtonian medium
+    medium_load : samples (time, force) of the load in `medium`; the forces are scaled by a common factor
     """
 
     group: str
@@ -46,8 +47,8 @@ def stress_cases(seed, across, grids, hurst_min):
     """Yield all stress-test cases of the failure map, group by group.
 
     seed : SeedSequence of the rough discs; across : elements across the maps
-    grids : elements across the discs of the group that varies the grid
-    hurst_min : limit of H in the paper; it states that Eq. 5 holds above it (resources/paper/numbers.yaml)
+    grids : numbers of elements across the discs of the group "grid"
+    hurst_min : the paper states that Eq. 5 holds for H above this limit (resources/paper/numbers.yaml)
     """
     disc = partial(self_affine_disc, elements_across=across, seed=seed)
     usual = {"indenter": disc(0.7), "hurst": 0.7}
@@ -59,9 +60,10 @@ def stress_cases(seed, across, grids, hurst_min):
 
 
 def _disc_cases(disc, usual, grids, hurst_min):
-    """Yield rough discs with several numbers of time steps, Hurst exponents, grids, and contact fractions.
+    """Yield cases of rough discs: several numbers of time steps, Hurst exponents, grids, and contact fractions.
 
-    disc : function that makes them from a Hurst exponent; usual : the disc of most cases, and its Hurst exponent
+    disc : function that generates a disc from a Hurst exponent
+    usual : the disc of most cases, as the arguments `indenter` and `hurst` of StressCase
     """
     elements = usual["indenter"].elements
     for steps, name in ((4096, "4096 steps"), (256, "256 steps"), (16, "16 steps"), (1, "one step")):
@@ -82,13 +84,16 @@ def _disc_cases(disc, usual, grids, hurst_min):
 
 
 def _shape(across, function):
-    """Return a map of `across` elements across, with heights of 0.1 times a function of x and y from −1 to 1."""
+    """Return an indenter with heights of 0.1 times a function of x and y, which extend from −1 to 1.
+
+    across : number of elements along x and along y
+    """
     x = (np.arange(across) - (across - 1) / 2) * 2 / across
     return Indenter(0.1 * (function(x[:, None], x) + np.zeros((across, across))), 2 / across)
 
 
 def _tied_cases(across, seed):
-    """Yield maps with many elements of exactly the same height."""
+    """Yield cases of indenters with many elements of exactly the same height."""
 
     def tied(name, heights, **options):
         return StressCase("ties", name, Indenter(heights, 1.0), stated=NOT_SELF_AFFINE, **options)
@@ -122,7 +127,7 @@ def _shape_cases(across):
 
 
 def _question_cases(usual):
-    """Yield the usual disc in extreme units, under varying forces, and with other tolerances."""
+    """Yield cases of the usual disc: in extreme units of length, under varying forces, with other tolerances."""
     rough = usual["indenter"]
     for name, height, length in (
         ("heights times 1e12", 1e12, 1.0),
@@ -145,7 +150,10 @@ def _question_cases(usual):
 
 
 def _medium_cases(usual):
-    """Yield media and loads in them; times are from 0 to 1, and a repeated time marks a step."""
+    """Yield cases of the usual disc in viscoelastic media, each with a load history.
+
+    Times are from 0 to 1; a repeated time marks a step of the force.
+    """
     step, ramp = ((0, 1), (1, 1)), ((0, 0), (0.5, 0.4), (1, 1))
     hold, unloading = ((0, 0), (0.1, 1), (1, 1)), ((0, 0), (0.4, 1), (0.5, 0.3), (1, 0.3))
     solid = StandardLinearSolid(3.0, 1.0, 0.3)

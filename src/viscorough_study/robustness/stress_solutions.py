@@ -1,8 +1,10 @@
-"""Solve a stress-test case by every method, relative to the reference solution.
+"""Solve a stress-test case by every method, and compare the results with the reference solution.
 
-The reference is the dense solution on the same elements, exact to rounding: forces at given depths. By the
-correspondence principle they are also the impulses ∫F dt/η at which the indenter reaches these depths in a viscous
-half-space. Elastic methods give the forces at the depths, other methods the depths at the forces or impulses.
+The reference solution gives the forces F/G at given depths. It is computed on the same elements with dense matrices,
+and is exact within rounding. By the correspondence principle, the forces are also the impulses ∫F dt/η by which the
+indenter reaches these depths in a viscous half-space. Each method returns ratios to the reference solution: an elastic
+method returns ratios of forces at the given depths, other methods return ratios of depths at the given forces or
+impulses.
 """
 
 import warnings
@@ -30,22 +32,24 @@ from viscorough.viscous.kinetics import kinetics
 DENSE_ONLY = SolverOptions(dense_contacts=10**9, dense_interactions=10**12)
 GRID_ONLY = SolverOptions(dense_contacts=0, dense_interactions=0)
 DOUBLE_ON_GRID = replace(GRID_ONLY, precision="double", exact_gap_below=0.0)
-DEPTHS = 6  # number of depths in the comparison of solutions
-INTERPOLATED_FORCES = 20  # forces between two of these depths in the comparison of interpolated depths
+DEPTHS = 6  # number of depths of a reference solution
+INTERPOLATED_FORCES = 20  # interpolated depths are compared at this number of forces from each depth to the next
 REFERENCE_TOLERANCE = 1e-11
-BISECTIONS = 12  # in the search for the depth of a contact fraction
-BEYOND_FULL_CONTACT = 3.0  # factor on the depth of full contact
-LINE_POINTS = 2**14  # points of lines of the MDR
+BISECTIONS = 12  # number of bisections in the search for the depth of a contact fraction
+BEYOND_FULL_CONTACT = 3.0  # depths of cases past full contact are multiplied by this factor
+LINE_POINTS = 2**14  # number of points of a line of the MDR
 CURVE_TOLERANCE = 1e-6  # tolerance of loading curves for the correspondence
-STEPS, REFERENCE_STEPS = 64, 1024  # steps between the samples of a force in a medium
-LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0  # a model may be off by a factor of 2 for one realization
+# Number of time steps between two samples of a force in a viscoelastic medium, by the method and by its reference.
+STEPS, REFERENCE_STEPS = 64, 1024
+# Largest errors of methods that hold. For a single realization, a model may deviate by a factor of 2.
+LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0
 
 
 @dataclass(frozen=True)
 class Solution:
     """The reference solution of a case; arrays of shape (depths,).
 
-    depth [length], force : F/G [length²], count : elements in contact
+    depth : prescribed depths [length]; force : F/G [length²]; count : number of elements in contact
     """
 
     depth: np.ndarray
@@ -54,7 +58,10 @@ class Solution:
 
 
 def reference_solution(case):
-    """Solve a case at `DEPTHS` depths, in equal ratios between the depths of the case's contact fractions."""
+    """Return the reference Solution of a case at `DEPTHS` depths.
+
+    The depths are in equal ratios, from the depth of the case's first contact fraction to the depth of its last.
+    """
     solver = ContactSolver(case.indenter, REFERENCE_TOLERANCE, DENSE_ONLY)
     first = _depth_of_fraction(solver, case.fractions[0], 0.0)
     last = _depth_of_fraction(solver, min(case.fractions[1], 1.0), first)
@@ -66,7 +73,7 @@ def reference_solution(case):
 
 
 def _depth_of_fraction(solver, fraction, low):
-    """Return the reduced depth above `low` of a contact fraction, by doubling and bisection."""
+    """Return the reduced depth above `low` that reaches a contact fraction, found by doubling and bisection."""
     contact, gap = solver.unloaded_state(), solver.elements.initial_gap
     high = max(2 * low, gap[gap > 0][0] if gap[-1] > 0 else 1.0)
     while (deeper := solver.advance_reduced(contact, high)).count < fraction * solver.elements.count:
@@ -85,15 +92,18 @@ def _depth_of_fraction(solver, fraction, low):
 
 
 def _path(options, case, solution):
-    """Return forces of the elastic loading path."""
+    """Return ratios of forces, by the elastic loading path with these options, to the reference."""
     curve = indent(case.indenter, tolerance=case.tolerance, depths=solution.depth, options=options)
     return curve.force / solution.force
 
 
 def _interpolated(case, solution):
-    """Return depths interpolated between automatic levels, at several forces from each depth to the next."""
+    """Return ratios of interpolated depths on a loading curve with automatic levels to exact depths.
+
+    The depths are compared at several forces from each depth of the reference to the next.
+    """
     curve = indent(case.indenter, tolerance=case.tolerance, until_fraction=1.0, until_force=solution.force[-1])
-    kinetics(curve, 1.0, 1.0, solution.force[:1])  # refuses forces beyond the last level
+    kinetics(curve, 1.0, 1.0, solution.force[:1])  # raises ValueError if the first force is beyond the curve
     ends = np.minimum(solution.force, curve.force[-1])
     starts = np.append(ends[0], ends[:-1])
     force = starts[:, None] * (ends / starts)[:, None] ** np.linspace(0, 1, INTERPOLATED_FORCES)
@@ -102,18 +112,21 @@ def _interpolated(case, solution):
 
 
 def _last_fraction(case, solution):
-    """Return a contact fraction slightly above the contact fraction of the last depth."""
+    """Return a contact fraction slightly above the contact fraction at the last depth of the reference."""
     return min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
 
 
 def _events(case, solution):
-    """Return depths of the direct integration from contact event to contact event."""
+    """Return ratios of depths, by direct integration from contact event to contact event, to the reference."""
     events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
     return events.depth_at(solution.force) / solution.depth
 
 
 def _steps(case, solution):
-    """Return depths by the case's number of explicit steps: uniform in time, or in equal ratios if F is constant."""
+    """Return ratios of depths, by direct integration in explicit time steps, to the reference.
+
+    The case sets the number of steps. They are uniform in time, or, if the force is constant, in equal ratios of time.
+    """
     if min(case.force) == max(case.force):
         ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
     else:
@@ -126,7 +139,11 @@ def _steps(case, solution):
 
 
 def _reduction(case, solution):
-    """Return depths by the MDR, with a body's exact line or a random line of the same h, L and H."""
+    """Return ratios of depths, by the MDR, to the reference.
+
+    The line of a body of revolution is exactly equivalent to the body. The line of any other indenter is random, with
+    the same h and L, and with the Hurst exponent of the case.
+    """
     across = case.indenter.spacing * len(case.indenter.heights)
     random_line = partial(self_affine_line, rms=np.nanstd(case.indenter.heights), length=across, seed=1)
     line = case.body.mdr_line(LINE_POINTS, across) if case.body else random_line(case.hurst, LINE_POINTS)
@@ -135,7 +152,10 @@ def _reduction(case, solution):
 
 
 def _power_law(gamma, case, solution):
-    """Return depths by Eq. 6, or with gamma Eq. 8, with Eqs. 4 and 5, or the exact α and ζ of a body of revolution."""
+    """Return ratios of depths, by the power law, to the reference.
+
+    The law is Eq. 6, or with `gamma` Eq. 8. Its ζ and α are from Eqs. 4 and 5; for a body of revolution they are exact.
+    """
     across, rms = case.indenter.spacing * len(case.indenter.heights), np.nanstd(case.indenter.heights)
     zeta, alpha = reference.zeta_elastic(case.hurst), reference.exponent_alpha(case.hurst)
     if case.body is not None:
@@ -150,12 +170,13 @@ def _power_law(gamma, case, solution):
     return rms * reference.depth_law(x, zeta, alpha, gamma=gamma) / solution.depth
 
 
-# ---- in a viscoelastic medium, or, for cases without one, in a Newtonian medium under a constant force. The reference
-# is direct integration from contact event to contact event, which is exact while the contact grows, or in many steps.
+# ---- methods for viscoelastic media; a case without a medium has a Newtonian medium and a constant force. The
+# reference in a viscoelastic medium is direct integration: from contact event to contact event, which is exact, if the
+# contact only grows, otherwise in many steps.
 
 
 def _by_correspondence(case, solution):
-    """Return depths by the correspondence over the depths of the reference."""
+    """Return ratios of depths, by the correspondence with a loading curve (`kinetics`), to the reference."""
     curve = indent(case.indenter, tolerance=CURVE_TOLERANCE, until_fraction=1.0, until_force=solution.force[-1])
     if case.medium is None:
         return kinetics(curve, 1.0, Newtonian(1.0), solution.force).depth / solution.depth
@@ -165,7 +186,7 @@ def _by_correspondence(case, solution):
 
 
 def _by_steps(case, solution):
-    """Return depths by the second-order steps of direct integration over the depths of the reference."""
+    """Return ratios of depths, by second-order steps of direct integration (`march`), to the reference."""
     if case.medium is None:
         times = np.append(0.0, solution.force)
         motion = march(case.indenter, Load(times, force=np.ones(times.size)), Newtonian(1.0))
@@ -174,7 +195,11 @@ def _by_steps(case, solution):
 
 
 def _history(case, solution):
-    """Return times from 0 to 1, with steps, and a force whose elastic equivalent stays below the last force."""
+    """Return the times and the forces of the load in the medium of a case.
+
+    The times are from 0 to 1; a repeated time marks a step of the force. The forces are scaled so that the equivalent
+    elastic force stays below the last force of the reference solution.
+    """
     times, shape = np.array(case.medium_load).T
     largest = solution.force[-1] / case.medium.creep_compliance(times[-1]) / shape.max()
     return times, 0.999 * largest * shape
@@ -190,7 +215,10 @@ def _motion_reference(case, solution):
 
 
 def _stepped(case, solution, number):
-    """Return depths at the samples of the force, with `number` steps between them, shorter steps first."""
+    """Return depths at the samples of the force, by direct integration in `number` steps from sample to sample.
+
+    After each sample the steps begin short, and grow until the next sample.
+    """
     history = np.array(_history(case, solution))  # times and forces
     parts, place = [history[:, :1]], [0]
     for start, end in pairwise(history.T):
@@ -209,8 +237,8 @@ def _ratios(depth, reference):
 # ---- all methods
 
 
-# {name: (function of case and solution that returns depths or forces over the reference solution, function of the case
-# that returns the largest error for which the method holds)}
+# {name: (function, limit)}. The function takes a case and its reference Solution, and returns ratios of depths or
+# forces to the reference. The limit takes the case, and returns the largest error for which the method holds.
 METHODS = {
     "path, dense": (partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance),
     "path, grid, double": (partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance),
@@ -224,4 +252,4 @@ METHODS = {
     "power law": (partial(_power_law, False), lambda case: LIMIT_MODEL),
     "power law with Γ": (partial(_power_law, True), lambda case: LIMIT_MODEL),
 }
-MODELS = ("MDR", "power law", "power law with Γ")  # approximations
+MODELS = ("MDR", "power law", "power law with Γ")  # methods that are approximate models

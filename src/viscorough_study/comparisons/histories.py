@@ -43,7 +43,7 @@ STEPS = 60
 # Largest contact fraction of the loading curves, about 165 elements of a disc with 65 elements across.
 FRACTION = 0.05
 LAST = 0.99  # the motions use the loading curve up to this share of its last depth and force
-TOLERANCE = 1e-6  # tolerance of the loading curve
+TOLERANCE = 1e-6  # tolerance of the loading curves
 
 
 def compare_histories(*, hursts, elements, seed):

@@ -52,7 +52,7 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, **absc
     The table omits every X beyond the end of any loading curve of this Hurst exponent.
     """
     x, tables = abscissa(abscissae["x_low"], abscissae["x_high"], abscissae["per_decade"]), []
-    force = 4 * x  # F/G = 4hLX with h = L = 1
+    force = 4 * x  # values of F/G, which is 4hLX with h = L = 1
     force_with_gap = np.where(is_power_of_ten(x), force, np.nan)
     for hurst in hursts:
         compared = []
@@ -129,7 +129,7 @@ def _table(hurst, x, compared):
         "stiffness_scatter": (line - disc).std(axis=0, ddof=1),
         "force_ratio": np.exp(force.mean(axis=0)),
         "correlation": correlation,
-        "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,  # by Fisher's transform
+        "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,  # Fisher's transform gives the bound
         "realizations": number,
     }
     for name, ratios in (("stiffness_ratio", line - disc), ("area_ratio", fraction), ("gap_ratio", gap)):

@@ -35,7 +35,7 @@ def plot_conventions(scaling, conventions):
     discs = scaling[scaling["source"] == "discs"]
     looks, changes = style.hurst_looks(discs["hurst"]), _changes(discs, conventions)
     figure, (betas, zetas) = style.new_subplots(7 * len(changes) + 28, 1, 2, sharey=True)
-    heights = np.linspace(-0.27, 0.27, len(looks))  # positions of the Hurst exponents within a row
+    heights = np.linspace(-0.27, 0.27, len(looks))  # offsets of the Hurst exponents within a row of the figure
     for (hurst, look), height in zip(looks.items(), heights, strict=True):
         beta, zeta = reference.exponent_beta(hurst), reference.zeta_viscous(hurst)
         zetas.axvline(reference.zeta_elastic(hurst) / zeta, color=look["color"], linestyle=":", zorder=1)

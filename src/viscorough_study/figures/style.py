@@ -17,7 +17,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
-from PIL import Image  # matplotlib depends on it
+from PIL import Image  # matplotlib depends on Pillow, so it is installed
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.run.readable import readable
@@ -185,7 +185,7 @@ def count_text(counts):
 
 
 def handle(label, **look):
-    """Return a legend entry for a line or marker of this look."""
+    """Return a legend entry for a line or a marker; look : line properties"""
     return Line2D([], [], label=label, **look)
 
 

@@ -91,7 +91,7 @@ class Results:
         return tuple(self.number(table, row, column) for row in ends) or (None, None)
 
     def count(self, table, column, counted):
-        """Return the number of rows with the value `counted` in a column."""
+        """Return the number of rows with the value `counted` in a column, as a Number."""
         number = int((self.tables[table][column] == counted).sum())
         return Number(number, table, column, counted=counted, origin=self.origin(table))
 

@@ -15,7 +15,7 @@ from viscorough_study.performance.methods import METHODS
 from viscorough_study.performance.problems import named_problem
 from viscorough_study.run.kernels import compile_kernels
 
-MAX_REPEATED = 10.0  # longest run that is repeated [s]
+MAX_REPEATED = 10.0  # runs of at least this time are not repeated [s]
 TIMES = ("wall_s", "processor_s")
 COLUMNS = {
     "problem": ("indenter", ""),
@@ -33,7 +33,7 @@ COLUMNS = {
 
 
 def measure_problems(*, problems, seed, levels, repeats, longest):
-    """Measure cost and error of every method on several problems; return a pandas.DataFrame like `measure`.
+    """Measure cost and error of every method on several problems; return a pandas.DataFrame with `COLUMNS`.
 
     problems : list of arguments of `named_problem`; seed : root seed of rough discs; levels : depths of each problem
     repeats, longest : arguments of `measure`

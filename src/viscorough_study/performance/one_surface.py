@@ -96,7 +96,7 @@ def surface_rows(hurst, elements, seed):
     The keys are the columns of `COLUMNS`, except for hurst and surfaces.
     """
     own_seed, line_seed = seed.spawn(2)
-    disc = self_affine_disc(hurst, elements, seed=own_seed)  # h = L = 1
+    disc = self_affine_disc(hurst, elements, seed=own_seed)  # a disc with h = L = 1
     x = np.geomspace(*X, round(PER_DECADE * np.log10(X[1] / X[0])))
     force = 4 * x
     until = {"until_fraction": 1.0, "until_force": 4 * X[1] * (1 + 1e-9)}
@@ -148,7 +148,7 @@ def _timed(function):
 def _answers(curve, force, disc):
     """Return {quantity: its values at the forces} for the velocity vt and the contact area of a loading curve.
 
-    force : F/G with h = L = 1; forces beyond the ends of the curve are replaced by the force at this end
+    force : F/G with h = L = 1; forces beyond an end of the curve are replaced by the force at this end
     """
     force = np.clip(force, curve.force[0], curve.force[-1])
     fraction = np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)))

@@ -24,7 +24,7 @@ def timed(function):
 
 
 def machine():
-    """Return name, processor and cores of this machine, to be recorded with the times measured on it."""
+    """Return the name, the processor and the number of cores of this machine, to be recorded with measured times."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.is_file() else []
     names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]

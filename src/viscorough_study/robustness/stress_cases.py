@@ -1,4 +1,4 @@
-"""Build stress-test cases: indenters and loads for every method."""
+"""Build the stress-test cases: indenters, loads, and parameters for all methods."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -84,8 +84,9 @@ def _disc_cases(disc, usual, grids, hurst_min):
 
 
 def _shape(across, function):
-    """Return an indenter with heights of 0.1 times a function of x and y, which extend from −1 to 1.
+    """Return an indenter whose heights are 0.1 times a function of x and y.
 
+    x and y extend from −1 to 1.
     across : number of elements along x and along y
     """
     x = (np.arange(across) - (across - 1) / 2) * 2 / across

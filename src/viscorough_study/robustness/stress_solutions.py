@@ -38,7 +38,7 @@ REFERENCE_TOLERANCE = 1e-11
 BISECTIONS = 12  # number of bisections in the search for the depth of a contact fraction
 BEYOND_FULL_CONTACT = 3.0  # depths of cases past full contact are multiplied by this factor
 LINE_POINTS = 2**14  # number of points of a line of the MDR
-CURVE_TOLERANCE = 1e-6  # tolerance of loading curves for the correspondence
+CURVE_TOLERANCE = 1e-6  # tolerance of the loading curves that the correspondence uses
 # Number of time steps between two samples of a force in a viscoelastic medium, by the method and by its reference.
 STEPS, REFERENCE_STEPS = 64, 1024
 # Largest errors of methods that hold. For a single realization, a model may deviate by a factor of 2.
@@ -125,7 +125,7 @@ def _events(case, solution):
 def _steps(case, solution):
     """Return ratios of depths, by direct integration in explicit time steps, to the reference.
 
-    The case sets the number of steps. They are uniform in time, or, if the force is constant, in equal ratios of time.
+    The case sets the number of steps. Steps are uniform in time, or in equal ratios of time if the force is constant.
     """
     if min(case.force) == max(case.force):
         ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
@@ -141,8 +141,8 @@ def _steps(case, solution):
 def _reduction(case, solution):
     """Return ratios of depths, by the MDR, to the reference.
 
-    The line of a body of revolution is exactly equivalent to the body. The line of any other indenter is random, with
-    the same h and L, and with the Hurst exponent of the case.
+    The line of a body of revolution is exactly equivalent to the body. The line of any other indenter is random,
+    with h and L of the indenter, and with the Hurst exponent of the case.
     """
     across = case.indenter.spacing * len(case.indenter.heights)
     random_line = partial(self_affine_line, rms=np.nanstd(case.indenter.heights), length=across, seed=1)
@@ -207,7 +207,7 @@ def _history(case, solution):
 
 def _motion_reference(case, solution):
     times, force = _history(case, solution)
-    if (np.diff(force) < 0).any():  # the contact recedes
+    if (np.diff(force) < 0).any():  # the contact recedes while the force falls
         return _stepped(case, solution, REFERENCE_STEPS)
     until = _last_fraction(case, solution)
     load = Load(times, force=force)
@@ -219,7 +219,7 @@ def _stepped(case, solution, number):
 
     After each sample the steps begin short, and grow until the next sample.
     """
-    history = np.array(_history(case, solution))  # times and forces
+    history = np.array(_history(case, solution))  # a row of times, and a row of forces
     parts, place = [history[:, :1]], [0]
     for start, end in pairwise(history.T):
         share = np.ones(1) if start[0] == end[0] else np.linspace(0, 1, number + 1)[1:] ** 2
@@ -238,7 +238,8 @@ def _ratios(depth, reference):
 
 
 # {name: (function, limit)}. The function takes a case and its reference Solution, and returns ratios of depths or
-# forces to the reference. The limit takes the case, and returns the largest error for which the method holds.
+# forces to the reference. The limit is a function of the case that returns the largest error for which the method
+# holds.
 METHODS = {
     "path, dense": (partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance),
     "path, grid, double": (partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance),

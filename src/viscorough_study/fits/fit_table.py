@@ -1,7 +1,8 @@
 """Compute the table of fits: β, ζ and λ of every ensemble under every convention that needs a fit.
 
-A row is an ensemble in one rms convention, average and window (`FITTED` of fits.conventions). Window and ζ belong to
-the plain reading of the law; fits.conventions has functions that select rows in any reading.
+A row is the fit of one ensemble with one rms convention, one average and one window (`FITTED` of fits.conventions). The
+window and ζ belong to the law without the factor 1/Γ(2 − α), the plain reading. The functions of fits.conventions
+select rows and convert them to the other reading.
 """
 
 import logging
@@ -17,7 +18,7 @@ from viscorough_study.fits.intervals import described, described_ends, three_col
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
 
-# column: (long_name, units), in the order of the table; units None for text
+# {column: (long_name, units)}, in the order of the table; the units of text are None
 COLUMNS = {
     "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", None),
     "case_group": ("base or name of the variant of the surfaces", None),
@@ -38,9 +39,12 @@ SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a
 
 
 def scaling_table(discs, lines, *, seed, **fit):
-    """Fit discs, one ensemble for each group and Hurst exponent, and lines; λ if both have the same H.
+    """Fit power laws to every ensemble of discs and of lines, and match the lines to base discs of the same H for λ.
 
-    discs, lines : pools (viscorough_study.ensembles.pool); seed, fit : further arguments of `fit_rows`
+    Discs have one ensemble for each group of cases and Hurst exponent, lines have one for each Hurst exponent.
+
+    discs, lines : pools (viscorough_study.ensembles.pool)
+    seed, fit : further arguments of `fit_rows`
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
     """
     lines, rows = ensembles(lines, "hurst"), []
@@ -56,12 +60,15 @@ def scaling_table(discs, lines, *, seed, **fit):
 
 
 def sizes_table(discs, lines, *, windows, **fit):
-    """Fit ensembles on grids from coarse to fine, each separately, also in windows of fixed X.
+    """Fit power laws on grids from coarse to fine, to each grid separately, also in windows of fixed X.
 
-    The window of region (b) moves with the grid: a finer grid resolves smaller X. In windows of fixed X only the grid
-    changes. A deviation from H/(1 + H) that becomes smaller in the moving window but not in fixed windows depends on
-    the X of the window, not on the grid.
-    discs, lines : pools; windows : [(X_low, X_high)]; fit : further arguments of `fit_rows`
+    The window of region (b) moves with the grid, since a finer grid resolves smaller X. In windows of fixed X only the
+    grid changes. A deviation of β from H/(1 + H) may become smaller on finer grids in the moving window and remain the
+    same in the fixed windows. Such a deviation depends on the X of the window, not on the grid.
+
+    discs, lines : pools
+    windows : fixed windows, [(X_low, X_high)]
+    fit : further arguments of `fit_rows`
     Returns a pandas.DataFrame with the columns of `SIZES`.
     """
     rows = []
@@ -73,11 +80,13 @@ def sizes_table(discs, lines, *, windows, **fit):
 
 
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
-    """Return rows of the table (dicts with the keys of `COLUMNS`) of one ensemble; nan without a window.
+    """Return the rows of the table for one ensemble: dicts with the keys of `COLUMNS`; nan without a window.
 
-    ensemble, lines : ensemble datasets (ensembles.averages); lines of the same Hurst exponent and abscissae, for λ,
-        which is nan without lines, or if they do not reach the stiffness of the discs
-    resamples, seed : arguments of the bootstrap; limits : arguments of viscorough_study.fits.power_law.named_windows
+    ensemble : ensemble dataset (ensembles.averages)
+    lines : ensemble dataset of lines with the same Hurst exponent and abscissae, for λ; λ is nan without lines, or if
+        the lines do not reach the stiffness of the discs
+    resamples, seed : arguments of the bootstrap
+    limits : arguments of viscorough_study.fits.power_law.named_windows
     Raises ValueError if a window has fewer than three abscissae.
     """
     rows = []
@@ -93,7 +102,11 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
 
 
 def _fit(ensemble, lines, window, **options):
-    """Return columns of the fit of an ensemble in one rms convention; options : average, resamples and seed"""
+    """Return the columns of the fit of an ensemble with one rms convention, {column: value}.
+
+    lines : ensemble of lines for λ, or None
+    window : (X_low, X_high); options : average, resamples and seed of the fit
+    """
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
     betas, zetas = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
@@ -107,11 +120,12 @@ def _fit(ensemble, lines, window, **options):
 
 
 def calibrated(scaling, sizes, *, conventions, across):
-    """Return fits of base discs and of lines in these conventions, with the columns of viscorough.law.calibrated_law.
+    """Return the fits that calibrate the law: a table with the columns of viscorough.law.calibrated_law.
 
-    scaling : table of `scaling_table`, with discs of `across` elements across; conventions : {convention: value}
-    sizes : table of discs on grids from coarse to fine, with `elements`; it supplies Hurst exponents that the base
-        discs lack, on the same grid
+    scaling : table of `scaling_table`, whose discs have `across` elements across
+    sizes : table of `sizes_table` with discs on grids from coarse to fine; for Hurst exponents that the base discs
+        lack, its fits on the grid with `across` elements across are used
+    conventions : {convention: value} of the selected fits
     """
     rows = [fits(scaling, conventions | source_values(source), case_group="base") for source in ("discs", "lines")]
     further = fits(sizes, conventions | source_values("discs"), case_group="sizes")

@@ -1,9 +1,12 @@
-"""Test the effect of the grid on Eq. 1: κ at given u/h, and vt/h and u/h at given X, on several grids.
+"""Test the effect of the grid on Eq. 1: compare κ at given u/h, and vt/h and u/h at given X, on several grids.
 
-The paper takes F/(ηLv) = κ as a function of u/h and H alone, with an influence of the discretization in region (a)
-only. The grid can enter at two ends of a curve. At the lower end, one element touches up to X ∝ N^−(1+H) for N elements
-across, which leaves a term ∝ N^−H in u/h. At the upper end, complete contact moves to larger X as the rms slope grows.
-If u/h at given X changes with the grid and vt/h at the same X does not, the lower end is the cause.
+According to Eq. 1, F/(ηLv) = κ is a function of u/h and H alone; the paper expects an influence of the grid in region
+(a) only. The grid can act at two ends of a curve:
+
+- At the lower end, a single element touches up to X ∝ N^−(1+H) for N elements across. This leaves a term ∝ N^−H in u/h.
+- At the upper end, finer grids have a larger rms slope, so complete contact begins at larger X.
+
+If u/h at given X changes with the grid, but vt/h at the same X does not, then the lower end is the cause.
 """
 
 import numpy as np
@@ -14,9 +17,11 @@ from scipy.special import stdtrit
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.intervals import UNDEFINED, described, three_columns
 
-DEPTHS = (0.5, 1.0, 2.0)  # values of u/h for the comparison of κ
-FORCES = (0.01, 0.1, 1.0)  # values of X for the comparison of vt/h and u/h
-ROUNDING = 1e-12  # smallest scatter of a logarithm, so that equal discs have a finite weight
+DEPTHS = (0.5, 1.0, 2.0)  # values of u/h at which κ is compared
+FORCES = (0.01, 0.1, 1.0)  # values of X at which vt/h and u/h are compared
+# Smallest standard deviation of a logarithm over the discs. Equal discs would have 0, and an infinite weight in the
+# fit.
+ROUNDING = 1e-12
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
     "quantity": ("κ, vt/h or u/h, and where", ""),
@@ -32,8 +37,9 @@ COLUMNS = {
 def grid_dependence(discs, *, elements_min, rms_convention):
     """Return a row for every Hurst exponent, quantity and grid: a pandas.DataFrame with the columns of `COLUMNS`.
 
-    discs : pool of grids from coarse to fine; elements_min : smallest number of elements in contact for a comparison of
-        grids
+    discs : pool (viscorough_study.ensembles.pool) of discs on grids from coarse to fine
+    elements_min : smallest median number of elements in contact with which a grid counts in the trend
+    rms_convention : convention of the rms height h
     """
     rows = []
     pool = ensembles(select(discs, group="sizes"), "hurst", "elements", rms_convention=rms_convention)
@@ -53,7 +59,10 @@ def grid_dependence(discs, *, elements_min, rms_convention):
 
 
 def _quantities(ensemble):
-    """Return {quantity: (its value, elements in contact) of every disc}; u/h = ∫dX/κ, κ constant below the first X."""
+    """Return {quantity: (values, elements in contact)}; both arrays have one entry for every disc of the ensemble.
+
+    The depth is u/h = ∫dX/κ, with constant κ below the first abscissa.
+    """
     x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
     depth = x[0] / stiffness[:, :1] + cumulative_trapezoid(1 / stiffness, x, axis=1, initial=0)
     curves = [np.broadcast_to(x, depth.shape), depth, stiffness, ensemble["contact_count"].values]
@@ -70,17 +79,24 @@ def _quantities(ensemble):
 
 
 def _at(abscissa, curve, given):
-    """Interpolate logarithms of X, u/h, κ and elements in contact at an abscissa log(given); nan beyond the curve."""
+    """Interpolate ln X, ln(u/h), ln κ and ln of the elements in contact to the point where `abscissa` is ln(given).
+
+    abscissa : ln X or ln(u/h) along the curve of the disc
+    curve : the four logarithms along this curve, shape (4, abscissae)
+    Values are nan if the curve does not reach this point.
+    """
     return [np.interp(np.log(given), abscissa, ordinate, left=np.nan, right=np.nan) for ordinate in curve]
 
 
 def _factor(grids):
-    """Return the factor for ten times as many elements, with its interval; nan for fewer than three grids.
+    """Return the factor on a quantity for ten times as many elements, and its interval; nan for fewer than three grids.
 
-    A line is fitted to the means, weighted by the number of discs; its interval is widened if the means scatter about
-    it more than the discs explain. The logarithm of a quantity scatters equally over the discs of all grids. Its
-    variance is pooled over the grids, since a few discs do not determine it, and the interval follows Student's t with
-    the pooled degrees of freedom.
+    A straight line is fitted to the logarithms of the means over the discs of each grid, as a function of the logarithm
+    of the number of elements. The weight of a mean is its number of discs. The interval of the slope is widened if the
+    means scatter about the line more than expected from the scatter between discs.
+
+    The scatter of the logarithm between discs is the same on all grids. Its variance is therefore pooled over the
+    grids, since a few discs do not determine it. The interval follows Student's t with the pooled degrees of freedom.
     """
     if len(grids) < 3:
         return UNDEFINED

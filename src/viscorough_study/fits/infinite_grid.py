@@ -1,11 +1,13 @@
 """Fit the exponent of an infinitely fine grid: one power law with a correction, for all grids at once.
 
-    vt/h = A X^β exp(B X^ω),    and the same for the interface, vt/h − X/κ_c
+    vt/h = A X^β exp(B X^ω),    and the same law for the interface alone, vt/h − X/κ_c
 
-To first order the correction is the factor 1 + B X^ω of the theory of corrections to scaling; as an exponential it
-leaves ln(vt/h) linear in ln A, β and B for a given ω, so all resamples are fitted at once. Besides the realizations, a
-fit depends on its range: the number of elements in contact at its start and the X at its end. A separate interval
-states this dependence, from the lowest to the highest end of the intervals of all ranges.
+The theory of corrections to scaling has the factor 1 + B X^ω, which equals this exponential to first order. With the
+exponential, ln(vt/h) is linear in ln A, β and B for a given ω, so all bootstrap resamples are fitted at once.
+
+A fit depends on the realizations, and on its range: the number of elements in contact where it starts, and the X where
+it ends. Intervals over realizations are computed for every range. A separate interval states how the fit depends on the
+range; it extends from the lowest to the highest end of these intervals.
 """
 
 from itertools import product
@@ -18,8 +20,8 @@ from viscorough_study.fits.intervals import described, equivalence, three_column
 from viscorough_study.fits.scaling_collapse import COLUMNS as COLLAPSE_COLUMNS
 from viscorough_study.fits.scaling_collapse import QUANTITIES, collapse_table, curve_table, grids
 
-OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial exponents of the correction
-CURVES_END = 1.0  # end of the drawn curves in X
+OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial values of ω
+CURVES_END = 1.0  # largest X of the curves in the table for the figure
 FINDINGS = {True: "agrees", False: "departs", None: "undecided"}
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
@@ -43,7 +45,12 @@ COLUMNS = {
 
 
 def points(hurst_grids, quantity, *, elements_min, x_high):
-    """Return (ln X, ln of the quantity of ensemble and resamples, weights) of all grids; None for fewer than two."""
+    """Return ln X, ln of a quantity, and weights of the points of all grids; None for fewer than two usable grids.
+
+    hurst_grids : list of fits.scaling_collapse.Grid; quantity, elements_min, x_high : arguments of its method `curve`
+    The logarithm of the quantity has shape (1 + resamples, points): the first row is the ensemble. The weight of a
+    point is the number of realizations of its grid.
+    """
     parts = [
         (*curve, np.full(curve[0].size, float(grid.realizations)))
         for grid in hurst_grids
@@ -55,7 +62,11 @@ def points(hurst_grids, quantity, *, elements_min, x_high):
 
 
 def fit(log_x, log_y, weights, *, corrected):
-    """Return (ln A, β, B, ω) of every row of log_y, shape (rows, 4); B and ω are nan without a correction."""
+    """Return (ln A, β, B, ω) of the law fitted to every row of log_y, shape (rows, 4).
+
+    log_x, weights : shape (points,); log_y : shape (rows, points)
+    corrected : True for the law with the correction exp(B X^ω); without it B and ω are nan
+    """
     root = np.sqrt(weights)
     target = (log_y * root).T
     best, explained = np.full((len(log_y), 4), np.nan), np.full(len(log_y), -np.inf)
@@ -72,10 +83,13 @@ def fit(log_x, log_y, weights, *, corrected):
 
 
 def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
-    """Return exponents of an infinitely fine grid, a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return the exponents of an infinitely fine grid, a pandas.DataFrame with the columns of `COLUMNS`.
 
-    grids_by_source : {source: its grids, from fits.scaling_collapse.grids}; elements_min, x_high : starts and ends of
-        the ranges, the range of the fit itself first; tolerance : tolerance of β
+    grids_by_source : {source: its grids, from fits.scaling_collapse.grids}
+    elements_min : numbers of elements in contact at which a range can start; x_high : {law: X at which a range can end}
+    tolerance : tolerance of β
+    Each law is fitted in all combinations of a start and an end. The first start and the first end are the range of the
+    fit whose values the table states; the other ranges only enter into its columns ranges_low and ranges_high.
     """
     rows = []
     cases = [(source, *case) for source, by_hurst in grids_by_source.items() for case in by_hurst.items()]
@@ -97,7 +111,7 @@ def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
 
 
 def _columns(coefficients):
-    """Return the columns of one fit."""
+    """Return {column: value} of one fit; coefficients : result of `fit`, ensemble first, then its resamples"""
     ends = np.quantile(coefficients[1:], [0.025, 0.975], axis=0)
     amplitude, beta, correction, omega = np.vstack([coefficients[:1], ends]).T
     row = {"amplitude": np.exp(amplitude[0]), "correction": correction[0]}
@@ -105,12 +119,13 @@ def _columns(coefficients):
 
 
 def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
-    """Return {"collapse", "infinite_grid", "collapse_curves": table} of discs, their control and lines.
+    """Return {"collapse", "infinite_grid", "collapse_curves": table} of discs, controls (with a roll-off), and lines.
 
-    Their columns are scaling_collapse.COLUMNS, `COLUMNS` and scaling_collapse.CURVES.
+    The columns of the three tables are scaling_collapse.COLUMNS, `COLUMNS` and scaling_collapse.CURVES.
 
-    discs, lines : pools of grids from coarse to fine; ranges : setting `collapse`; tolerance : tolerance of exponents
-    conventions : conventions of the figures; options : fraction_min and seed, as in scaling_collapse.grids
+    discs, lines : pools (viscorough_study.ensembles.pool) of grids from coarse to fine
+    ranges : section `collapse` of the settings; tolerance : tolerance of exponents
+    conventions : conventions of the figures; options : fraction_min and seed of scaling_collapse.grids
     """
     options |= {"elements_min": min(ranges["elements_min"]), "resamples": ranges["resamples"]}
     ends = {"power": ranges["x_high"], "corrected": ranges["corrected_x_high"]}

@@ -1,11 +1,13 @@
 """Model a rough disc as two springs in series: rough interface and flat punch.
 
-At large loads a rough disc acts as a flat punch in series with a compliant interface. Their compliances add, and so do
-velocities: vt/h = X/κ_c + g(X). Here κ_c is the stiffness κ of the punch on the same grid, and g is the contribution of
-the interface. If F is exponential in the mean separation, F ∝ exp(−s/u₀), the stiffness of the interface is F/u₀
-(Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. u₀/h is therefore the mean of g over ln
-X on the **plateau**: the range of X around the largest g with g at most a given fraction below it. Lines of the MDR
-have κ_c = 1.
+At large loads a rough disc acts as a flat punch in series with a compliant interface. The two compliances add, and so
+do the velocities: vt/h = X/κ_c + g(X). Here κ_c is the stiffness κ of the punch on the same grid, and g is the
+contribution of the interface. Lines of the MDR have κ_c = 1.
+
+If the force decreases exponentially with the mean separation s, F ∝ exp(−s/u₀), then the stiffness of the interface is
+F/u₀ (Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. u₀/h is therefore computed as the
+mean of g over ln X on the **plateau**. The plateau is the range of X around the largest g in which g is below its
+maximum by at most a given fraction.
 """
 
 import numpy as np
@@ -40,7 +42,8 @@ CURVES = {
 def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_convention):
     """Return {"interface", "interface_curves": table} of discs, and of lines at the Hurst exponents of the discs.
 
-    discs, lines, size_discs, size_lines : pools, the last two of grids from coarse to fine
+    discs, lines : pools (viscorough_study.ensembles.pool) of the ensembles on the usual grid
+    size_discs, size_lines : pools of the ensembles on grids from coarse to fine
     fit : further arguments of `fit_interface`; rms_convention : convention of the discs
     Returns pandas.DataFrames with the columns of `COLUMNS` and `CURVES`.
     """
@@ -61,13 +64,16 @@ def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_conventio
 
 
 def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
-    """Fit the interface of one ensemble in one rms convention: columns of `COLUMNS`, table of `CURVES`.
+    """Fit the interface of one ensemble; return {column of `COLUMNS`: value}, and g(X) as a table of `CURVES`.
 
-    punch : κ_c; plateau : fraction by which g is below its maximum at the ends of the plateau
-    fraction_min : smallest fraction of defined realizations for an arithmetic mean, which is right because compliances
-        add
-    resamples, seed : arguments of its bootstrap, as in viscorough_study.fits.power_law.fit_power_law
-    Abscissae with one element in contact, region (a), are omitted.
+    ensemble : ensemble dataset (ensembles.averages) with one rms convention
+    punch : κ_c of the flat punch
+    plateau : fraction by which g is below its maximum at the ends of the plateau
+    fraction_min : smallest fraction of realizations that must be defined at an abscissa
+    resamples, seed : arguments of the bootstrap (viscorough_study.fits.power_law.fit_power_law)
+
+    The mean over the realizations is arithmetic, since compliances add. Abscissae with one element in contact, region
+    (a), are omitted.
     """
     x, count, velocity = (ensemble[name].values for name in ("x", "contact_count_median", "velocity"))
     kept = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
@@ -82,6 +88,9 @@ def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
 
 
 def run_around(allowed, place):
-    """Return indices of the run of allowed abscissae around `place`, including this one."""
+    """Return the indices of the uninterrupted run of allowed abscissae that contains the index `place`.
+
+    allowed : mask of abscissae; `place` itself always counts as allowed
+    """
     runs, _ = label(allowed | (np.arange(len(allowed)) == place))
     return np.flatnonzero(runs == runs[place])

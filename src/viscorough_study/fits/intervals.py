@@ -1,38 +1,44 @@
-"""Compute 95 % intervals of bootstrap samples and of independent samples, and their columns in tables.
+"""Compute 95 % intervals from bootstrap samples or from independent samples, and name their columns in tables.
 
-A quantity has three columns in a table: its value, under its name, and the ends of its interval, under its name with
-the suffixes _low and _high.
+A quantity has three columns in a table: its value under the name of the quantity, and the lower and upper end of its
+interval under the same name with the suffixes _low and _high.
 """
 
 import numpy as np
 from scipy.special import gammaincinv, ndtr, stdtrit
 
-UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that cannot be computed
-NO_INTERVAL = (np.nan, np.nan)  # ends of the interval of a quantity without statistical scatter
+UNDEFINED = (np.nan, np.nan, np.nan)  # (value, low, high) of a quantity that cannot be computed
+NO_INTERVAL = (np.nan, np.nan)  # (low, high) of a quantity without statistical scatter
 
 
 def described(name, text, ends="of its 95 % interval"):
-    """Describe the columns of a quantity without unit and of its interval, {column: (long_name, units)}."""
+    """Return {column: (long_name, units)} of the three columns of a quantity without unit: value, lower and upper end.
+
+    text : long_name of the value; ends : words after "lower end" and "upper end" in the other two
+    """
     return {name: (text, "1")} | described_ends(name, ends)
 
 
 def described_ends(name, ends):
-    """Describe the columns of both ends of a range; ends : words after "lower end" and "upper end"."""
+    """Return {column: (long_name, units)} of the columns of the two ends of a range without unit.
+
+    name : the columns are this name with _low and _high; ends : words after "lower end" and "upper end"
+    """
     return {f"{name}_{end}": (f"{side} end {ends}", "1") for end, side in (("low", "lower"), ("high", "upper"))}
 
 
 def three_columns(name, values):
-    """Return {column: value} of a quantity and its interval; values : value, low, high"""
+    """Return {column: value} of a quantity and the ends of its interval; values : (value, low, high)"""
     return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
 
 
 def interval(row, name):
-    """Return (value, low, high) of a quantity in a row of a table."""
+    """Return (value, low, high) of the quantity `name` in a row of a table."""
     return tuple(row[column] for column in (name, f"{name}_low", f"{name}_high"))
 
 
 def resampled_means(values, resamples, random):
-    """Return the mean over the realizations in the first row, and means of bootstrap resamples in the others.
+    """Return the mean over the realizations in the first row, and the means of bootstrap resamples in the other rows.
 
     values : shape (realizations, abscissae), without nan; random : numpy.random.Generator
     Returns an array of shape (resamples + 1, abscissae).
@@ -45,12 +51,14 @@ def resampled_means(values, resamples, random):
 def with_interval(samples, realizations):
     """Return (value, low, high) with the 95 % interval of bootstrap samples, widened for few realizations.
 
-    samples : value of the ensemble, then of its resamples, shape (resamples + 1,), or (resamples + 1, quantities) for
-        one interval per quantity; resamples with undefined (nan) values are omitted
+    samples : value of the ensemble, then values of its resamples, shape (resamples + 1,); or for several quantities,
+        each with an interval, shape (resamples + 1, quantities). Resamples with an undefined value (nan) are omitted.
+    realizations : n, the number of realizations in the ensemble
 
-    Plain percentiles are too narrow for small n. The levels Φ(∓√(n/(n−1)) t), t the 97.5 % point of Student's
-    t with n − 1 degrees of freedom, give the t interval for a mean (Hesterberg, The American
-    Statistician 69, 371 (2015): expanded percentile interval). Nan for a single realization.
+    For small n the 2.5 % and 97.5 % percentiles of the samples give too narrow an interval. The ends are therefore the
+    percentiles at the levels Φ(∓√(n/(n−1)) t), where Φ is the standard normal distribution and t is the 97.5 % point of
+    Student's t with n − 1 degrees of freedom. For a mean this gives the t interval (Hesterberg, The American
+    Statistician 69, 371 (2015): expanded percentile interval). Both ends are nan for a single realization.
     """
     value, samples = samples[0], samples[1:]
     samples = samples[np.isfinite(samples).reshape(len(samples), -1).all(axis=1)]
@@ -61,9 +69,10 @@ def with_interval(samples, realizations):
 
 
 def mean_with_interval(samples):
-    """Return the mean of independent samples and its interval by Student's t, nan for a single sample.
+    """Return (mean, low, high): the mean of independent samples and its 95 % interval by Student's t.
 
-    samples : shape (samples,), or (samples, quantities) for the mean of each
+    samples : shape (samples,), or (samples, quantities) for the mean of each quantity
+    Both ends are nan for a single sample.
     """
     mean, number = samples.mean(axis=0), len(samples)
     error = stdtrit(number - 1, 0.975) * samples.std(axis=0, ddof=1) / np.sqrt(number) if number > 1 else np.nan
@@ -71,17 +80,21 @@ def mean_with_interval(samples):
 
 
 def deviation_interval(deviation, freedom):
-    """Return the standard deviation of normal samples and its interval by the χ² distribution: (value, low, high)."""
+    """Return a standard deviation of normal samples and its 95 % interval by the χ² distribution: (value, low, high).
+
+    freedom : degrees of freedom of the standard deviation; both ends are nan for 0
+    """
     ends = deviation * np.sqrt(freedom / (2 * gammaincinv(freedom / 2, [0.975, 0.025]))) if freedom else NO_INTERVAL
     return deviation, *ends
 
 
 def equivalence(interval, low, high):
-    """Decide if a quantity with this 95 % interval lies in the range from low to high.
+    """Return True if a quantity lies in the range from low to high, False if it lies outside, None if undecided.
 
-    Returns True if the whole interval lies in the range, False if it lies wholly outside, None if it contains an end of
-    the range or is undefined: then the data do not decide. This is a test of equivalence by two one-sided tests at 2.5
-    % each (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
+    interval : (lower end, upper end), the 95 % interval of the quantity
+    The result is True if the whole interval lies in the range, and False if the whole interval lies outside. It is None
+    if the interval contains an end of the range or is undefined. This is a test of equivalence by two one-sided tests
+    at 2.5 % each (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
     """
     if not np.all(np.isfinite(interval)):
         return None
@@ -91,7 +104,10 @@ def equivalence(interval, low, high):
 
 
 def difference(first, second):
-    """Return the difference second − first of independent quantities, (value, low, high), from their intervals."""
+    """Return second − first with its 95 % interval, for two independent quantities, each given as (value, low, high).
+
+    The distances of the ends of the two intervals from their values add in quadrature.
+    """
     value = second[0] - first[0]
     below = np.hypot(second[0] - second[1], first[2] - first[0])
     above = np.hypot(second[2] - second[0], first[0] - first[1])

@@ -1,9 +1,13 @@
-"""Fit λ in C1D = λ q C2D of the line that represents a surface (paper, Eq. 13), and its residual error.
+"""Fit the factor λ in C1D = λ q C2D, the spectrum of the line that represents a surface (paper, Eq. 13), and its error.
 
-A line of the same L and s times the rms height, h1D = s h2D, has X1 = X/s and vt/h2D = s vt/h1D. The mean curves y3 of
-discs and y1 of lines match at X if y3(X) = s y1(X/s), that is y3(X)/X = y1(X1)/X1, the mean of 1/κ. C1D = π q C2D gives
-equal rms heights, C1D = λ q C2D gives (h1D/h2D)² = λ/π, so λ = π s². In general s depends on X; a λ that depends on the
-Hurst exponent alone is exact only if s is the same for all X.
+C1D is the power spectrum of the line, C2D the power spectrum of the surface, q the wave number.
+
+A line of the same L whose rms height is s times the rms height of the surface, h1D = s h2D, has X1 = X/s and vt/h2D = s
+vt/h1D. Let y3(X) be the mean vt/h of discs, and y1(X) of lines. They match at X if y3(X) = s y1(X/s), that
+is, if y3(X)/X = y1(X1)/X1; both sides are means of 1/κ. The rms heights are equal for C1D = π q C2D, and C1D = λ q C2D
+gives (h1D/h2D)² = λ/π, so λ = π s².
+
+In general s depends on X. A factor λ that depends on the Hurst exponent alone is exact only if s is the same for all X.
 """
 
 from dataclasses import dataclass
@@ -13,15 +17,19 @@ import numpy as np
 from viscorough_study.fits.intervals import with_interval
 from viscorough_study.fits.power_law import in_window, log_means
 
-_BISECTIONS = 40  # bisections of ln s; their error is far below the rounding of λ in the tables
+_BISECTIONS = 40  # number of bisections for ln s; the remaining error is far below the rounding of λ in the tables
 
 
 @dataclass(frozen=True)
 class LineMatch:
-    """Mean curves of discs and lines: of the ensembles in the first row, of their resamples in the others.
+    """Mean curves of discs and of lines on common abscissae; a factor s of the rms height of the lines matches them.
+
+    The first row of each array belongs to the ensemble of all realizations, the other rows belong to bootstrap
+    resamples.
 
     x : X, shape (abscissae,), logarithmically uniform
-    discs, lines : ln of the mean of vt/h over X, shape (1 + resamples, abscissae), nan if a line is undefined
+    discs, lines : ln(y/X), where y is the mean of vt/h; shape (1 + resamples, abscissae); nan for lines where a single
+        line is undefined
     """
 
     x: np.ndarray
@@ -29,7 +37,10 @@ class LineMatch:
     lines: np.ndarray
 
     def stretch_at(self, x):
-        """Return ln s that matches discs and lines at X, shape (1 + resamples, X); nan where the lines do not reach."""
+        """Return the ln s with which lines match discs at each X; nan if the lines do not reach the value of the discs.
+
+        x : number or array of X; returns an array of shape (1 + resamples, number of X)
+        """
         log_chosen, log_x = np.log(np.atleast_1d(x)), np.log(self.x)
         complete = np.isfinite(self.lines[0])
         stretch = np.full((len(self.discs), log_chosen.size), np.nan)
@@ -37,30 +48,32 @@ class LineMatch:
             return stretch
         for row, discs, lines in zip(stretch, self.discs, self.lines, strict=True):
             target = np.interp(log_chosen, log_x, discs)
-            # 1/κ falls with X. It is constant only if every line has one point in contact, which lies below every
-            # window.
+            # 1/κ decreases with X. It is constant only where every line has a single point in contact; such X are
+            # smaller than the X of any window.
             falling = lines[complete][::-1]
             row[:] = log_chosen - np.interp(target, falling, log_x[complete][::-1], left=np.nan, right=np.nan)
         return stretch
 
     def lambda_at(self, x):
-        """Return λ that matches discs and lines at X, shape (1 + resamples, X)."""
+        """Return the λ with which lines match discs at each X, shape (1 + resamples, number of X)."""
         return np.pi * np.exp(2 * self.stretch_at(x))
 
     def deviation(self, stretch, chosen):
-        """Return ln of vt/h of the stretched lines over vt/h of the discs, shape (1 + resamples, chosen abscissae).
+        """Return the logarithm of the ratio of vt/h of lines with a given factor s to vt/h of discs, at some abscissae.
 
-        stretch : ln s, shape (1 + resamples,); chosen : mask of abscissae; nan beyond the range of the lines
+        stretch : ln s, shape (1 + resamples,)
+        chosen : mask of the abscissae
+        Returns an array of shape (1 + resamples, chosen abscissae); nan beyond the range of the lines.
         """
         log_x, shifted = np.log(self.x), np.log(self.x[chosen]) - stretch[:, None]
         rows = zip(shifted, self.lines, strict=True)
         return [np.interp(x, log_x, lines, left=np.nan, right=np.nan) for x, lines in rows] - self.discs[:, chosen]
 
     def best_stretch(self, window):
-        """Return ln s that minimizes the largest deviation over a window of X, shape (1 + resamples,); nan if none
-        does.
+        """Return the ln s that minimizes the largest absolute deviation in a window of X, shape (1 + resamples,).
 
-        At every X the deviation grows with s, so at the minimum the largest deviation occurs with both signs.
+        At every X the deviation increases with s, so at the minimum the largest deviation occurs with both signs.
+        Values are nan if the lines do not reach the values of the discs in the window.
         """
         chosen = in_window(self.x, window)
         ends = self.stretch_at(self.x[chosen])
@@ -74,10 +87,11 @@ class LineMatch:
 
 
 def match_lines(x, discs, lines, *, average, resamples, seed):
-    """Return the LineMatch of an ensemble of discs and an ensemble of lines; both are resampled.
+    """Return the LineMatch of an ensemble of discs and an ensemble of lines; both ensembles are resampled.
 
-    x : common X, shape (abscissae,); discs, lines : vt/h, (realizations, abscissae), nan where undefined
-    average, resamples, seed : as in viscorough_study.fits.power_law.fit_power_law
+    x : common X, shape (abscissae,)
+    discs, lines : vt/h, shape (realizations, abscissae), nan where undefined
+    average, resamples, seed : arguments of viscorough_study.fits.power_law.fit_power_law
     """
     generator, log_x = np.random.default_rng(seed), np.log(x)
     disc_curves = log_means(discs, average, resamples, generator) - log_x
@@ -89,8 +103,8 @@ def match_lines(x, discs, lines, *, average, resamples, seed):
 def match_lambda(x, discs, lines, window, **options):
     """Return λ at the geometric centre of a window of X, and its 95 % interval: (value, low, high).
 
-    x, discs, lines, options : as in `match_lines`
-    Values are nan if the lines do not reach the stiffness of the discs at abscissae with all lines defined.
+    x, discs, lines, options : arguments of `match_lines`
+    Values are nan if the lines do not reach the stiffness of the discs at abscissae where all lines are defined.
     """
     match = match_lines(x, discs, lines, **options)
     return with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0], min(len(discs), len(lines)))

@@ -1,15 +1,18 @@
 """Test curves for a power law, by two tests of the local slope d ln y/d ln X, which must be constant.
 
-1. Within region (b): half the spread of the local slopes, from the smallest to the largest. The paper calls the curves
-   nearly linear there.
-2. Without a region: the decades of X over which all local slopes lie within ± the tolerance of their mid-range. Every
-   curve with slopes that increase at both ends has a flat piece in between, so this test is about its length.
+1. Within region (b): half the spread of the local slopes, that is, half the difference of the largest and the smallest.
+   The paper calls the curves nearly linear in this region.
+2. Without a region: the longest range of X, in decades, in which all local slopes lie within ± the tolerance of their
+   mid-range. Every curve whose slope increases towards both ends has a flat piece in between, so the length of this
+   piece is tested.
 
-Local slopes are slopes of straight lines over fixed widths, so the tested property does not choose the window.
+A local slope is the slope of a straight line fitted over a fixed width in X. So the tested property, a constant slope,
+does not influence the choice of the window.
 
-The control has a spectrum without long waves, hence no power law. A test that the control passes cannot distinguish a
-power law from a bend. The error rates of the second test, the fractions of power laws that fail it and of curves like
-the control that pass it, are estimated from synthetic ensembles with the scatter of the real realizations.
+The control consists of discs whose spectrum has no long waves, and hence no power law. A test that the control passes
+cannot distinguish a power law from a bend. The second test has two error rates: the fraction of power laws that fail,
+and the fraction of curves like the control that pass. Both are estimated from synthetic ensembles with the scatter of
+the real realizations.
 """
 
 import logging
@@ -34,13 +37,14 @@ COLUMNS = {
     **described("half_spread", "half the spread of the local slopes within region (b)"),
     "region_decades": ("decades of X in region (b), 0 where there is none", "1"),
 }
-RESAMPLES_OF_DRAWS = 100  # bootstrap samples of each synthetic ensemble
+RESAMPLES_OF_DRAWS = 100  # number of bootstrap samples of each synthetic ensemble
 
 
 def inner_slopes(log_x, log_y, half_width):
-    """Return abscissae with points over the whole width of `local_slopes`, and the slopes there.
+    """Return the abscissae that are at least half a slope's width from both ends, and the local slopes there.
 
     log_x : ln X, equally spaced, shape (abscissae,); log_y : ln y, shape (curves, abscissae), without nan
+    half_width : half the width in ln X over which `local_slopes` fits a line
     Returns arrays of shapes (inner,) and (curves, inner). Raises ValueError if there is no such abscissa.
     """
     reach = int(half_width / (log_x[1] - log_x[0]) + ROUNDING)
@@ -50,9 +54,10 @@ def inner_slopes(log_x, log_y, half_width):
 
 
 def longest_plateau(slopes, tolerance):
-    """Return the number of steps of the longest run of slopes within ± tolerance of their mid-range, by curve.
+    """Return, for every curve, the number of steps of the longest run of slopes within ± tolerance of their mid-range.
 
-    slopes : shape (curves, abscissae); returns an array of shape (curves,); a run of n + 1 slopes has n steps
+    slopes : shape (curves, abscissae)
+    Returns an array of shape (curves,). A run of n + 1 slopes has n steps.
     """
     steps = np.zeros(len(slopes), dtype=int)
     least, largest = slopes, slopes
@@ -67,13 +72,15 @@ def longest_plateau(slopes, tolerance):
 
 
 def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
-    """Measure the plateau of the mean over realizations, with 95 % bootstrap intervals.
+    """Return the decades of X with constant local slope of the mean over realizations, with a 95 % bootstrap interval.
 
-    log_x, log_y, half_width : as in `inner_slopes`, log_y for the realizations; random : numpy.random.Generator
-    Returns a dict: decades, decades_low, decades_high.
+    log_x, log_y, half_width : arguments of `inner_slopes`; the curves of log_y are the realizations
+    tolerance : tolerance of the local slope; random : numpy.random.Generator
+    Returns a dict with the keys decades, decades_low and decades_high.
 
-    A resample has twice the variance of the mean, and scatter shortens plateaus, so the interval is biased to low
-    values. Few curves without a power law pass, but some power laws with large scatter fail; `shares` gives the rates.
+    The mean of a resample has twice the variance of the mean of the realizations, and scatter shortens plateaus, so the
+    interval is biased to low values. Therefore few curves without a power law pass the test, but some power laws with
+    large scatter fail; `shares` gives these rates.
     """
     inner, slopes = inner_slopes(log_x, resampled_means(log_y, resamples, random), half_width)
     step = (inner[1] - inner[0]) / np.log(10)
@@ -81,13 +88,16 @@ def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
 
 
 def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
-    """Return the fractions of synthetic ensembles that pass and that fail: (passed, failed).
+    """Return the fractions of synthetic ensembles that pass and that fail the test of the decades: (passed, failed).
 
-    An ensemble passes if the whole interval of the decades is at least decades_min, and fails if it is below.
-    mean : ln y of the curve common to all ensembles, shape (abscissae,)
-    residuals : ln y of realizations less their mean, shape (realizations, abscissae); every ensemble draws the same
-        number with replacement, so it has the real scatter and the real correlation along X
-    draws : number of ensembles;
+    An ensemble passes if the whole interval of its decades is at least decades_min, and fails if the whole interval is
+    below decades_min.
+
+    mean : ln y of the curve common to all synthetic ensembles, shape (abscissae,)
+    residuals : ln y of the realizations minus their mean, shape (realizations, abscissae). Every synthetic ensemble
+        draws as many residuals as there are realizations, with replacement, so it has the real scatter and the real
+        correlation along X.
+    draws : number of synthetic ensembles
     options : further arguments of `plateau`
     """
     drawn = (residuals[random.integers(len(residuals), size=len(residuals))] for _ in range(draws))
@@ -99,25 +109,29 @@ def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
 def half_spread(ensemble, region, *, half_width, resamples, random):
     """Return half the spread of local slopes of the geometric mean within region (b), with its 95 % interval.
 
-    ensemble : ensemble dataset of one rms convention; region : (X_low, X_high), or None
-    half_width : half width of local slopes, in ln X
-    Returns a dict: half_spread, half_spread_low, half_spread_high, region_decades; without a region only the last.
+    ensemble : ensemble dataset (ensembles.averages) of one rms convention
+    region : (X_low, X_high), or None
+    half_width : half the width of the local slopes, in ln X
+    Returns a dict with the keys half_spread, half_spread_low, half_spread_high and region_decades. Without a region it
+    has only the key region_decades, with the value 0.
     """
     if region is None:
         return {"region_decades": 0.0}
     x, log_y = ensemble["x"].values, np.log(ensemble["velocity"].values)
     log_y = log_y[np.isfinite(log_y[:, in_window(x, region)]).all(axis=1)]
     means = resampled_means(np.where(np.isfinite(log_y), log_y, 0.0), resamples, random)
-    means[:, ~np.isfinite(log_y).all(axis=0)] = np.nan  # local slopes leave out abscissae beyond the end of a curve
+    means[:, ~np.isfinite(log_y).all(axis=0)] = np.nan  # `local_slopes` omits abscissae where a curve has ended
     slopes = local_slopes(np.log(x), means, half_width)[:, in_window(x, region)]
     columns = three_columns("half_spread", with_interval(np.ptp(slopes, axis=1) / 2, len(log_y)))
     return columns | {"region_decades": np.log10(region[1] / region[0])}
 
 
 def plateau_table(discs, *, control, rms_convention, region, seed, **options):
-    """Apply both tests to base discs and a control at every Hurst exponent; a pandas.DataFrame with `COLUMNS`.
+    """Apply both tests to base discs and to a control at every Hurst exponent; return a DataFrame with `COLUMNS`.
 
-    discs : pool (viscorough_study.ensembles.pool); control : group without a power law, or None
+    discs : pool (viscorough_study.ensembles.pool)
+    control : name of the group of discs without a power law, or None
+    rms_convention : convention of the rms height h
     region : limits of region (b), arguments of viscorough_study.fits.power_law.find_region
     options : fields of `PlateauTest`
     """
@@ -137,12 +151,14 @@ def plateau_table(discs, *, control, rms_convention, region, seed, **options):
 
 @dataclass(frozen=True)
 class PlateauTest:
-    """The test for a plateau of the local slope.
+    """The test for a constant local slope over a sufficient number of decades.
 
-    x_range : range of X of the plateau
-    half_width : half width of local slopes, in decades; they extend beyond x_range
-    tolerance : tolerance of the local slope; decades_min : length with which an ensemble passes
-    resamples : number of bootstrap resamples; draws : number of synthetic ensembles of each kind
+    x_range : range of X in which the plateau is sought
+    half_width : half the width of local slopes, in decades; slopes near the ends of x_range use points beyond them
+    tolerance : tolerance of the local slope
+    decades_min : number of decades from which on an ensemble passes
+    resamples : number of bootstrap resamples
+    draws : number of synthetic ensembles of each kind (power laws, and curves like the control)
     """
 
     x_range: tuple[float, float]
@@ -154,12 +170,12 @@ class PlateauTest:
 
 
 def plateau_row(ensemble, control, test, random):
-    """Return the row of one ensemble, with the keys of `COLUMNS` except case_group, without undefined results.
+    """Return the row of one ensemble, {column: value}, with the results of the second test (see the module).
 
     ensemble : ensemble dataset (viscorough_study.ensembles.averages) of one rms convention
-    control : dataset of the control of the same Hurst exponent, or None
+    control : ensemble dataset of the control with the same Hurst exponent, or None
     test : PlateauTest; random : numpy.random.Generator
-    The results are undefined if a realization does not reach all abscissae.
+    If a realization does not reach all abscissae, the row has only the Hurst exponent and the number of realizations.
     """
     x, margin = ensemble["x"].values, 10 ** (test.half_width * (1 + ROUNDING))
     chosen = (x >= test.x_range[0] / margin) & (x <= test.x_range[1] * margin)
@@ -171,7 +187,8 @@ def plateau_row(ensemble, control, test, random):
     row |= plateau(log_x, log_y, resamples=test.resamples, **options)
     residuals = log_y - log_y.mean(axis=0)
     options |= {"draws": test.draws, "decades_min": test.decades_min, "resamples": RESAMPLES_OF_DRAWS}
-    passed, failed = shares(log_x, 0 * log_x, residuals, **options)  # of power laws: the slope has no effect
+    # The mean 0 represents all power laws, since the slope of a power law has no effect on the result.
+    passed, failed = shares(log_x, 0 * log_x, residuals, **options)
     row |= {"power_law_passes": passed, "power_law_fails": failed}
     if control is not None:
         mean = np.log(control["velocity"].values[:, chosen]).mean(axis=0)

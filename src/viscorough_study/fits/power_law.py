@@ -1,10 +1,11 @@
 """Find region (b) of an ensemble, and fit the power law in it (β, ζ).
 
-In region (b) κ = ζ X^α (paper, Eq. 3), hence vt/h = X/κ = X^β/ζ with β = 1 − α. Fits are made in this plain reading of
-the law; viscorough_study.fits.conventions has the other readings.
+In region (b) κ = ζ X^α (paper, Eq. 3), hence vt/h = X/κ = X^β/ζ with β = 1 − α. Fits use this form of the law, without
+the factor 1/Γ(2 − α); viscorough_study.fits.conventions converts them to the form with this factor.
 
-Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn with replacement in a fixed window.
-They include the scatter between surfaces, but not the choice of the window, which fits in other windows show.
+Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn with replacement, and fitted in a fixed
+window. The intervals include the scatter between surfaces, but not the choice of the window. Fits in other windows show
+its effect.
 """
 
 import numpy as np
@@ -12,17 +13,19 @@ from scipy.ndimage import find_objects, label
 
 from viscorough_study.fits.conventions import FITTED
 
-ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of decades count as equal
+ROUNDING = 1e-9  # abscissae and numbers of decades count as equal if they differ relatively by at most this
 
 
 # ---- windows
 
 
 def local_slopes(log_x, log_y, half_width):
-    """Return d ln y/d ln X of least-squares lines over abscissae within ± half_width; of the shape of log_y.
+    """Return d ln y/d ln X at every abscissa, the slope of a least-squares line through the points within ± half_width.
 
     log_x : ln X, shape (abscissae,); log_y : ln y, shape (abscissae,) or (curves, abscissae)
-    Undefined points (nan) of a curve are omitted; the slope is nan if fewer than two points remain.
+    half_width : largest distance in ln X of the points from the abscissa
+    Returns an array of the shape of log_y. Abscissae where any curve is undefined (nan) are omitted; the slope is nan
+    if fewer than two points remain.
     """
     defined = np.atleast_2d(np.isfinite(log_y)).all(axis=0)
     near = (np.abs(log_x[:, None] - log_x) <= half_width * (1 + ROUNDING)) & defined
@@ -38,17 +41,19 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
 
     The window is the longest run of abscissae, in ln X, that meet all of these conditions:
 
-    - the median number of elements in contact is at least elements_min: with fewer, the curve depends on the grid;
-    - the geometric mean κ is at most stiffness_max: above, the finite size of the indenter matters, in the transition
-      to region (c);
-    - the local slope of the geometric mean vt/h, over slope_half_width decades to either side, is at most slope_max:
-      it is 1 in regions (a) and (c). Self-affine surfaces that meet the other conditions also meet this one;
-    - the fraction of defined realizations is at least fraction_min: a mean over the few curves that reach further
-      is biased.
+    - The median number of elements in contact is at least elements_min. With fewer elements the curve depends on the
+      grid.
+    - The geometric mean of κ is at most stiffness_max. Above this value, in the transition to region (c), the finite
+      size of the indenter affects the curve.
+    - The local slope of the geometric mean of vt/h, over slope_half_width decades to either side, is at most slope_max.
+      The slope is 1 in regions (a) and (c). Self-affine surfaces that meet the other conditions also meet this one.
+    - The fraction of defined realizations is at least fraction_min. A mean over the few curves that reach further is
+      biased.
 
-    mean : ensemble dataset (ensembles.averages) of one rms convention. No Hurst exponent enters the rule.
-    config/README.md, section Scaling, describes the limits and recommends values. There is no region (b) if no run
-    spans decades_min decades.
+    There is no region (b) if no run spans decades_min decades. The Hurst exponent does not enter this rule.
+
+    mean : ensemble dataset (ensembles.averages) of one rms convention
+    config/README.md, section Scaling, describes the limits and recommends values.
     """
     log_x, log_velocity = np.log(mean["x"].values), np.log(mean["velocity_geometric"].values)
     allowed = local_slopes(log_x, log_velocity, slope_half_width * np.log(10)) <= slope_max
@@ -57,20 +62,22 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
 
 
 def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(), **limits):
-    """Return the windows to be compared, {name: (X_low, X_high), or None}.
+    """Return the windows in which the power law is fitted, for comparison: {name: (X_low, X_high), or None}.
 
-    - default: find_region with the limits;
-    - lower_half, upper_half: its halves in ln X; the difference of their β reveals curvature that a single fit hides;
-    - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid, whereas default
+    - default: the window of `find_region` with the given limits;
+    - lower_half, upper_half: halves of the default window in ln X; a difference between their β reveals curvature,
+      which a single fit hides;
+    - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid; the default window
       begins at much smaller X for lines than for discs;
-    - "X = ... to ...": windows of `fixed`, [(X_low, X_high)], with elements_min elements in contact at the lower end,
-      as in region (b), and enough realizations defined throughout; others are omitted.
+    - "X = ... to ...": windows of `fixed`, [(X_low, X_high)]. Such a window is used only if at least elements_min
+      elements are in contact at its lower end, and the fraction of defined realizations is at least
+      fraction_min throughout.
 
     All windows are determined from the geometric mean, also for fits to the arithmetic mean.
     """
     run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
     windows = dict.fromkeys(FITTED["window_rule"])
-    if region := find_region(mean, **run_limits, **limits):  # otherwise the tables have nan and 0 decades
+    if region := find_region(mean, **run_limits, **limits):  # without region (b), the tables have nan, and 0 decades
         middle = np.sqrt(np.prod(region))
         windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
@@ -83,7 +90,14 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
 
 
 def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
-    """Return first and last X of the longest run of allowed abscissae in ln X; None if below decades_min."""
+    """Return the first and the last X of the longest run of allowed abscissae, measured in ln X.
+
+    mean : ensemble dataset of one rms convention
+    allowed : mask of abscissae, or True
+    stiffness_range : lowest and highest κ of allowed abscissae
+    fraction_min : smallest fraction of defined realizations at allowed abscissae
+    Returns None if no run spans decades_min decades.
+    """
     x, stiffness = mean["x"].values, mean["stiffness_geometric"].values
     allowed = allowed & (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
     allowed &= mean["fraction_defined"].values >= fraction_min
@@ -93,7 +107,7 @@ def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
 
 
 def in_window(x, window):
-    """Return True for abscissae in a window (X_low, X_high), ends included; of the shape of x."""
+    """Return a mask that is True for the abscissae x in a window (X_low, X_high), whose ends are included."""
     return (x >= window[0] * (1 - ROUNDING)) & (x <= window[1] * (1 + ROUNDING))
 
 
@@ -101,16 +115,19 @@ def in_window(x, window):
 
 
 def fit_power_law(x, velocity, window, *, average, resamples, seed):
-    """Fit β and ζ of vt/h = X^β/ζ by least squares of ln(vt/h) of the mean curve on ln X, with equal weights.
+    """Fit β and ζ of vt/h = X^β/ζ to the mean curve, by least squares of ln(vt/h) on ln X with equal weights.
 
     x : X, shape (abscissae,), logarithmically uniform (viscorough_study.ensembles.averages.abscissa)
     velocity : vt/h, shape (realizations, abscissae), nan where undefined
-    window : (X_low, X_high), ends included; average : "arithmetic" or "geometric" mean over the realizations
-    resamples : number of bootstrap samples; seed : int or SeedSequence. The same seed draws the same realizations for
-        every window and average, so the bootstrap adds no noise to differences between conventions.
+    window : (X_low, X_high), ends included
+    average : "arithmetic" or "geometric" mean over the realizations
+    resamples : number of bootstrap samples
+    seed : int or SeedSequence. With equal seeds the same realizations are drawn for every window and average, so the
+        bootstrap adds no noise to differences between conventions.
 
-    Returns two arrays of shape (resamples + 1,): β, and ζ in the plain reading, of the ensemble, then of its resamples.
-    Raises ValueError if fewer than three abscissae lie in the window, or one of them has no realization.
+    Returns two arrays of shape (resamples + 1,), β and ζ. The first entries belong to the ensemble, the others to its
+    resamples. Raises ValueError if fewer than three abscissae lie in the window, or an abscissa in the window has no
+    defined realization.
     """
     chosen = in_window(x, window)
     if chosen.sum() < 3:
@@ -127,18 +144,18 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
 
 
 def log_means(velocity, average, resamples, generator):
-    """Return ln of the mean of vt/h over the defined realizations: of the ensemble, then of its resamples.
+    """Return the logarithm of the mean of vt/h over the defined realizations, for the ensemble and for its resamples.
 
-    velocity : shape (realizations, abscissae), nan where undefined; average : "arithmetic" or "geometric"
-    Returns an array of shape (resamples + 1, abscissae).
+    velocity : vt/h, shape (realizations, abscissae), nan where undefined; average : "arithmetic" or "geometric"
+    Returns an array of shape (resamples + 1, abscissae), whose first row is the ensemble.
     """
     n = len(velocity)
-    # This is faster than Generator.multinomial for the multinomial counts of each realization.
+    # Draw indices and count them: this is faster than Generator.multinomial for the same counts of each realization.
     drawn = generator.integers(n, size=(resamples, n)) + n * np.arange(resamples)[:, None]
     weights = np.bincount(drawn.ravel(), minlength=resamples * n).reshape(resamples, n)
     weights = np.vstack([np.ones(n), weights])
     defined = np.isfinite(velocity)
     values = np.where(defined, np.log(velocity) if average == "geometric" else velocity, 0)
-    with np.errstate(invalid="ignore", divide="ignore"):  # nan if a resample has no realization
+    with np.errstate(invalid="ignore", divide="ignore"):  # the result is nan if a resample has no defined realization
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)

@@ -1,17 +1,19 @@
 """Test one scaling law on all grids by a collapse, without fit or window, and find the compatible exponents.
 
 With N elements across, contact of a single element gives vt/h ∝ XN for every surface. The law vt/h ∝ X^(H/(1+H)) can
-begin at this contact on every grid only if (vt/h) N^H is one function of X N^(1+H) below the crossover to the punch.
-The same is true of any exponent β with H' = β/(1 − β) instead of H. The exponents that collapse the curves form an
-interval.
+begin at this contact on every grid only if (vt/h) N^H is a single function of X N^(1+H) below the crossover to the
+punch. The same holds for any exponent β, with H' = β/(1 − β) instead of H. The exponents with which the curves of all
+grids collapse form an interval.
 
-The spread of the curves of all grids is compared with the spread of independent realizations of one curve: the means of
-bootstrap samples of every grid, shifted to the common curve (a test with the null hypothesis imposed). The weight of a
-grid is its number of realizations, since weights from the scatter of few realizations would be too uncertain.
+The collapse is tested by the spread of the curves of all grids around their common curve. This spread is compared with
+the spread expected if all grids had this common curve. The expected spread is computed from bootstrap samples: the mean
+of each sample of a grid is shifted so that the mean of the grid lies on the common curve (a bootstrap test with the
+null hypothesis imposed). The weight of a grid is its number of realizations, since weights from the scatter of few
+realizations would be too uncertain.
 
-Two quantities are tested: vt/h itself, and the part of the interface, vt/h − X/κ_c with κ_c of the punch in series.
-Their height h is taken over all waves of the spectrum. It is the limit for N → ∞ of the paper's h, which is taken over
-the waves of the grid; at small H a large part of the heights is missing on any grid.
+Two quantities are tested: vt/h itself, and the contribution of the interface, vt/h − X/κ_c, where κ_c is the stiffness
+of the punch in series. In both, h is the rms height with all waves of the spectrum. It is the limit for N → ∞ of the
+paper's h, which has only the waves of the grid. At small H a large part of the heights is missing on any grid.
 """
 
 from dataclasses import dataclass
@@ -29,11 +31,13 @@ from viscorough_study.fits.power_law import ROUNDING, log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
 FINDINGS = ("collapses", "does not collapse", "undecided")
-STEP = 0.01  # step of the trial exponents
-LATTICE = 256  # largest wave number in the sum over waves of a disc; beyond it the sum is an integral
-TRIED = 0.15  # largest distance of the trial exponents from H/(1 + H)
-THINNED = 2  # every second abscissa is used
-FEWEST = {"abscissae": 5, "realizations": 3}  # smallest numbers for a grid to be used
+STEP = 0.01  # difference between successive trial exponents β
+# The mean square height of a disc is a sum over waves up to this wave number; beyond it, the sum is replaced by an
+# integral.
+LATTICE = 256
+TRIED = 0.15  # trial exponents β differ from H/(1 + H) by at most this
+THINNED = 2  # only every second abscissa is used
+FEWEST = {"abscissae": 5, "realizations": 3}  # a grid with fewer is not used
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR, controls: discs whose spectrum has a roll-off", ""),
     "hurst": ("Hurst exponent", "1"),
@@ -57,12 +61,17 @@ CURVES = {
 
 @dataclass(frozen=True)
 class Grid:
-    """Means of an ensemble on one grid, at X with enough elements in contact.
+    """Means of the ensemble on one grid, at abscissae X with enough elements in contact.
 
-    number : N, elements across or points; realizations : number in the ensemble
-    log_x : ln X, equally spaced; log_velocity : ln(vt/h) of the ensemble and its resamples, (resamples + 1, abscissae)
-    count : median of the elements in contact; punch : κ_c of the flat disc
-    share : mean square of the heights over the mean square of all waves of the spectrum (`variance_share`)
+    number : N, the elements across discs, or the points of lines
+    realizations : number of realizations in the ensemble
+    log_x : ln X, equally spaced
+    log_velocity : ln(vt/h) of the ensemble in the first row and of its resamples in the others, (resamples + 1,
+        abscissae)
+    count : median number of elements in contact at each abscissa
+    punch : κ_c of the flat disc on this grid
+    share : ratio of the mean square height of the waves of the grid to the mean square height of all waves
+        (`variance_share`)
     """
 
     number: int
@@ -74,10 +83,13 @@ class Grid:
     share: float
 
     def curve(self, quantity, x_high, elements_min=0):
-        """Return (ln X, ln of the quantity of ensemble and resamples), None for too few abscissae.
+        """Return (ln X, ln of a quantity for ensemble and resamples) up to X = x_high; None for too few abscissae.
 
-        The curve starts at the first abscissa with elements_min elements in contact and ends at x_high.
-        The variance of a mean is n/(n − 1) times the variance of bootstrap means, so resamples are widened.
+        quantity : key of `QUANTITIES`
+        elements_min : the curve starts at the first abscissa with at least this median number of elements in contact
+        X and the quantity are in units of the rms height h with all waves of the spectrum. The variance of a mean is
+        n/(n − 1) times the variance of its bootstrap means, so the deviations of the resamples are enlarged by √(n/(n −
+        1)).
         """
         log_x, values = self.log_x, self.log_velocity
         if quantity == "interface":
@@ -94,7 +106,10 @@ class Grid:
 
 
 def curve_table(grids_by_hurst, x_high):
-    """Return curves of all grids up to x_high, with the columns of `CURVES`; grids_by_hurst : as from `grids`"""
+    """Return the curves of all grids up to X = x_high, a table with the columns of `CURVES`.
+
+    grids_by_hurst : {H: list of Grid}, from `grids`
+    """
     parts = [pd.DataFrame(columns=list(CURVES))]
     for hurst, hurst_grids in grids_by_hurst.items():
         for grid, quantity in product(hurst_grids, QUANTITIES):
@@ -105,11 +120,13 @@ def curve_table(grids_by_hurst, x_high):
 
 
 def variance_share(hurst, number, source):
-    """Return the fraction of a self-affine spectrum's mean square height that the waves of a grid have.
+    """Return the share of the waves of a grid in the mean square height of all waves of the self-affine spectrum.
 
-    It is 1 if there is no limit, for H = 0, and for controls, which have no self-affine spectrum. Waves of a disc have
-    wave vectors k with 1 <= |k| <= N/2 in the plane and weight |k|^(−2−2H); waves of a line have 1 <= k <= N/2 and
-    k^(−1−2H).
+    The waves of a disc have wave vectors k with 1 <= |k| <= N/2 in the plane and the weight |k|^(−2−2H). The waves of a
+    line have 1 <= k <= N/2 and the weight k^(−1−2H). The share is 1 for H = 0, where the sum over all waves diverges,
+    and for controls, whose spectrum is not self-affine.
+
+    number : N, the elements across a disc or the points of a line; source : discs, controls or lines
     """
     if hurst == 0 or source == "controls":
         return 1.0
@@ -125,11 +142,14 @@ def variance_share(hurst, number, source):
 
 
 def grids(pool, source, *, conventions, elements_min, fraction_min, resamples, seed):
-    """Return {H: grids from coarse to fine} of a pool; source : discs, controls or lines
+    """Return {H: list of Grid, from coarse to fine} of a pool.
 
-    Abscissae begin when the median number of elements in contact first reaches elements_min; at least the fraction
-    fraction_min of the curves must be defined. Grids of fewer than three realizations are omitted.
+    source : discs, controls or lines
     conventions : average and rms_convention
+    elements_min : abscissae begin where the median number of elements in contact first reaches this number
+    fraction_min : smallest fraction of the realizations that must be defined at an abscissa
+    resamples, seed : arguments of the bootstrap
+    Grids with fewer than three realizations are omitted.
     """
     group, grids_by_hurst = "controls" if source == "controls" else "sizes", {}
     generator = np.random.default_rng(seed)
@@ -148,9 +168,13 @@ def grids(pool, source, *, conventions, elements_min, fraction_min, resamples, s
 
 
 def collapse_table(grids_by_source, *, x_high, tolerance):
-    """Return rows of `COLUMNS` for every Hurst exponent, quantity and end of the range.
+    """Return the results of the test of collapse, with the columns of `COLUMNS`.
 
-    grids_by_source : {source: its `grids`}; x_high : ends of the range, X; tolerance : tolerance of β
+    The table has a row for every source, Hurst exponent, quantity and end of the range of X.
+
+    grids_by_source : {source: its {H: list of Grid}, from `grids`}
+    x_high : list of the ends of the range, in X
+    tolerance : tolerance of β
     """
     rows = []
     for source, grids_by_hurst in grids_by_source.items():
@@ -161,7 +185,10 @@ def collapse_table(grids_by_source, *, x_high, tolerance):
 
 
 def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
-    """Return the columns of one collapse; hurst_grids : grids of one Hurst exponent"""
+    """Return {column: value} of the test of collapse of one quantity at one Hurst exponent, up to X = x_high.
+
+    hurst_grids : list of Grid of this Hurst exponent
+    """
     curves = [(grid, grid.curve(quantity, x_high)) for grid in hurst_grids]
     curves = [(grid, tuple(values[..., ::THINNED] for values in curve)) for grid, curve in curves if curve is not None]
     expected = exponent_beta(hurst)
@@ -180,9 +207,11 @@ def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
 
 
 def p_value(curves, beta):
-    """Return the share of realizations of one curve whose spread exceeds the spread of the curves collapsed with β.
+    """Return the fraction of bootstrap samples of one common curve whose spread is at least the spread of the curves.
 
-    curves : list of (Grid, (ln X, ln of the quantity, shape (resamples + 1, abscissae)))
+    curves : list of (Grid, (ln X, ln of the quantity with shape (resamples + 1, abscissae)))
+    beta : exponent with which the curves are collapsed
+    Returns nan if the collapsed curves have no abscissa in common.
     """
     power = beta / (1 - beta)  # H'
     scaled = [log_x + (1 + power) * np.log(grid.number) for grid, (log_x, _) in curves]
@@ -191,7 +220,7 @@ def p_value(curves, beta):
     moved, weights = [], []
     for x, (grid, (_, log_y)) in zip(scaled, curves, strict=True):
         values = make_interp_spline(x, log_y, k=1, axis=1)(common_x) + power * np.log(grid.number)
-        values[1:] -= values[0]  # resamples of one common curve
+        values[1:] -= values[0]  # now the resamples scatter about 0, the common curve
         moved.append(values)
         inside = (common_x >= x[0] - ROUNDING * step) & (common_x < x[-1] - ROUNDING * step)
         weights.append(grid.realizations * inside)

@@ -1,17 +1,18 @@
 """Compare the paper's laws of the prefactor by common measures, absolute and up to a factor common to all H.
 
-Each law is compared in two ways, with the logarithm r of a ratio for each Hurst exponent:
+Each law ζ(H) is compared in two ways. Both give the logarithm r of a ratio for each Hurst exponent:
 
-- ζ, of a fit of region (b) with a fitted exponent, over the law;
-- the curve: vt/h over X^(H/(1+H))/ζ, with ζ by the law, at abscissae in the regions (b) of all Hurst exponents. With
-  Eq. 11 and the factor 1/Γ(2 − α) this is the ratio of both sides of Eq. 12, as in Fig. 3.
+- ζ: the ratio of ζ, fitted in region (b) together with the exponent, to ζ of the law;
+- the curve: the ratio of vt/h to X^(H/(1+H))/ζ with ζ of the law, at abscissae that lie in the regions (b) of all Hurst
+  exponents. With Eq. 11 and the factor 1/Γ(2 − α) this is the ratio of both sides of Eq. 12, as in Fig. 3.
 
-The measures are √⟨r²⟩, the deviation; exp⟨r⟩, the common factor; and √⟨(r − ⟨r⟩_H)²⟩, the spread between Hurst
-exponents: for ζ, the error of the law's shape in H; for curves, at each X, their distance from a collapse onto one
-curve. Intervals are from bootstrap samples of the realizations. Scatter adds to deviation and spread, so both are
-biased to large values.
+There are three measures. The deviation is √⟨r²⟩. The common factor is exp⟨r⟩. The spread between Hurst exponents is
+√⟨(r − ⟨r⟩_H)²⟩, where ⟨r⟩_H is the mean over the Hurst exponents: for ζ it is the error of the shape of ζ(H), for
+curves it is their distance at equal X from a collapse onto one curve. Intervals are from bootstrap samples of the
+realizations. Scatter adds to deviation and spread, so both are biased to large values.
 
-Eq. 4 is a law of the elastic contact, without the factor; the paper compares it with Eq. 11 with the factor.
+Eq. 4 is a law of the elastic contact, without the factor 1/Γ(2 − α). The paper compares it with Eq. 11, which has this
+factor.
 """
 
 import numpy as np
@@ -28,8 +29,8 @@ LAWS = {  # {name: (ζ as a function of H, True if the law has the factor 1/Γ(2
     "Eq. 4, with Γ": (reference.zeta_elastic, True),
     "Eq. 11, with Γ": (reference.zeta_viscous, True),
 }
-LAST = list(LAWS)[-1]  # the other laws are compared with this law
-UNCOMPARED = dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))  # ratios if there is nothing to compare
+LAST = list(LAWS)[-1]  # name of the law with which the other laws are compared
+UNCOMPARED = dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))  # logarithms of ratios if there is nothing to compare
 COLUMNS = {
     "hurst_min": ("lowest Hurst exponent allowed", "1"),
     "quantity": ("what is compared with the law: zeta, or curve", ""),
@@ -43,9 +44,10 @@ COLUMNS = {
 
 
 def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
-    """Return `zeta_laws` of the base discs of a pool, in the default window of region (b).
+    """Return the table of `zeta_laws` of the base discs of a pool, in the default window of region (b).
 
-    conventions : average and rms convention, as in the figures; fit : arguments of power_law.named_windows
+    conventions : average and rms_convention of the figures
+    hurst_mins, resamples, seed : arguments of `zeta_laws`; fit : arguments of fits.power_law.named_windows
     """
     base = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
     pooled = dict(sorted(base.items()))
@@ -54,13 +56,15 @@ def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
 
 
 def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed):
-    """Return measures of every law, and differences between laws: a pandas.DataFrame with the columns of `COLUMNS`.
+    """Return the measures of every law, and differences between laws: a DataFrame with the columns of `COLUMNS`.
 
     ensembles : {H: ensemble dataset of one rms convention} (viscorough_study.ensembles.averages)
-    windows : {H: window of region (b), or None}; average : "arithmetic" or "geometric"
-    hurst_mins : lowest Hurst exponents; the exponents from each of them upwards are compared
+    windows : {H: window of region (b), or None}
+    hurst_mins : lowest Hurst exponents; for each entry the laws are compared for this and all larger Hurst exponents
+    average : "arithmetic" or "geometric"
     resamples, seed : arguments of the bootstrap, which draws the realizations of each Hurst exponent independently
-    Values are nan for a Hurst exponent without a region (b), and for curves if the regions have no X in common.
+    All values are nan if a compared Hurst exponent has no region (b); values for curves are nan if the regions have no
+    X in common.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, []
     for hurst_min in hurst_mins:
@@ -78,18 +82,24 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
 
 
 def measure_value(table, quantity, law, measure, hurst_min=0.0):
-    """Return the value and 95 % interval, (value, low, high), of one row of the table; nan without such a row."""
+    """Return (value, low, high), the value and 95 % interval of one row of the table; nan without such a row.
+
+    law : name of a law, or of a difference (`difference`); quantity, measure : entries of these columns
+    """
     rows = table.query("quantity == @quantity and law == @law and measure == @measure and hurst_min == @hurst_min")
     return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
 
 
 def difference(law):
-    """Name the difference between a law and Eq. 11; it is positive if Eq. 11 is nearer."""
+    """Return the name of the difference of a measure between a law and Eq. 11; it is positive if Eq. 11 is nearer."""
     return f"{law} minus {LAST}"
 
 
 def _measures(logarithms):
-    """Return {measure: values of ensemble and resamples}; logarithms : shape (resamples + 1, Hurst exponents, X)"""
+    """Return {measure: its values for the ensemble and the resamples}.
+
+    logarithms : r (see the module), shape (resamples + 1, Hurst exponents, X)
+    """
     mean_over_hursts = logarithms.mean(axis=1, keepdims=True)
     return {
         "deviation": np.sqrt(np.mean(logarithms**2, axis=(1, 2))),
@@ -99,9 +109,12 @@ def _measures(logarithms):
 
 
 def _ratios(ensembles, windows, *, average, resamples, seed):
-    """Return {quantity: {law: ln of ζ, or of vt/h, over the law}}, each (resamples + 1, Hurst exponents, X).
+    """Return {quantity: {law: r}}, the logarithms of the ratios of ζ and of vt/h to the law (see the module).
 
-    windows : windows of the ensembles; values are nan without a region (b), and for curves without common abscissae
+    Each array r has the shape (resamples + 1, Hurst exponents, X).
+
+    ensembles : {H: ensemble dataset}; windows : window of region (b) of every ensemble, or None
+    All values are nan if an ensemble has no region (b); those for curves are nan if the windows have no X in common.
     """
     if not windows or None in windows:
         return {"zeta": UNCOMPARED, "curve": UNCOMPARED}

@@ -1,8 +1,8 @@
-"""Answer the study's question in one paragraph, from the verdicts: agreements, and sizes of the differences."""
+"""Answer the study's question in one paragraph: where the results agree with the paper, and by how much they differ."""
 
 from viscorough_study.verdicts.claims import HELD, overall
 
-# How a statement on a claim begins for each outcome: it holds, it fails, the data do not decide.
+# Words for the outcome of a claim: True if the claim holds, False if it fails, None if the data do not decide.
 COLLAPSE = {
     True: "The curves of each Hurst exponent collapse",
     False: "The curves of each Hurst exponent do not collapse",
@@ -19,8 +19,9 @@ REGION_C = {
 def answer(table):
     """Return the answer as a paragraph of plain text, from a table of verdicts (verdicts.claims.judge).
 
-    The paragraph lists the Hurst exponents at which a claim holds, and gives the difference at the others. Claims that
-    the data do not decide are left out, except the collapse and the exponents.
+    For claims on exponents, the paragraph lists the Hurst exponents at which they hold, and gives the difference from
+    the paper at the others. Claims that the data do not decide are left out, except the claims on the collapse and the
+    exponents.
     """
     verdicts = overall(table)
     last = [_statement(verdicts, names, texts) for names, texts in _LAST]
@@ -42,18 +43,21 @@ _LAST = (
 
 
 def _outcome(verdict):
-    """Return True if a claim holds, False if it fails at all its cases, and None otherwise."""
+    """Return True if a claim holds, False if it fails in all its cases, and None otherwise."""
     return True if verdict in HELD else False if verdict == "not reproduced" else None
 
 
 def _statement(verdicts, names, texts):
-    """Return the text for claims with one common outcome; empty for any other outcome."""
+    """Return the sentence for a set of claims if all of them have the same outcome, otherwise an empty text.
+
+    verdicts : {claim: verdict}; names : the claims; texts : {outcome: sentence}; without a sentence the text is empty
+    """
     outcomes = {_outcome(verdicts[name]) for name in names}
     return texts.get(outcomes.pop(), "") if len(outcomes) == 1 else ""
 
 
 def _boundary_elements(table):
-    """Return the sentence on the exponent of boundary elements, at all its Hurst exponents."""
+    """Return the sentence on the exponent β of boundary elements, which lists all Hurst exponents of the discs."""
     cases = _exponents(table, "beta", "discs")
     parts = [f"is H/(1 + H) at H = {_joined(_hursts(cases, HELD))} (the paper: above 0.4)"] if _any(cases, HELD) else []
     differences = [(case["difference"], hurst) for hurst, case in cases.items() if case["verdict"] == "not reproduced"]
@@ -65,7 +69,7 @@ def _boundary_elements(table):
 
 
 def _reduction(table):
-    """Return the sentence on the exponent of the MDR, and on its difference from boundary elements."""
+    """Return the sentence on the exponent β of the MDR, and on its difference from β of boundary elements."""
     cases = _exponents(table, "beta_lines", "lines")
     text = "The method of dimensionality reduction (MDR) "
     failing = [hurst for hurst, case in cases.items() if case["verdict"] not in HELD]
@@ -80,7 +84,11 @@ def _reduction(table):
 
 
 def _exponents(table, claim, source):
-    """Return {H: verdict of a case, and β minus H/(1 + H)} by ascending H, of discs or lines."""
+    """Return {H: {"verdict": verdict, "difference": β − H/(1 + H)}} of discs or lines, by ascending H.
+
+    table : table of verdicts; claim : name of the claim that covers the larger Hurst exponents; source : "discs" or
+        "lines"
+    """
     claimed, small = table[table["claim"] == claim], table[table["claim"] == "exponent_small_hurst"]
     small = small[small["case"].str.endswith(source)]
     cases = {
@@ -105,7 +113,7 @@ def _any(cases, verdicts):
 
 
 def _joined(texts, *, comma=False):
-    """Join texts by commas and "and"; with a comma before "and" if `comma`."""
+    """Join texts by commas, and the last two by "and"; `comma` : whether a comma precedes "and"."""
     *first, last = texts
     return ", ".join(first) + (", and " if comma else " and ") + last if first else last
 

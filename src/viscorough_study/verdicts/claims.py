@@ -1,16 +1,16 @@
 """Judge the paper's claims: a table of all cases, the verdict on each claim, and a summary in Markdown.
 
 resources/paper/claims.yaml gives the statement, kind, criterion and tolerance of every claim, and the reason of the
-tolerance. The function of a criterion has the name of the claim and is in one of the modules of criteria (`JUDGES`). It
-yields the cases of the claim from the evidence (verdicts.evidence.Evidence) and the tolerance.
+tolerance. The function that judges a claim has the name of the claim, and is in one of the modules of criteria
+(`MODULES`). It takes the evidence (verdicts.evidence.Evidence) and the tolerance, and yields the cases of the claim.
 
-Other random surfaces give other numbers, and a verdict must not depend on them. If a quantity has a 95 % interval, the
-claim is reproduced only if the whole interval lies within the tolerance, and not reproduced only if it lies wholly
-outside. Otherwise it is undecided. viscorough_study.verdicts.evidence.Evidence.within describes how the numbers of
-cases and of realizations enter.
+Other random surfaces give other numbers, and a verdict must not depend on this choice. If a quantity has a 95 %
+interval, the claim is reproduced only if the whole interval lies within the tolerance, and not reproduced only if the
+whole interval lies outside. Otherwise it is undecided. viscorough_study.verdicts.evidence.Evidence.within describes how
+the number of cases and the number of realizations enter.
 
-The scoreboard (`counted_verdicts`) counts the claims on physics only. Identities and bookkeeping cannot fail by the
-physics, and statements beyond the paper are not its claims.
+The scoreboard (`counted_verdicts`) counts only the claims on physics. Identities and bookkeeping cannot fail by the
+physics, and statements beyond the paper are not claims of the paper.
 """
 
 from collections import Counter
@@ -33,7 +33,7 @@ MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_cr
 
 
 def _criteria(module):
-    """Return {claim: criterion} of a module: its public functions of evidence and tolerance."""
+    """Return {claim: criterion} of a module: its public functions with the arguments `evidence` and `tolerance`."""
     public = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
     return {name: f for name, f in public.items() if [*signature(f).parameters][:2] == ["evidence", "tolerance"]}
 
@@ -45,7 +45,7 @@ KINDS = {
     "bookkeeping": "Bookkeeping (not counted)",
     "beyond": "Beyond the paper (not counted)",
 }
-# Common causes of claims that fail: {finding of a claim in claims.yaml: the finding in words}.
+# Common causes of failing claims: {name of the cause, as a claim in claims.yaml states it: cause in words}.
 FINDINGS = {
     "small_hurst": "at small H the exponents depart from H/(1 + H), on every grid tried at fixed X",
     "prefactor": "the prefactor differs",
@@ -75,15 +75,18 @@ COLUMNS = {
     "reason": ("why the tolerance is what it is", ""),
     "figure": ("figure that shows it", ""),
 }
-SMALLEST_SHARE = 0.5  # of the paper's elements across; on coarser grids region (b) is too short for a fit
-CASES_SHOWN_MAX = 10  # a claim with more cases shows three of them in the summary
+# A trial has fewer elements across than this share of the paper's. On such coarse grids region (b) is too short for a
+# fit.
+SMALLEST_SHARE = 0.5
+CASES_SHOWN_MAX = 10  # of a claim with more cases, the summary shows only three
 
 
 def judge(claims, evidence):
-    """Judge the claims: return a pandas.DataFrame with the columns of `COLUMNS`, one row per case of a claim.
+    """Judge the claims; return a pandas.DataFrame with the columns of `COLUMNS` and one row per case of a claim.
 
     claims : {name: title, quantity, kind, where, statement, criterion, tolerance, reason, figure}
-    A case whose quantity cannot be computed from the evidence, such as an exponent without a region (b), is undecided.
+    evidence : verdicts.evidence.Evidence
+    A case is undecided if its quantity cannot be computed from the evidence, such as an exponent without a region (b).
     """
     rows = []
     for name, claim in claims.items():
@@ -92,16 +95,17 @@ def judge(claims, evidence):
 
 
 def is_trial(elements_across, paper_elements_across):
-    """Return True if discs are too coarse for a power law, so that verdicts mean nothing."""
+    """Return True if discs have too few elements across for a power law, so that verdicts mean nothing."""
     return elements_across < SMALLEST_SHARE * paper_elements_across
 
 
 def scale_attributes(evidence):
-    """Return attributes of the table of verdicts on the scale of the study, from the results, not the settings.
+    """Return attributes of the table of verdicts that state the scale of the study, from its results, not its settings.
 
-    elements_across : number across the discs; paper_elements_across : number across the paper's discs
-    realizations : smallest number of discs of a Hurst exponent
-    trial : 1 for a trial, whose verdicts mean nothing, otherwise 0
+    elements_across : number of elements across the discs
+    paper_elements_across : number of elements across the discs of the paper
+    realizations : smallest number of discs per Hurst exponent
+    trial : 1 if the study is a trial, whose verdicts mean nothing, otherwise 0
     scale : a sentence with these numbers
     """
     across, paper = evidence.across, evidence.paper_value("boundary_elements", "elements_across")
@@ -114,11 +118,11 @@ def scale_attributes(evidence):
 
 
 def overall(table):
-    """Return {claim: verdict}, from the verdicts of the claim's cases.
+    """Return {claim: verdict}, where the verdict on a claim follows from the verdicts on its cases.
 
-    A claim with some cases that hold and some that fail is reproduced in part. Otherwise it has the worst verdict of
-    its cases, in the order of `VERDICTS`: a claim with failing cases and no holding ones is not reproduced; a claim
-    with holding and undecided cases is undecided.
+    A claim with holding and failing cases is reproduced in part. Otherwise the claim has the worst verdict of its cases
+    in the order of `VERDICTS`. So a claim with failing cases but no holding cases is not reproduced, and a claim with
+    holding and undecided cases is undecided.
     """
     return {claim: _of_cases(verdicts) for claim, verdicts in table.groupby("claim", sort=False)["verdict"]}
 
@@ -131,20 +135,22 @@ def _of_cases(verdicts):
 
 
 def counted_verdicts(table):
-    """Return [(verdict, its number of claims on physics)], from best to worst."""
+    """Return [(verdict, number of claims on physics with this verdict)], from best to worst."""
     numbers = Counter(overall(physics(table)).values())
     return [(verdict, numbers[verdict]) for verdict in VERDICTS if numbers[verdict]]
 
 
 def physics(table):
-    """Return the cases of claims on physics, which the scoreboard counts."""
+    """Return the rows of a table of verdicts that belong to claims on physics, which the scoreboard counts."""
     return table[table["kind"] == "physics"]
 
 
 def verdict_text(rows):
-    """Return the verdict on a claim as text; a verdict "in part" names the Hurst exponents at which it holds.
+    """Return the verdict on a claim as text.
 
-    rows : the cases of one claim
+    rows : the cases of the claim, from the table of verdicts
+    If the claim is reproduced in part and its cases are Hurst exponents, the text lists the Hurst exponents where it
+    holds.
     """
     (verdict,) = overall(rows).values()
     held = rows.loc[rows["verdict"].isin(HELD), "case"]
@@ -154,7 +160,7 @@ def verdict_text(rows):
 
 
 def case_counts(rows):
-    """Return the numbers of holding and of undecided cases as text, such as "2 of 4 cases, 1 undecided".
+    """Return how many cases of a claim hold and how many are undecided, as text such as "2 of 4 cases, 1 undecided".
 
     rows : the cases of one claim; the text is empty if all of them hold or all of them fail
     """
@@ -165,9 +171,9 @@ def case_counts(rows):
 
 
 def findings(table, claims):
-    """Return {finding in words: claims on physics that are not reproduced, or only in part, for this reason}.
+    """Return {cause in words: claims on physics that are not reproduced, or only in part, for this cause}.
 
-    claims : {name: content of claims.yaml}; claims that may fail name a finding of `FINDINGS`
+    claims : {name: content of claims.yaml}, where the entry `finding` of a claim names its cause, a key of `FINDINGS`
     """
     verdicts = overall(physics(table))
     failed = [name for name, verdict in verdicts.items() if verdict in ("reproduced in part", "not reproduced")]
@@ -176,18 +182,18 @@ def findings(table, claims):
 
 
 def place(claim):
-    """Return the place of a claim in the paper, and a remark if the paper quotes earlier work.
+    """Return the place of a claim in the paper as text, marked as quoted if the paper quotes earlier work.
 
-    claim : content of claims.yaml
+    claim : entry of claims.yaml
     """
     return claim["where"] + ("; quoted" if claim.get("origin") == "quoted" else "")
 
 
 def deciding_case(rows):
-    """Return the index of the case that decides a claim.
+    """Return the index of the case that decides the verdict on a claim.
 
-    Of all cases with the worst verdict it is the case farthest from the paper's value, or the first if none can be
-    compared with the paper.
+    Among the cases with the worst verdict it is the case farthest from the paper's value, or the first case if the
+    paper states no value for any of them.
 
     rows : the cases of one claim
     """
@@ -197,10 +203,11 @@ def deciding_case(rows):
 
 
 def markdown(table, claims):
-    """Return the verdicts as Markdown tables, one for each kind: a row for each claim, then a row for each case.
+    """Return the verdicts as Markdown tables, one table for each kind of claim.
 
-    Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the case farthest from the paper. After the
-    verdict of a case comes the number of conventions that meet it.
+    A table has a row for each claim, followed by rows for its cases. If a claim has more than `CASES_SHOWN_MAX` cases,
+    only three are shown: the first, the last, and the case farthest from the paper. The verdict of a case is followed
+    by the number of conventions in which the case meets the criterion.
     """
     parts, verdicts = [], overall(table)
     for kind, heading in KINDS.items():
@@ -221,7 +228,7 @@ def markdown(table, claims):
 
 
 def cases_shown(rows):
-    """Return the cases of a claim that a summary shows: all, or three if they are more than `CASES_SHOWN_MAX`."""
+    """Return the cases of a claim that a summary shows: all, or three of more than `CASES_SHOWN_MAX` (`markdown`)."""
     if len(rows) <= CASES_SHOWN_MAX:
         return rows
     farthest = np.abs(rows["value"] - rows["expected"]).idxmax()
@@ -229,7 +236,7 @@ def cases_shown(rows):
 
 
 def _case_line(row):
-    """Return the row of one case in the summary."""
+    """Return the Markdown row of one case."""
     said = _digits(row["expected"]) if np.isfinite(row["expected"]) else ""
     verdict = row["verdict"] + (f": {row['convention']}" if row["convention"] else "")
     if np.isfinite(row["conventions"]):
@@ -239,7 +246,7 @@ def _case_line(row):
 
 
 def value_text(row):
-    """Return the value of a case, its interval in brackets, and its range, as text."""
+    """Return the value of a case as text, with its interval in brackets, and its least and largest value."""
     if not np.isfinite(row["value"]):
         return "–"
     text = _digits(row["value"])

@@ -207,7 +207,7 @@ def markdown(table, claims):
 
     A table has a row for each claim, followed by rows for its cases. If a claim has more than `CASES_SHOWN_MAX` cases,
     only three are shown: the first, the last, and the case farthest from the paper. The verdict of a case is followed
-    by the number of conventions in which the case meets the criterion.
+    by the number of conventions that meet the criterion.
     """
     parts, verdicts = [], overall(table)
     for kind, heading in KINDS.items():

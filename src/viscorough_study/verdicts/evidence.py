@@ -163,7 +163,7 @@ class Evidence:
             `names`
         column : column of the quantity; law : `Law`
         names : columns that together name a combination
-        compared : mask of the rows of `every` in which a convention is sought in which all cases of the claim hold
+        compared : mask of the rows of `every` that are searched for a combination that makes all cases of the claim hold
         """
         columns = [column, f"{column}_low", f"{column}_high"]
         deviation = every[columns[1:]].sub(law.value(every["hurst"]), axis=0).abs().max(axis=1, skipna=False)
@@ -187,7 +187,7 @@ class Combinations:
     """Values of a quantity in every combination of the conventions that the paper leaves open.
 
     values : value and 95 % interval of the quantity, shape (combinations, 3)
-    holds_in : the combination, in words, in which every case of the claim holds; "" if there is none
+    holds_in : the combination, in words, that makes every case of the claim hold; "" if there is none
     own : the combination of the case itself, in words; by default the conventions of the figures
     """
 
@@ -235,7 +235,7 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, 
     met : True if the criterion is met, and no convention that the paper leaves open contradicts; False if it is not
         met, or only in some conventions; None if the data do not decide (`Evidence.within`). A case with an undefined
         value is always undecided.
-    convention : conventions, in words, in which the criterion is met, if `met` is not True; "" if there are none
+    convention : conventions, in words, that meet the criterion although `met` is not True; "" if there are none
     extremes : (least, largest) value; counts : entries of the columns conventions, agreeing and contradicting
     """
     if not np.isfinite(values[0]):

@@ -1,7 +1,8 @@
 """Judge claims on the variables that determine the contact, tested on one small rough disc.
 
-The claims follow from the equations of the contact for every surface, so a small disc shows them exactly. The
-integration in time solves a contact problem in every step and never uses the correspondence with the elastic problem.
+These claims follow from the equations of the contact for every surface, so a small disc shows them without scatter. The
+integration in time, which some of them use, solves a contact problem in every step. It never uses the correspondence
+with the elastic problem, so its results are independent evidence.
 """
 
 from itertools import pairwise
@@ -20,9 +21,10 @@ from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 from viscorough_study.verdicts.evidence import exact, hurst_name
 
 ACROSS = 33  # number of elements across the disc
-DEPTH = 1.5  # in rms heights; some tens of elements are in contact
-IMPULSE = 2.0  # ∫F dt/η over hL at the end of force histories
-HISTORIES = {  # times, and forces over IMPULSE, linear between times; a repeated time marks a step
+DEPTH = 1.5  # depth in rms heights, so that some tens of elements are in contact
+IMPULSE = 2.0  # ∫F dt/(ηhL) at the end of each force history
+# {history: (times, forces divided by IMPULSE)}. The force is linear between times, and steps at a repeated time.
+HISTORIES = {
     "constant": ([0.0, 1.0], [1.0, 1.0]),
     "growing": ([0.0, 0.25, 0.5, 0.75, 1.0], [0.0, 0.5, 1.0, 1.5, 2.0]),
     "with rests": (
@@ -30,27 +32,30 @@ HISTORIES = {  # times, and forces over IMPULSE, linear between times; a repeate
         [2.0, 2.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 2.0, 2.0],
     ),
 }
-SCALES = (1e-3, 0.2, 7.0)  # factors of heights and depth
-UNITS = ((7.0, 1.0), (1e-3, 3.0), (0.2, 1e-2))  # factors of heights and of lengths in the plane
-FORCES = np.geomspace(1e-3, 1, 31)  # values of X for the comparison of curves
-DRIVES = ((1.0, 1.0), (1.0, 5.0), (1e-2, 1.0), (30.0, 0.2))  # forces over hL and viscosities of one indentation
-STEPS = 10  # steps of equal impulse in each direct integration
+SCALES = (1e-3, 0.2, 7.0)  # common factors of heights and depth
+# pairs (factor of the heights, factor of the lengths in the plane)
+UNITS = ((7.0, 1.0), (1e-3, 3.0), (0.2, 1e-2))
+FORCES = np.geomspace(1e-3, 1, 31)  # values of X where curves are compared
+# pairs (F/(hL), viscosity) for indentations of one disc
+DRIVES = ((1.0, 1.0), (1.0, 5.0), (1e-2, 1.0), (30.0, 0.2))
+STEPS = 10  # number of steps, of equal impulse, in each direct integration
 
 
 def _disc(evidence, hurst):
-    """Return the small disc of a Hurst exponent, of rms height and diameter 1."""
+    """Return the small disc of a Hurst exponent, with rms height 1 and diameter 1."""
     return self_affine_disc(hurst, ACROSS, seed=realization_seed(evidence.seed, *gamma_factor_key(hurst)))
 
 
 def _case(name, deviations, tolerance):
-    """Return the case of the largest of several deviations, which should vanish."""
+    """Return the case of several deviations that should vanish, judged by the largest of them."""
     return exact(name, max(deviations), 0.0, max(deviations) <= tolerance, deviations)
 
 
 def history(evidence, tolerance):
-    """Yield differences at the end of force histories of equal impulse: elements in contact, and relative depths.
+    """Yield differences between contacts at the end of force histories of equal impulse.
 
-    Histories of equal impulse reach equal depths, and should have equal contact.
+    The histories should reach equal depths with equal contact. The first case is the number of elements whose contact
+    differs between two histories, the second case is the relative difference of the depths.
     """
     disc = _disc(evidence, min(evidence.pooled))
     histories = [(times, IMPULSE * np.array(forces)) for times, forces in HISTORIES.values()]
@@ -64,7 +69,7 @@ def history(evidence, tolerance):
 
 
 def depth_over_rms(evidence, tolerance):
-    """Yield the number of elements whose contact changes when u and h are multiplied by the same factor."""
+    """Yield the number of elements whose contact changes when the depth u and the rms height h are scaled together."""
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         touching = contact_at(disc, depth=DEPTH).contact
@@ -75,11 +80,11 @@ def depth_over_rms(evidence, tolerance):
 
 
 def one_surface(evidence, tolerance):
-    """Yield relative differences between one surface and the same surface in other units.
+    """Yield relative differences between results for one surface in different units, which should vanish.
 
-    They are differences of κ(X) with other heights and another diameter, for every Hurst exponent. For the smallest
-    exponent they are also differences of F/(ηvL) from direct integrations with other forces and viscosities at the same
-    Ft/η, hence in the same contact.
+    For every Hurst exponent, κ(X) is compared between surfaces with other heights and other diameters. For the smallest
+    Hurst exponent, F/(ηvL) is also compared between direct integrations with other forces and viscosities, at equal
+    Ft/η and hence in equal contact.
     """
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
@@ -92,13 +97,13 @@ def one_surface(evidence, tolerance):
 
 
 def _resistance(disc, force, viscosity):
-    """Return F/(ηvL) over steps of equal impulse Ft/η in a direct integration; v : velocity over a step"""
+    """Return F/(ηvL), with the mean velocity v, in each step of a direct integration in steps of equal impulse Ft/η."""
     times = np.linspace(0.0, IMPULSE * viscosity / force, STEPS + 1)
     depth = march(disc, Load(times, force=np.full(times.size, force)), Newtonian(viscosity)).depth
     return force / (viscosity * np.diff(depth) / np.diff(times))
 
 
 def _stiffness(indenter, rms, diameter):
-    """Return κ at the dimensionless forces `FORCES`, for a surface of these lengths."""
+    """Return κ at the dimensionless forces X in `FORCES`, for a surface of the given rms height and diameter."""
     force = 4 * rms * diameter * FORCES
     return indent(indenter, until_force=force[-1]).at_force(force)[1] / diameter

@@ -1,7 +1,7 @@
 """Judge claims that fitted exponents and curves follow a law of the paper.
 
-A claim may hold in some of the conventions that the paper leaves open and fail in others. The verdict then states both,
-and names the convention, whichever of them the figures use.
+A claim may hold in some of the conventions that the paper leaves open, and fail in others. The verdict then states both
+facts and names the convention in which the claim holds, also if the figures use a different convention.
 """
 
 import numpy as np
@@ -13,14 +13,15 @@ from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
 from viscorough_study.verdicts.evidence import Law, hurst_name, judged
 from viscorough_study.verdicts.region_criteria import combinations_case
 
-SHARE_OF_SQUARE = 0.75  # lower bound of the share of a square's elements in its disc
+# A disc with n elements across has more than this share of the n² elements of the square around it.
+SHARE_OF_SQUARE = 0.75
 
 
 # ---- exponents
 
 
 def beta(evidence, tolerance, source="discs"):
-    """Compare β with H/(1 + H), for the Hurst exponents with this claim of the paper."""
+    """Compare β with H/(1 + H), for the Hurst exponents that this claim of the paper covers."""
     fits, every = evidence.fits(source), evidence.every_fit(source)
     fits = fits[fits.index > evidence.paper_value("agreement", "beta_hurst_min")]
     named = {"names": list(FITTED), "compared": every["case_group"] == "base"}
@@ -33,7 +34,7 @@ def beta_lines(evidence, tolerance):
 
 
 def exponent_small_hurst(evidence, tolerance):
-    """Yield β of discs and of lines minus H/(1 + H), for the discs' Hurst exponents without a claim of the paper."""
+    """Yield β − H/(1 + H) of discs and lines, for the Hurst exponents about which the paper claims nothing."""
     disc_fits = evidence.fits("discs")
     small = disc_fits.index[disc_fits.index <= evidence.paper_value("agreement", "beta_hurst_min")]
     for source in ("discs", "lines"):
@@ -47,7 +48,7 @@ def exponent_small_hurst(evidence, tolerance):
 
 
 def coincide(evidence, tolerance):
-    """Return β of lines minus β of discs, with the conventions that make the difference smallest."""
+    """Compare β of lines with β of discs at equal Hurst exponents, by their difference, in all conventions."""
     discs, lines = (evidence.every_fit(source).query("case_group == 'base'") for source in ("discs", "lines"))
     both = discs.merge(lines, on=["hurst", "average", "window_rule"], how="left", suffixes=("", "_of_lines"))
     line_columns = tuple(both[f"{name}_of_lines"] for name in ("beta", "beta_low", "beta_high"))
@@ -59,7 +60,7 @@ def coincide(evidence, tolerance):
 
 
 def hurst_only(evidence, tolerance):
-    """Yield the standard deviation of β over combinations of force, viscosity, size and h, without sampling scatter."""
+    """Yield the standard deviation of β between combinations of force, viscosity, L and h, without sampling scatter."""
     if None in evidence.regions.values():
         yield judged("all H", UNDEFINED, 0.0, None)
         return
@@ -69,9 +70,10 @@ def hurst_only(evidence, tolerance):
 
 
 def no_grid(evidence, tolerance):
-    """Yield the factor on κ at given u/h for a tenfold number of elements (fits.grid_dependence); extremes: of κ.
+    """Yield the ratio of κ at given u/h with ten times as many elements to κ without (fits.grid_dependence).
 
-    The number of realizations of a grid enters through the interval of the factor.
+    The extremes of a case are the least and the largest κ of the grids. The number of realizations of a grid is already
+    in the interval of the factor, and does not enter the verdict a second time.
     """
     table, ends = evidence.tables["grid_dependence"], (1 / (1 + tolerance), 1 + tolerance)
     table = table[table["quantity"].str.startswith("κ at u/h") & (table["compared"] == 1)].dropna(subset="factor")
@@ -85,9 +87,9 @@ def no_grid(evidence, tolerance):
 
 
 def realizations(evidence, tolerance):
-    """Return half the width of the 95 % interval of β for the paper's number of indentations in Fig. 4.
+    """Return the cases of half the width of the 95 % interval of β for the number of indentations in the paper's Fig. 4.
 
-    Its interval follows from the χ² distribution of a standard deviation of normal samples.
+    This half width has an interval itself, by the χ² distribution of the standard deviation of normal samples.
     """
     number = evidence.paper_value("boundary_elements", "realizations_fig4")
 
@@ -99,9 +101,11 @@ def realizations(evidence, tolerance):
 
 
 def _cases_in_regions(evidence, evaluate, expected, allowed):
-    """Yield cases of a quantity in region (b) of the pooled discs, one for each H; undecided without a region.
+    """Yield the cases of a quantity in region (b) of the ensembles in `Evidence.pooled`, one for each H.
 
-    evaluate : function of H, ensemble and window; returns value and interval, and the number of realizations
+    evaluate : function of H, ensemble and window; returns (value, low, high) and the number of realizations
+    expected : value of the paper, or nan; allowed : (low, high)
+    A case without a region is undecided.
     """
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
@@ -111,7 +115,7 @@ def _cases_in_regions(evidence, evaluate, expected, allowed):
 
 
 def _slopes(ensemble, window):
-    """Return the slope of ln(vt/h) over ln X in a window, for every realization defined in it."""
+    """Return the slope of ln(vt/h) along ln X in a window, for every realization defined in the whole window."""
     inside = in_window(ensemble["x"].values, window)
     log_x, log_velocity = np.log(ensemble["x"].values[inside]), np.log(ensemble["velocity"].values[:, inside])
     log_velocity = log_velocity[np.isfinite(log_velocity).all(axis=1)]
@@ -119,7 +123,7 @@ def _slopes(ensemble, window):
 
 
 def alpha_limit(evidence, tolerance):
-    """Yield β at H = 1, for which the paper calls the exponent exact: of lines, and of discs on the paper's grid."""
+    """Yield β of lines, and of discs on the paper's grid, at H = 1, where the paper calls the exponent exact."""
     chosen = evidence.conventions | source_values("discs") | {"case_group": "sizes"}
     discs = select(evidence.tables["sizes"], chosen).set_index("hurst")
     discs = discs[discs["elements"] >= SHARE_OF_SQUARE * evidence.across**2].sort_values("elements", kind="stable")
@@ -134,14 +138,18 @@ def alpha_limit(evidence, tolerance):
 
 
 def depth(evidence, tolerance):
-    """Return (1 − α)κu/(hX) at the centre of region (b), with u/h = ∫dX/κ, and κ constant below the first abscissa."""
+    """Return the cases of (1 − α)κu/(hX) at the centre of region (b), which is 1 for a power law of κ.
+
+    The depth is u/h = ∫dX/κ, where κ is constant below the first abscissa.
+    """
 
     def ratio(hurst, ensemble, betas, zetas, centre):
         x, softness = ensemble["x"].values, 1 / ensemble["stiffness"].values
         end = int(np.argmin(np.abs(np.log(x / centre)))) + 1
         depths = x[0] * softness[:, 0] + np.trapezoid(softness[:, :end], x[:end], axis=1)
         ratios = (depths / (x[end - 1] * softness[:, end - 1]))[:, None]
-        # The seed of the fit draws the same realizations, so the interval includes the scatter of both factors.
+        # With the seed of the fit the same realizations are drawn, so the interval includes the scatter of both
+        # factors.
         random = np.random.default_rng(evidence.seed)
         return betas * np.exp(log_means(ratios, "arithmetic", evidence.resamples, random))[:, 0]
 
@@ -149,7 +157,10 @@ def depth(evidence, tolerance):
 
 
 def master_curve(evidence, tolerance):
-    """Yield vt/h over the right side of Eq. 12 as printed, of discs, and of lines at the same Hurst exponents."""
+    """Yield the ratio of vt/h to the right side of Eq. 12 as printed, at the centre of region (b).
+
+    There are cases for discs, and for lines at the Hurst exponents of the discs.
+    """
 
     def ratio(hurst, ensemble, betas, zetas, centre):
         return centre**betas / zetas / reference.rate_law(centre, hurst, gamma=True)
@@ -161,7 +172,8 @@ def master_curve(evidence, tolerance):
     for hurst, row in lines.iterrows():
         centre = np.sqrt(row["x_low"] * row["x_high"])
         value = ratio(hurst, None, row["beta"], row["zeta"], centre)
-        # The relative error of ζ belongs to X = 1, and bounds the error at the centre of the fit.
+        # The relative error of ζ is the error of vt/h at X = 1. It is an upper bound of the error at the centre of the
+        # fit.
         zeta, zeta_low, zeta_high = interval(row, "zeta")
         values = value, value * zeta / zeta_high, value * zeta / zeta_low
         context = {"realizations": row["realizations"], "cases": len(discs) + len(lines)}
@@ -169,9 +181,10 @@ def master_curve(evidence, tolerance):
 
 
 def _cases_at_centre(evidence, tolerance, ratio):
-    """Return cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
+    """Return the cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
 
-    ratio : function of H, ensemble, β and ζ fitted in region (b), and centre; returns the ratio and its resamples
+    ratio : function of H, ensemble, β and ζ (arrays of fit and resamples), and centre X; returns the ratio and its
+        resamples
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
 

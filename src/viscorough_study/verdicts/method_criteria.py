@@ -1,4 +1,4 @@
-"""Judge claims on the methods: the factor Γ, the line of the MDR, and counts."""
+"""Judge claims on the methods: the factor 1/Γ(2 − α), the spectrum of the line of the MDR, and counts."""
 
 import numpy as np
 
@@ -6,23 +6,25 @@ from viscorough.surfaces.self_affine import cut_disc
 from viscorough_study.fits.intervals import UNDEFINED, difference
 from viscorough_study.verdicts.evidence import exact, judged
 
-SMALL_ERROR = 0.01  # error of the velocity for the count of explicit steps
-HUNDREDS = 100  # smallest number of contact problems that is "some hundreds"
-EXPLICIT = "explicit, logarithmic steps"  # method of the table of methods that solves a contact problem in every step
+SMALL_ERROR = 0.01  # relative error of the velocity that explicit steps must reach when they are counted
+HUNDREDS = 100  # smallest number of contact problems that counts as "some hundreds"
+# name, in the table of methods, of the method that solves a contact problem in every step
+EXPLICIT = "explicit, logarithmic steps"
 
 
 def gamma(evidence, tolerance):
-    """Compare the depth of direct integrations in time, over the elastic depth, with the factor of Eq. 8."""
+    """Compare the ratio of the depth of a direct integration in time to the elastic depth with the factor of Eq. 8."""
     for name, rows in evidence.tables["direct"].groupby("case", sort=False):
         ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
         yield exact(name, ratio.median(), factor, (np.abs(ratio - factor) <= tolerance).all(), ratio)
 
 
 def line_spectrum(evidence, tolerance):
-    """Yield λ at the largest Hurst exponent over λ at the smallest, with the smallest and the largest λ/π of all.
+    """Yield the ratio of λ at the largest Hurst exponent to λ at the smallest.
 
     If λ varies with H by more than the tolerance, it is not constant, and so not π. The two λ are independent, so the
-    half-widths of the intervals of their logarithms add in quadrature.
+    half-widths of the intervals of their logarithms add in quadrature. The extremes of the case are the smallest and
+    the largest λ/π of all Hurst exponents.
     """
     fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high", "realizations"]].dropna()
     if len(fits) < 2:
@@ -39,7 +41,7 @@ def line_spectrum(evidence, tolerance):
 
 
 def bodies_of_revolution(evidence, tolerance):
-    """Yield the error of the reduction on the finest grid, with the smallest and largest error over all grids."""
+    """Yield the error of the reduction on the finest grid; the extremes of a case are the errors on all grids."""
     validation = evidence.tables["validation"]
     rows = validation[validation["case"].str.endswith("_reduction")]
     for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
@@ -49,7 +51,10 @@ def bodies_of_revolution(evidence, tolerance):
 
 
 def elements(evidence, tolerance):
-    """Yield the elements of a disc as large as the paper's; least and largest: without and with elements on the rim."""
+    """Yield the number of elements of a disc with as many elements across as the paper's.
+
+    The extremes of the case are this number without and with the elements whose centres lie exactly on the rim.
+    """
     across, paper_count = (evidence.paper_value("boundary_elements", name) for name in ("elements_across", "elements"))
     count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
     x = np.arange(across) - (across - 1) / 2
@@ -59,11 +64,13 @@ def elements(evidence, tolerance):
 
 
 def contact_problems(evidence, tolerance):
-    """Yield the contact problems of one indentation: changes of the contact, and steps to a given accuracy.
+    """Yield the number of contact problems of one indentation, counted in two ways.
 
-    Every element that comes into contact is a change; the extremes are over the discs. The number of steps is the
-    smallest of explicit integration with an error of the velocity below `SMALL_ERROR`; the extremes are over all rough
-    discs that reach this error, of any number of elements.
+    The first case counts the changes of the contact: every element that comes into contact is a change. Its extremes
+    are the least and the largest number of all discs. The second case counts the steps of explicit integration, which
+    solves a contact problem in every step. For each rough disc it is the smallest number of steps with an error of the
+    velocity of at most `SMALL_ERROR`; its extremes are the least and the largest number of all discs that reach this
+    error.
     """
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
     methods = evidence.tables["methods"]
@@ -81,6 +88,6 @@ def contact_problems(evidence, tolerance):
 
 
 def _rough_discs(evidence):
-    """Return rows of the table of methods on rough discs as large as the paper's."""
+    """Return the rows of the table of methods for rough discs with the paper's number of elements across."""
     methods, across = evidence.tables["methods"], evidence.paper_value("boundary_elements", "elements_across")
     return methods[methods["hurst"].notna() & (methods["elements"] == across)]

@@ -10,20 +10,21 @@ from viscorough_study.fits.intervals import UNDEFINED, interval, mean_with_inter
 from viscorough_study.fits.plateau import inner_slopes
 from viscorough_study.verdicts.evidence import exact, hurst_name, judged
 
-ROUNDING = 1e-9  # relative difference below which numbers of decades count as equal
-LEFT_REGION = 2.0  # a curve leaves region (a) when κ exceeds κ of one element by this factor
-SLOPE_OF_LINE = 0.05  # deviation of a slope from 1 that is invisible in Fig. 2
-POWER_LAWS_LOST_MAX = 0.05  # largest fraction of synthetic power laws that may fail the test
-ONE_ELEMENT = 1 + 1e-9  # largest contact count, interpolated logarithmically, that is a single element
+ROUNDING = 1e-9  # numbers of decades count as equal if they differ relatively by at most this
+LEFT_REGION = 2.0  # a curve leaves region (a) when κ reaches this multiple of κ of a single element
+SLOPE_OF_LINE = 0.05  # a slope that differs from 1 by at most this looks like 1 in Fig. 2
+POWER_LAWS_LOST_MAX = 0.05  # largest fraction of synthetic power laws that may fail the test of `power_law_decades`
+ONE_ELEMENT = 1 + 1e-9  # largest contact count, interpolated logarithmically, that still means a single element
 
 
 def collapse(evidence, tolerance):
-    """Yield the scatter of ln(vt/h) between combinations over the scatter between Hurst exponents, at one X.
+    """Yield the ratio of the scatter of ln(vt/h) between combinations to its scatter between Hurst exponents, at one X.
 
-    This X lies in all regions (b). The scatter of combinations is the component of variance between them
-    (`excess_variance`), without the sampling scatter of their means. It is pooled over all Hurst exponents: the
-    interval from the nine combinations of a single exponent would have an upper end twice as large as the interval from
-    the 36 combinations of four.
+    A combination is a combination of force, viscosity, size and rms height. The X lies in the regions (b) of all Hurst
+    exponents. The scatter of combinations is the component of variance between combinations (`excess_variance`),
+    without the sampling scatter of their means. It is pooled over all Hurst exponents, because few combinations
+    determine it poorly: the upper end of its interval from the nine combinations of one Hurst exponent would be twice
+    as large as from the 36 combinations of four Hurst exponents.
     """
     windows = [window for window in evidence.regions.values() if window is not None]
     if len(windows) < 2 or len(windows) < len(evidence.regions):
@@ -40,10 +41,11 @@ def collapse(evidence, tolerance):
 
 
 def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
-    """Return the case of the standard deviation between combinations of one H, pooled over all H.
+    """Return the case of the standard deviation of a quantity between combinations of one H, pooled over all H.
 
-    sets : for every Hurst exponent the samples of its combinations, as in `excess_variance`; unit : of the result
-    Least and largest belong to single Hurst exponents, whose few combinations determine them poorly.
+    sets : for every Hurst exponent, the samples of each combination (see `excess_variance`)
+    unit : divisor of the standard deviation
+    The extremes of the case are from single Hurst exponents, whose few combinations determine them poorly.
     """
     *values, _ = np.sqrt(excess_variance(sets)) / unit
     single = [np.sqrt(excess_variance([groups])[0]) / unit for groups in sets]
@@ -55,16 +57,20 @@ def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
 def excess_variance(sets):
     """Return the component of variance between groups, by one-way analysis of variance with random effects.
 
-    sets : for each set of groups the samples of its groups, shape (realizations,), nan if undefined; variances are
-        taken within sets, whose means may differ
+    sets : list of sets; a set is a list of groups; a group holds samples, shape (realizations,), nan if undefined. The
+        variance between groups is computed within each set, so the means of the sets may differ.
 
-    With n realizations per group, MS_between/MS_within over 1 + n σ_b²/σ_w² has the F distribution, so σ_b² =
-    (MS_between/MS_within/F_p − 1) σ_w²/n at its quantiles F_p, or 0 if this is negative. With MS_within for σ_w² the
-    interval is exact for the ratio of the two variances. Its upper end is at least the upper end for groups with
-    sampling scatter only, MS_between = MS_within: means closer together than expected by chance are no evidence of a
-    smaller component (power-constrained limit: Cowan, Cranmer, Gross & Vitells, arXiv:1105.3166).
-    Returns the median, the two ends of the 95 % interval, and σ_w²/n, the sampling variance of the means of groups; nan
-    for too few groups or realizations.
+    Let σ_b² be the variance between groups, σ_w² the variance within groups, and n the number of realizations per
+    group. The ratio of MS_between/MS_within to 1 + n σ_b²/σ_w² has the F distribution. Its quantiles F_p therefore give
+    σ_b² = (MS_between/MS_within/F_p − 1) σ_w²/n, or 0 if this is negative. With MS_within for σ_w² the interval is
+    exact for the ratio of the two variances.
+
+    The upper end is at least the upper end for groups with sampling scatter only, MS_between = MS_within. Means that
+    lie closer together than expected by chance are no evidence of a smaller component (power-constrained limit: Cowan,
+    Cranmer, Gross & Vitells, arXiv:1105.3166).
+
+    Returns the median of σ_b², the two ends of its 95 % interval, and σ_w²/n, the sampling variance of the mean of a
+    group. All are nan for too few groups or realizations.
     """
     sets = [[group[np.isfinite(group)] for group in groups] for groups in sets]
     groups_of_all = [group for groups in sets for group in groups]
@@ -81,7 +87,10 @@ def excess_variance(sets):
 
 
 def first_region(evidence, tolerance):
-    """Yield κ while one element is in contact, over π/(K₀₀ n)."""
+    """Yield the ratio of κ, while a single element is in contact, to κ = π/(K₀₀ n) of a single element.
+
+    n is the number of elements across; `reference.one_element_stiffness` defines K₀₀.
+    """
     for hurst, ensemble in evidence.pooled.items():
         alone = ensemble["contact_count"].values <= ONE_ELEMENT
         ratio = ensemble["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
@@ -90,7 +99,7 @@ def first_region(evidence, tolerance):
 
 
 def last_region(evidence, tolerance):
-    """Yield Xh/(vt), which is κ, and the slope of ln(vt/h) over ln X, at the end of the curves."""
+    """Yield two cases at the end of the curves of each H: κ, which is Xh/(vt), and the slope of ln(vt/h) along ln X."""
     paper_slope = evidence.paper_value("regions", "slope_last")
     for hurst, ensemble in evidence.whole.items():
         x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
@@ -105,13 +114,16 @@ def last_region(evidence, tolerance):
 
 
 def _mean_case(evidence, name, samples, expected, allowed, **counts):
-    """Return the case of the mean of a quantity over realizations; counts : number of cases"""
+    """Return the case of the mean of a quantity over realizations, with the least and largest realization as extremes.
+
+    samples : the quantity for each realization; allowed : (low, high); counts : argument `cases` of `Evidence.case`
+    """
     counts |= {"realizations": samples.size, "extremes": (samples.min(), samples.max())}
     return evidence.case(name, mean_with_interval(samples), expected, allowed, **counts)
 
 
 def power_law(evidence, tolerance):
-    """Yield half the spread of the local slope within region (b) (viscorough_study.fits.plateau)."""
+    """Yield half the spread of the local slope within region (b) of base discs (viscorough_study.fits.plateau)."""
     plateaus = evidence.tables["plateaus"].query("case_group == 'base'")
     for row in plateaus.to_dict("records"):
         context = {"realizations": row["realizations"], "cases": len(plateaus)}
@@ -121,9 +133,10 @@ def power_law(evidence, tolerance):
 
 
 def power_law_decades(evidence, tolerance):
-    """Yield the decades with constant local slope, within the tolerance (viscorough_study.fits.plateau).
+    """Yield the number of decades with constant local slope, within the tolerance (viscorough_study.fits.plateau).
 
-    Scatter shortens plateaus, so a curve fails only if power laws with the same scatter pass.
+    Scatter shortens plateaus. A curve therefore fails only if synthetic power laws with the same scatter pass;
+    otherwise it is undecided.
     """
     plateaus, needed = evidence.tables["plateaus"], evidence.rules["decades_min"] * (1 - ROUNDING)
     plateaus = plateaus[plateaus["case_group"] == "base"]
@@ -137,7 +150,8 @@ def power_law_decades(evidence, tolerance):
 def power_law_control(evidence, tolerance):
     """Yield half the spread of the local slope in region (b) of discs without long waves, hence without a power law.
 
-    The claim is that the test of `power_law` rejects them, so their spread must be above its tolerance.
+    The claim is that the test of `power_law` rejects these discs, so their spread must be above the tolerance of this
+    test.
     """
     plateaus = evidence.tables["plateaus"].query("case_group != 'base'")
     if plateaus.empty:
@@ -149,19 +163,19 @@ def power_law_control(evidence, tolerance):
 
 
 def separation(evidence, tolerance):
-    """Yield the X at the end of region (a) for one Hurst exponent over the X for the next larger exponent.
+    """Yield the ratio of the X where region (a) ends for one Hurst exponent to the X for the next larger exponent.
 
-    The ratio is above 1 if the larger exponent leaves first. Region (a) ends when the geometric mean of κ reaches
-    `LEFT_REGION` times κ of one element.
+    The ratio is above 1 if the curve of the larger exponent leaves region (a) first. Region (a) ends when the geometric
+    mean of κ reaches `LEFT_REGION` times κ of a single element.
     """
     ends, level = {}, np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
     for i, (hurst, ensemble) in enumerate(evidence.pooled.items()):
         stiffness = np.log(ensemble["stiffness"].values)
         stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
-        # Different seeds make the bootstrap samples of ensembles independent.
+        # With different seeds, the bootstrap samples of the ensembles are independent.
         means = resampled_means(stiffness, evidence.resamples, np.random.default_rng([evidence.seed, i]))
         log_x = np.log(ensemble["x"].values[: means.shape[1]])
-        # ln X of the ensemble, then of the samples; nan if the end is not reached.
+        # ln X where region (a) ends: of the ensemble, then of its resamples; nan if the end is not reached.
         ends[hurst] = np.array([np.interp(level, mean, log_x, left=np.nan, right=np.nan) for mean in means])
     for lower, higher in pairwise(ends):
         ratios = np.exp(ends[lower] - ends[higher])
@@ -171,7 +185,7 @@ def separation(evidence, tolerance):
 
 
 def complete_contact(evidence, tolerance):
-    """Yield the contact fraction at the X from which on the local slope is 1 within `SLOPE_OF_LINE`."""
+    """Yield the contact fraction at the X where the local slope reaches 1 within `SLOPE_OF_LINE`, and remains there."""
     for hurst, ensemble in evidence.whole.items():
         defined = ensemble["fraction_defined"].values == 1
         log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
@@ -186,7 +200,7 @@ def complete_contact(evidence, tolerance):
 
 
 def complete_contact_end(evidence, tolerance):
-    """Yield the contact fraction at the largest X that all curves reach."""
+    """Yield the contact fraction at the largest X that all curves of a Hurst exponent reach."""
     for hurst, ensemble in evidence.whole.items():
         last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
         name = f"{hurst_name(hurst)}, at X = {ensemble['x'].values[last]:.3g}"
@@ -194,6 +208,9 @@ def complete_contact_end(evidence, tolerance):
 
 
 def _contact_case(evidence, name, ensemble, abscissa, tolerance):
-    """Return the case of the mean contact fraction, which should be 1, at an abscissa given by its index."""
+    """Return the case of the mean contact fraction, which should be 1, at one abscissa.
+
+    abscissa : index of this abscissa
+    """
     fractions = ensemble["contact_count"].values[:, abscissa] / ensemble["elements"].item()
     return _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=len(evidence.pooled))

@@ -1,8 +1,8 @@
-"""Judge claims on the prefactor ζ: absolute, up to a factor common to all H, and comparison of laws.
+"""Judge claims on the prefactor ζ: its value, its value up to a factor common to all H, and which law fits better.
 
-They use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). If an absolute claim fails in the
-conventions of the figures but holds in others that the paper leaves open, including conventions of the surfaces, the
-verdict names the conventions with the smallest deviation.
+The criteria use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). A claim on the value may fail
+in the conventions of the figures but hold in other conventions that the paper leaves open, conventions of the surfaces
+included. The verdict then names the conventions with the smallest deviation.
 """
 
 import numpy as np
@@ -12,44 +12,50 @@ from viscorough_study.fits.conventions import VALUES, in_reading
 from viscorough_study.fits.zeta_laws import difference, measure_value
 from viscorough_study.verdicts.evidence import Combinations, Law
 
-# Measures by which one law fits better than another (fits.zeta_laws): the measure of the criterion, and others.
+# (quantity, measure) of fits.zeta_laws by which one law fits better than another: the criterion first, then others.
 MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), ("zeta", "spread"))
 
 
 def zeta_elastic(evidence, tolerance):
-    """Compare ζ with Eq. 4, a law of the elastic contact without the factor 1/Γ(2 − α)."""
+    """Return the cases of ζ compared with Eq. 4, a law of the elastic contact without the factor 1/Γ(2 − α)."""
     return _absolute(evidence, tolerance, reference.zeta_elastic, "without")
 
 
 def zeta_viscous(evidence, tolerance):
-    """Compare ζ with Eq. 11, which the paper fitted with Eq. 9, a law with the factor 1/Γ(2 − α)."""
+    """Return the cases of ζ compared with Eq. 11, a law that the paper fitted with the factor 1/Γ(2 − α) (Eq. 9)."""
     return _absolute(evidence, tolerance, reference.zeta_viscous, "with")
 
 
 def _absolute(evidence, tolerance, law, gamma):
-    """Return cases of ζ against a law, a function of H, one for each Hurst exponent."""
+    """Return the cases of ζ compared with a law, one for each Hurst exponent.
+
+    law : function of H; gamma : reading of the law, "with" or "without" the factor 1/Γ(2 − α)
+    """
     every = in_reading(evidence.every_fit("discs"), gamma).rename(columns={"case_group": "surfaces"})
     own, law = evidence.fits("discs", gamma=gamma), Law(law, tolerance, relative=True)
     return evidence.cases_in_conventions(own, every, "zeta", law, names=[*VALUES, "surfaces"])
 
 
 def zeta_elastic_shape(evidence, tolerance):
-    """Return the spread of ζ over Eq. 4 between Hurst exponents, without 1/Γ(2 − α), up to a common factor."""
+    """Return the cases of the spread, between Hurst exponents, of the ratio of ζ to Eq. 4, without 1/Γ(2 − α)."""
     return _spreads(evidence, tolerance, "zeta", "Eq. 4, without Γ")
 
 
 def zeta_viscous_shape(evidence, tolerance):
-    """Return the spread of ζ over Eq. 11 between Hurst exponents, with 1/Γ(2 − α), up to a common factor."""
+    """Return the cases of the spread, between Hurst exponents, of the ratio of ζ to Eq. 11, with 1/Γ(2 − α)."""
     return _spreads(evidence, tolerance, "zeta", "Eq. 11, with Γ")
 
 
 def master_curve_shape(evidence, tolerance):
-    """Return the spread between Hurst exponents, at the same X, of vt/h over the right side of Eq. 12."""
+    """Return the cases of the spread, between Hurst exponents, of the ratio of vt/h at equal X to Eq. 12."""
     return _spreads(evidence, tolerance, "curve", "Eq. 11, with Γ")
 
 
 def _spreads(evidence, tolerance, quantity, law):
-    """Yield cases of the spread, which is 0 if a law holds up to a factor: for all H, and from H = 0.4 on."""
+    """Yield the cases of the spread between Hurst exponents, which is 0 if the law holds up to a common factor.
+
+    There is a case for all H, and a case for H from 0.4 on. quantity, law : row of the table `zeta_laws`
+    """
     table = evidence.tables["zeta_laws"]
     counts = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
     for hurst_min in table["hurst_min"].unique():
@@ -59,11 +65,11 @@ def _spreads(evidence, tolerance, quantity, law):
 
 
 def zeta_better(evidence, tolerance):
-    """Yield the deviation of vt/h from Eq. 4 minus the deviation from Eq. 11; positive if Eq. 11 is better.
+    """Yield the deviation of vt/h from Eq. 4 minus its deviation from Eq. 11, which is positive if Eq. 11 fits better.
 
-    The exponent is H/(1 + H). Both laws are taken with the factor 1/Γ(2 − α), as in the paper, and each in its own
-    reading, that is, Eq. 4 without the factor. The paper does not say by which measure the law fits better: the others
-    are the spread of the curves over H, and deviation and spread of the fitted ζ.
+    The exponent is H/(1 + H). In the first case both laws have the factor 1/Γ(2 − α), as the paper compares them. In
+    the second case each law has its own form, that is, Eq. 4 has no factor. The paper does not say by which measure the
+    law fits better. Other measures are the spread of the curves over H, and the deviation and spread of the fitted ζ.
     """
     table = evidence.tables["zeta_laws"]
     readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}

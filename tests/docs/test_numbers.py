@@ -252,10 +252,10 @@ QUOTED = {
         "by {:.0f}, {:.0f}, {:.0f} and {:.0f} % at *H*": lambda: 100 * (grid_factors("u/h at X = 0.1")[:4] - 1),
     },
     "src/viscorough/cli/estimate.py": {
-        "vt/h within {:.0f} % of the law, and of g within {:.0f} %": lambda: law_errors("velocity", "interface"),
+        "agreed with the law within {:.0f} % for vt/h and {:.0f} % for g": lambda: law_errors("velocity", "interface"),
     },
     "src/viscorough/law/calibrated_law.py": {
-        "vt/h within {:.0f} % of the law, of g within {:.0f} % and of u/h within {:.0f} %": lambda: law_errors(
+        "law by at most {:.0f} % in vt/h, {:.0f} % in g, and {:.0f} % in u/h": lambda: law_errors(
             "velocity", "interface", "depth"
         ),
         "129 elements across by {:.0f} % at H = 0.85 and by {:.0f} % at H = 0.1": depth_error_on_coarse_grid,

@@ -163,7 +163,7 @@ class Evidence:
             `names`
         column : column of the quantity; law : `Law`
         names : columns that together name a combination
-        compared : mask of the rows of `every` that are searched for a combination that makes all cases of the claim hold
+        compared : mask of the rows of `every` that are searched for a combination in which all cases of the claim hold
         """
         columns = [column, f"{column}_low", f"{column}_high"]
         deviation = every[columns[1:]].sub(law.value(every["hurst"]), axis=0).abs().max(axis=1, skipna=False)

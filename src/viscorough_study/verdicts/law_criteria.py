@@ -87,7 +87,7 @@ def no_grid(evidence, tolerance):
 
 
 def realizations(evidence, tolerance):
-    """Return the cases of half the width of the 95 % interval of β for the number of indentations in the paper's Fig. 4.
+    """Return the cases of half the width of the 95 % interval of β for as many indentations as in the paper's Fig. 4.
 
     This half width has an interval itself, by the χ² distribution of the standard deviation of normal samples.
     """

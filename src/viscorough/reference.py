@@ -68,9 +68,9 @@ class PowerLawBody:
             object.__setattr__(self, name, positive(f"{name} of a power-law body", getattr(self, name)))
 
     def mdr_profile(self, x: Numbers) -> Numbers:
-        """Return the profile g(x) = κₙ c |x|ⁿ of the line that is equivalent to this body in the MDR.
+        """Return the profile of the line that is equivalent to this body in the MDR, in the unit of x.
 
-        κₙ = √π Γ(n/2+1)/Γ((n+1)/2). The profile has the unit of x.
+        g(x) = κₙ c abs(x)ⁿ with κₙ = √π Γ(n/2+1)/Γ((n+1)/2).
         """
         n = self.exponent
         kappa = np.sqrt(np.pi) * gamma_function(n / 2 + 1) / gamma_function((n + 1) / 2)

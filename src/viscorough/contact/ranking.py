@@ -45,7 +45,9 @@ class Ranking:
 
     Attributes:
 
-    elements : Elements object with all elements ranked so far. Each method that ranks more elements replaces it
+    elements : Elements object with all elements ranked so far. Only methods of this class replace it: `rank_up_to`,
+        which `rank_highest` and `require` call, and `free_influence`. They are called by the ContactSolver and by the
+        ForceSearch, when a contact needs more elements
     highest : largest height
     is_flat : True if all elements have the same height
     """

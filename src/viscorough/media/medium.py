@@ -77,7 +77,7 @@ class Medium(ABC):
 
     @property
     def last_time(self) -> float:
-        """Return the time up to which J is known: infinite, except for a measured J."""
+        """Return the time up to which J is known, which is infinite except for a measured J."""
         return np.inf
 
     @abstractmethod

@@ -1,1 +1,6 @@
-"""Precondition the iterations on a grid by a sparse approximate inverse with a multilevel coarse correction."""
+"""Precondition the iterations on a grid by a sparse approximate inverse with a multilevel coarse correction.
+
+A preconditioner M of the influence matrix K has the methods `prepare` (for a set of elements in contact) and `apply`.
+The iterations rely on three properties: the eigenvalues of M K are near 1, so that steps of length 1 converge; none of
+them is below `LEAST_EIGENVALUE`, which bounds errors; and M applied to 1 is about the pressure of a flat punch.
+"""

@@ -88,7 +88,7 @@ def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indent
 
     curve : loading curve of a map
     coarse : loading curve of every second point of the map; it is continued as a straight line beyond its last level
-    indenter : map whose height and size determine the smallest force of means (see `lowest_force`)
+    indenter : map whose height and size determine the force from which on errors are averaged (see `lowest_force`)
     missed : height of the highest point of the map above the highest point of the coarse map [length]
     """
     levels = np.log(curve.force)

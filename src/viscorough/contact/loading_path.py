@@ -445,7 +445,7 @@ class _LoadingPath:
     def _follow_events(self) -> None:
         """Add contact events as levels while few elements are in contact.
 
-        Nothing is added after a contact on the grid, which is not exact enough.
+        Nothing is added once a contact was solved on the grid: only dense solutions are exact enough to find events.
         """
         contact = self._contact
         if not self._is_unfinished() or not isinstance(contact, DenseContact) or contact.count >= self._control.events:

@@ -1,4 +1,4 @@
-"""Solve the contact at a given depth or force, with its maps, without a loading curve."""
+"""Solve one contact at a given depth or force and return its maps of pressure and gap, without a loading curve."""
 
 from __future__ import annotations
 

@@ -214,7 +214,7 @@ class ForceSearch:
 
         It is exact on the straight start of the loading curve, and between contact events.
 
-        target : reduced ΣP of the force
+        target : the force as the sum ΣP of reduced pressures
         attempt : number of depths solved before in the search for this force
         """
         is_start = attempt == 0 or not self._below.count
@@ -233,7 +233,7 @@ class ForceSearch:
         The map of blocks consists of the highest element of every block of elements. It is nowhere lower than the map
         itself, so it carries the same force at a smaller depth, which is a lower bound.
 
-        target : reduced ΣP of the force
+        target : the force as the sum ΣP of reduced pressures
         """
         solver, below = self._solver, self._below
         is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
@@ -279,7 +279,7 @@ class ForceSearch:
         Returns the contact at the force, or None if the events end before the force. After the last event the pressures
         grow linearly with the depth, at the rate of their tangent.
 
-        target : reduced ΣP of the force
+        target : the force as the sum ΣP of reduced pressures
         """
         start = self._below = self._below if self._below.count else self._first
         if not isinstance(start, DenseContact) or start.count >= self._events:

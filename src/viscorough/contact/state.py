@@ -185,7 +185,7 @@ class GridFields:
     tangent : q = dP/du
     tangent_gap : e_q = K q − 1 = de/du, zero in contact
     initial_gap : g
-    place : index in the flat arrays of every element, by rank
+    place : for every element, in the order of its rank, its index in the flat arrays
     """
 
     inside: np.ndarray

@@ -133,7 +133,8 @@ class StepControl:
         """
         bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
         if not _NEGLIGIBLE_BOUND < bound < _RELAXED_BOUND:
-            return bound  # a prediction could not change the decision
+            # The bound alone decides whether the step is accepted; a prediction would not change this.
+            return bound
         is_smooth = _predicted_error(before, after, self._threads) <= _PREDICTED_ERROR * self._accuracy
         return bound / _RELAXED_BOUND if is_smooth else bound
 

@@ -27,7 +27,7 @@ def read_profile(path: FilePath) -> Scan:
     any order, and columns other than x and z are ignored. Positions 0, 1, 2, … or 1, 2, 3, … without a unit and a name
     only number the points, and state no spacing.
 
-    Raises a one-line ValueError if the file does not certainly hold a profile.
+    Raises a one-line ValueError unless the file can be recognised as a profile.
     """
     lines = decoded_lines(path)
     table = parsed(lines)

@@ -138,7 +138,7 @@ def _unit_of_heights(scan: Scan, given: str | None) -> str:
 
 
 def _stated_unit(in_file: str) -> str | None:
-    """Return the unit of length that a file states; None if the file states none. Raises ValueError for other units."""
+    """Return the unit of length that a file states, or None. Raises ValueError for a unit that is not one of length."""
     return None if in_file.strip() in ("", units.UNKNOWN) else units.length_unit(in_file)
 
 

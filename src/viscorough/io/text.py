@@ -78,7 +78,7 @@ def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
     is_map : True if the user stated that the table is a map; otherwise a table of one or two rows or columns is refused
         as a profile, unless it is an ESRI grid
 
-    Raises a one-line ValueError if the file does not certainly hold a map of heights.
+    Raises a one-line ValueError unless the file can be recognised as a map of heights.
     """
     lines = decoded_lines(path)
     if lines[0].startswith("Zygo XYZ Data File"):
@@ -230,7 +230,7 @@ def _may_be_decimal_commas(body: str) -> bool:
     body : all rows as one text
     """
     has_spaces = re.search(r", | ,", body) is not None
-    if "." in body:  # points and commas as decimal marks, such as "1.5, 2,5"
+    if "." in body:  # are both points and commas decimal marks, as in "1.5, 2,5"?
         return has_spaces and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body) is not None
     # Each row may be one number with a decimal comma, or several whole numbers. A whole number does not start with 0.
     may_be_one_number = has_spaces or all(line.count(",") == 1 for line in body.split("\n"))

@@ -50,8 +50,8 @@ _LATEST = 1e300
 # reaches the last level. If the creep never equals one of these levels, they begin or end when the creep differs from
 # its first or last value by the share _EARLY.
 _SPREAD, _EARLY = 100, 1e-3
-# The springs and dashpots that replace a springpot have its creep at times above this share of the shortest interval
-# between two turns of the history.
+# The springs and dashpots that replace a springpot creep as it does only at times longer than this share of the
+# shortest interval between two turns of the history (changes of its slope).
 _SHORTEST = 1e-6
 # Two slopes of a history count as equal up to this relative difference. If a sample follows a turn of the history, the
 # interval between turns counts as at most _CLOSE times the time from the turn to the sample.

@@ -66,7 +66,7 @@ class RecordFit(NamedTuple):
 
 
 class Shift(NamedTuple):
-    """Choice of the errors of the zero of the depth that are fitted.
+    """Which errors of the zero of the depth are fitted.
 
     offset : whether a constant is added to the depth
     drift : whether a term that is linear in time is added to the depth

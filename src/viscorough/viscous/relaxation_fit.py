@@ -358,7 +358,7 @@ class _ForceRecord:
         return float(((self.force - fit.force) ** 2).sum())
 
     def _linearised(self, times: Array, amounts: Array, offset: float, drift: Array) -> _Fit:
-        """Return a _Fit with the given unknowns: their force at the rows, and the derivatives of this force."""
+        """Return a _Fit: the force that these unknowns give at each row of the record, and its derivatives by them."""
         path, force, in_contact = self._force(times, amounts, offset, drift)
         columns = self._columns(path, times, in_contact)
         signed = np.empty((force.size, drift.size))

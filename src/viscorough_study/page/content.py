@@ -140,7 +140,7 @@ def scale(discs, lines, numbers):
 
 
 def _pool(path):
-    """Return the scale of a pool (ensembles.pool), read from its file.
+    """Return numbers that describe the size of a pool of cases (ensembles.pool), read from its file.
 
     realizations : number of realizations of the first case; description : settings of the first case
     hurst : Hurst exponents in the group of the first case

@@ -242,7 +242,7 @@ def disc_memory(case):
 
 
 def measured_memory(case):
-    """Return memory for a scan with at least four bytes per height, and the fields of the solver on its grid."""
+    """Return the memory that a scan needs: its heights, of four bytes or more each, and the fields of the solver."""
     return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
 
 

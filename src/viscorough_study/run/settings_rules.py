@@ -30,7 +30,7 @@ _RANGES_IN_LISTS = {
 
 
 def contradictions(settings):
-    """Yield (paths of settings, complaint in one line) for everything that contradicts; settings : Settings"""
+    """Yield (paths of settings, complaint in one line) for every contradiction between settings; settings : Settings"""
     return chain.from_iterable(rule(settings) for rule in _RULES)
 
 

@@ -115,7 +115,7 @@ class Direction:
         deflection = self._deflect()
         _, by_gap, by_direction = self._sums(self._residual)
         # The length has the precision of the gap, so that the loops compute in this precision. If the first guess was
-        # exact, d is zero, and so is the length.
+        # exact, the direction d is zero, and the length of the step is 0.
         length = gap.dtype.type(-by_gap / by_direction if by_direction > 0 else 0.0)
         self._loops.update_gap(length, deflection, gap)
         return any(self._over_set(kernels.update_pressure, length, self._values, pressure))

@@ -45,8 +45,8 @@ _HALVE_STEP_EVERY = 20
 # tolerance.
 _SEARCH_SHARE = 0.999
 # If fewer elements than this are in contact, the largest allowed residual is reduced in proportion to their number. An
-# element that overlaps the surface within the tolerance does not join the contact, although it would carry a large part
-# of the force of so small a contact.
+# element whose overlap is below the tolerance would be left out, although it carries a large part of the force of so
+# small a contact.
 _FEW = 100
 # Smallest ratio of the residual to the depth that single precision can reach.
 _LEAST_RESIDUAL = 1e-5

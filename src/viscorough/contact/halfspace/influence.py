@@ -109,8 +109,8 @@ def _mean_inverse_distance(x, y, length, width):
     inverse = np.sqrt(inverse2)
     inverse5 = inverse2 * inverse2 * inverse
     length2, width2 = length * length, width * width
-    # Mean, and half the difference, of the squares of the sides, and of their fourth powers. For a square of side 1 the
-    # means are 1 and the differences 0.
+    # Mean and half difference of length² and width², and of length⁴ and width⁴. For a square of side 1 the means are 1
+    # and the differences 0.
     second, second_difference = 0.5 * (length2 + width2), 0.5 * (length2 - width2)
     fourth, fourth_difference = 0.5 * (length2**2 + width2**2), 0.5 * (length2**2 - width2**2)
     second_term = (second / 24) * inverse2 * inverse + second_difference * (x2 - y2) * (inverse5 / 8)

@@ -178,8 +178,8 @@ class TiledHalfspace:
     def _add_near_field(self, tile: Integers, field: Array) -> None:
         """Add the near field, which is the convolution of the load with K − S, to a field in one tile."""
         target = field[_part(tile)]
-        # The patch holds the tile and all loads within the range of K − S. The Fourier transform repeats the patch
-        # periodically, but the repeated loads are too far from the tile to act on it.
+        # The patch holds the tile and all loads within the range of K − S, the kernel less its smooth part. The
+        # Fourier transform repeats the patch periodically, but the repeated loads are too far away to act on the tile.
         first = SIDE * tile - self._reach
         taken = [slice(max(i, 0), i + SIDE + 2 * n) for i, n in zip(first, self._reach, strict=True)]
         load = self.load[*taken]

@@ -109,7 +109,7 @@ def _any_active(active, first):
 
 @njit(inner=True)
 def _next_run(active, first):
-    """Return start and stop of the next adjacent blocks to process, from block `first` on.
+    """Return start and stop of the next run of consecutive blocks to process, from block `first` on.
 
     Both are the number of blocks if there is nothing left to process.
 

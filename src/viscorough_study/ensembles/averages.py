@@ -1,9 +1,9 @@
-"""Put realizations of one surface on common abscissae, and take their averages and spread.
+"""Put the realizations of a surface on common abscissae, and compute their averages and spread.
 
 The abscissa is X = F/(4GhL), which for the viscous problem is Ft/(4ηhL) (paper, Eqs. 2 and 3). If all realizations have
-the same F, η, L and nominal h, fixed X means fixed time, and vt/h is the velocity times a constant: averages at fixed X
-and at fixed t are then the same. They differ if h is measured on each realization, because X and vt/h are then in units
-of this realization's h. An ensemble contains several such rms conventions.
+the same F, η, L and nominal h, then fixed X means fixed time, and vt/h is a constant times the velocity at this time.
+Averages at fixed X and at fixed t are then equal. They differ if h is measured on each realization, because X and vt/h
+are then in units of the h of this realization. An ensemble contains several such conventions for the rms height h.
 """
 
 import warnings
@@ -12,13 +12,14 @@ import numpy as np
 import xarray as xr
 
 DIMENSIONS = ("rms_convention", "realization", "abscissa")
-ROUNDING = 1e-9  # relative difference below which abscissae and ends of ranges count as equal
+ROUNDING = 1e-9  # abscissae and ends of ranges count as equal if they differ relatively by less than this
 
 
 def abscissa(low, high, per_decade):
-    """Return the multiples of 1/per_decade decades in [low, high], a logarithmic grid of X, shape (abscissae,) [1].
+    """Return a logarithmic grid of X from low to high, with per_decade points per decade, shape (abscissae,).
 
-    Grids of the same per_decade share their points, independent of their ends. Raises ValueError for an empty grid.
+    The decimal logarithms of the points are multiples of 1/per_decade, so grids of equal per_decade share their points,
+    independent of their ends. Raises ValueError if there is no such point between low and high.
     """
     if not (0 < low <= high < np.inf):
         raise ValueError(f"abscissa: low and high must be 0 < low <= high < inf, not {low} and {high}")
@@ -30,14 +31,16 @@ def abscissa(low, high, per_decade):
 
 
 def on_abscissae(curves, rms, diameter, x):
-    """Return κ and the elements in contact on common abscissae, each (rms conventions, realizations, abscissae).
+    """Return κ and the number of elements in contact on common abscissae.
 
     curves : list of LoadingCurve
-    rms : {convention: rms heights h, shape (realizations,) or a number for all} [length]
-    diameter : L, shape (realizations,) or a number for all [length]; x : X, shape (abscissae,) [1], strictly increasing
+    rms : {convention: rms heights h, shape (realizations,), or one number for all} [length]
+    diameter : L, shape (realizations,), or one number for all [length]
+    x : X, shape (abscissae,), strictly increasing
 
-    κ = k/(4GL) at F/G = 4hLX (Eq. 3); nan beyond the last level of a curve. Between levels ln(count) is linear in
-    ln F, and below the first level the count is constant.
+    Both results have the shape (rms conventions, realizations, abscissae). κ is k/(4GL) at F/G = 4hLX (Eq. 3). Between
+    the levels of a curve, the logarithm of the number of elements is linear in ln F; below the first level the number
+    is constant. Both results are nan beyond the last level of a curve.
     """
     diameters = np.broadcast_to(diameter, len(curves))
     heights = np.array([np.broadcast_to(values, len(curves)) for values in rms.values()])
@@ -52,19 +55,22 @@ def on_abscissae(curves, rms, diameter, x):
 
 
 def with_averages(curves):
-    """Return the ensemble dataset: curves with vt/h = X/κ (velocity), and averages over the realizations.
+    """Return the ensemble dataset: the curves with vt/h = X/κ (velocity), and averages over the realizations.
 
-    Averages are means and medians, by their names; velocity_spread, the standard deviation of ln(vt/h);
-    realizations_defined, the number of curves that reach an abscissa; and fraction_defined, this number over the number
-    of curves intended to reach it.
+    Variables with averages are named after the quantity and the mean or median. There are three further variables:
 
-    curves : dataset with κ (stiffness) and elements in contact (contact_count), nan where undefined, with the
-        dimensions `DIMENSIONS` (a single rms convention has no dimension); its coordinates are x, X, and until_x, the X
-        at the end of the computed curves
+    - velocity_spread: the standard deviation of ln(vt/h);
+    - realizations_defined: the number of curves that reach an abscissa;
+    - fraction_defined: this number divided by the number of curves that were intended to reach the abscissa.
+
+    curves : dataset of κ (stiffness) and the number of elements in contact (contact_count), nan where undefined. Its
+        dimensions are `DIMENSIONS`, without rms_convention if there is a single convention. Its coordinates are x, the
+        X of the abscissae, and until_x, the X that each curve was to reach.
     """
     velocity = curves["x"] / curves["stiffness"]
     defined, expected = velocity.notnull(), curves["until_x"] * (1 + ROUNDING) >= curves["x"]
-    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):  # few realizations may be defined
+    # numpy warns where too few realizations have a value
+    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
         geometric = np.exp(np.log(velocity).mean("realization"))
         averaged = curves.assign(
             velocity=velocity,

@@ -1,4 +1,4 @@
-"""Batches: the loading curves of some realizations of a case, with the lengths that make them dimensionless."""
+"""Store batches: the loading curves of some realizations of a case, with the lengths that make them dimensionless."""
 
 import json
 from typing import NamedTuple
@@ -17,11 +17,16 @@ RMS = {
 
 
 class Realization(NamedTuple):
-    """One surface of an ensemble; lengths in the unit of its indenter: m, or "1" if they are dimensionless.
+    """Name, number, Hurst exponent and lengths of one surface of an ensemble.
 
-    ensemble : its name; number : number of the realization
-    hurst : Hurst exponent, nan for a measured surface; diameter : L; spacing : between columns, or points of a line
-    rms : {convention of `RMS`: rms height}
+    Lengths are in the unit of length of the indenter: "m", or "1" if they are dimensionless.
+
+    ensemble : name of the ensemble
+    number : number of the realization in the ensemble
+    hurst : Hurst exponent, nan for a measured surface
+    diameter : diameter or length L
+    spacing : distance between neighbouring columns of the heights, or points of a line
+    rms : {convention, a key of `RMS`: rms height}
     """
 
     ensemble: str
@@ -33,11 +38,11 @@ class Realization(NamedTuple):
 
 
 def batch_of_curves(members, settings):
-    """Return the Content of a NetCDF file; lengths in the unit of the curves.
+    """Return a batch of loading curves as the Content of a NetCDF file; lengths are in the unit of the curves.
 
-    members : (LoadingCurve, Realization, X up to which the curve was computed) of every surface; values common to all
-        surfaces are stored once
-    settings : settings of the curves, for the attribute settings
+    members : a tuple (LoadingCurve, Realization, X up to which the curve was to be computed) for every surface
+    settings : settings of the curves, which are stored in the attribute `settings`
+    A quantity that is equal for all surfaces is stored once.
     """
     curves, realizations, until_x = zip(*members, strict=True)
     content, unit = stack_curves(curves), curves[0].length_unit
@@ -58,7 +63,10 @@ def batch_of_curves(members, settings):
 
 
 def without_numbers(ensembles):
-    """Return the ensembles of a batch as recorded in a file's settings, independent of the batch's realizations."""
+    """Return the descriptions of the ensembles of a batch without `numbers`, the range of realizations in this batch.
+
+    Files record this form, so their settings do not depend on the division into batches.
+    """
     return [{name: value for name, value in ensemble.items() if name != "numbers"} for ensemble in ensembles]
 
 

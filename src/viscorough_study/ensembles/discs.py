@@ -1,4 +1,4 @@
-"""Discs of an ensemble: one realization with its rms heights by every convention."""
+"""Make discs of an ensemble: one realization as an indenter, with its rms height by every convention."""
 
 import numpy as np
 
@@ -9,14 +9,16 @@ _LENGTHS = ("rms", "diameter", "rms_over", "length_unit")  # settings of a surfa
 
 
 def ensemble_disc(elements, surface, seed):
-    """Return the Indenter of one realization, and {convention: its rms height} in its unit of length.
+    """Return one realization as an Indenter, and {convention: its rms height} in the unit of length of the indenter.
 
-    elements : number across the disc; surface : arguments of self_affine_disc with rms, diameter, rms_over and
-        length_unit
+    elements : number of elements across the disc
+    surface : arguments of self_affine_disc, with rms, diameter, rms_over and length_unit
+    seed : int or SeedSequence
 
-    The nominal rms height is taken over the disc, or over the periodic square that the disc is cut from, by rms_over.
-    The conventions are the rms height over the disc, over the square, and over the ensemble. The last is the mean over
-    squares with the common spectrum; with it, realizations are not normalised individually.
+    The nominal rms height is taken over the disc, or over the periodic square from which the disc is cut, as rms_over
+    says. The three conventions are the rms height over the disc, over the square, and over the ensemble. The rms height
+    over the ensemble is the root mean square over all squares with the common spectrum, so realizations are not
+    normalised one by one.
     """
     shape = {name: value for name, value in surface.items() if name not in _LENGTHS}
     square = square_of_disc(**shape, elements_across=elements, normalised=False, seed=seed)

@@ -1,4 +1,4 @@
-"""The flat disc that a rough disc becomes in complete contact: its stiffness on a grid."""
+"""Compute the stiffness of a flat disc on a grid; a rough disc in complete contact has this stiffness."""
 
 from functools import cache
 
@@ -13,15 +13,20 @@ from viscorough_study.ensembles.pool import elements_across, ensembles
 
 @cache
 def punch_stiffness(elements_across):
-    """Return κ_c of a flat disc of `elements_across` elements, by boundary elements; it tends to 1 on finer grids."""
+    """Return κ_c, the stiffness κ of a flat disc with `elements_across` elements across, by boundary elements.
+
+    κ_c tends to 1 on finer grids.
+    """
     disc = cut_disc(np.zeros((elements_across, elements_across)), elements_across)
     return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
 
 
 def ensembles_on_grids(pool, source, rms_convention):
-    """Yield H, elements across discs or points of lines, κ_c of the flat punch on this grid, and the ensemble on it.
+    """Yield (H, number, κ_c, ensemble) for every Hurst exponent and grid of a pool.
 
-    source : "lines" for a pool of lines, otherwise discs; rms_convention : convention of discs
+    number : elements across discs, or points of lines
+    κ_c : stiffness κ of the flat punch on this grid; 1 for lines
+    source : "lines" for a pool of lines, otherwise discs; rms_convention : convention for discs
     """
     convention = "line" if source == "lines" else rms_convention
     for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=convention).items():

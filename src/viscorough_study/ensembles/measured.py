@@ -1,4 +1,4 @@
-"""Measured surfaces as indenters in metres, and their lengths."""
+"""Read measured surfaces as indenters in metres, and measure their lengths."""
 
 import numpy as np
 
@@ -6,11 +6,13 @@ from viscorough.io.heights import read_heights
 
 
 def measured_indenter(file, *, spacing, unit, preparation):
-    """Return the prepared Indenter of a scan, in metres.
+    """Return a prepared scan as an Indenter in metres.
 
-    spacing : [] for the spacing in the file, [of both directions] or [between columns, between rows]
-    unit : unit of the heights, None for the unit in the file; preparation : further arguments of read_heights
-    Raises ValueError if the unit of length is unknown.
+    spacing : distance between neighbouring heights: [] if the file states it, [distance in both directions], or
+        [distance between columns, distance between rows]
+    unit : unit of the heights; None if the file states it
+    preparation : further arguments of read_heights
+    Raises ValueError if neither the file nor `unit` states a unit of length.
     """
     spacing = spacing[0] if len(spacing) == 1 else spacing or None
     indenter = read_heights(file, spacing, unit=unit, **preparation)
@@ -20,7 +22,10 @@ def measured_indenter(file, *, spacing, unit, preparation):
 
 
 def lengths(indenter):
-    """Return {column: value} of an indenter: spacings, rms height and slope, diameter of the circle of equal area."""
+    """Return {column: value} of an indenter: elements, both spacings, rms height, rms slope, and equivalent diameter.
+
+    The diameter belongs to the circle whose area equals the area of all elements.
+    """
     area = indenter.elements * indenter.spacing * indenter.row_spacing
     return {
         "elements": indenter.elements,

@@ -1,8 +1,8 @@
 """Pool all realizations of many cases on common abscissae in one dataset, and select ensembles from it.
 
 The dataset has the dimensions rms_convention, realization and abscissa. Hurst exponent, group, case and number of
-elements are coordinates of the realizations. It holds no lengths, since the curves are dimensionless, and no averages,
-which depend on the selection.
+elements are coordinates of the dimension realization. The dataset contains no lengths, since the curves are
+dimensionless, and no averages, since averages depend on the selected realizations.
 """
 
 import json
@@ -28,10 +28,13 @@ REALIZATION_COORDINATES = {
 
 
 def pool_batches(batches, conventions, x):
-    """Pool all batches, sorted by case and number of the realization, irrespective of the batches.
+    """Return the pool of all batches: a dataset with its realizations sorted by case and number.
 
-    batches : iterable of (group, Content of ensembles.batches.batch_of_curves); only one at a time is in memory
-    conventions : conventions of the rms heights; x : X, shape (abscissae,) [1]
+    The result does not depend on the division into batches.
+
+    batches : iterable of (group, Content from ensembles.batches.batch_of_curves); only one batch at a time is in memory
+    conventions : conventions of the rms heights
+    x : X, shape (abscissae,)
     """
     stiffness, count, realizations, settings = [], [], [], {}
     for group, batch in batches:
@@ -39,8 +42,8 @@ def pool_batches(batches, conventions, x):
         rms = {name: values[f"rms_{name}"] for name in conventions}
         stored = {name: values[name] for name in ("hurst", "case", "until_x", "number")}
         realizations.append(pd.DataFrame(stored | {"group": group, "elements": [curve.elements for curve in curves]}))
-        # Whether a shorter curve happens to reach further depends on its surface, so a mean over such curves would be
-        # biased.
+        # Drop the part of a curve beyond its intended end. Whether a curve happens to go on further depends on its
+        # surface, so a mean over such parts would be biased.
         beyond = realizations[-1]["until_x"].to_numpy()[:, None] * (1 + ROUNDING) < x
         for parts, part in zip((stiffness, count), on_abscissae(curves, rms, values["diameter"], x), strict=True):
             parts.append(np.where(beyond, np.nan, part))
@@ -63,32 +66,36 @@ def pool_batches(batches, conventions, x):
 
 
 def select(pool, **coordinates):
-    """Return the realizations whose coordinates have these values, such as group="base"."""
+    """Return the realizations of a pool whose coordinates have the given values, such as group="base"."""
     chosen = np.logical_and.reduce([pool[name].values == value for name, value in coordinates.items()])
     return pool.isel(realization=np.flatnonzero(chosen))
 
 
 def ensembles(pool, *names, rms_convention=None):
-    """Return {value of a coordinate, or values of several: ensemble of its realizations}, in the order of the pool.
+    """Return {value of a coordinate: ensemble of the realizations with this value}, in the order of the pool.
 
-    rms_convention : the only convention to keep, without its dimension; by default all conventions of the pool
+    names : coordinates; for several names the keys are tuples of their values
+    rms_convention : the only convention to keep; the ensembles then have no such dimension. By default all conventions
+        of the pool are kept.
 
-    The ensembles have averages over their realizations (ensembles.averages). Their case is a scalar if all realizations
-    agree, otherwise a coordinate of the realizations.
+    The ensembles have averages over their realizations (ensembles.averages). The coordinates hurst, elements, case and
+    until_x become scalars if they are equal for all realizations.
     """
     result, pool = {}, pool if rms_convention is None else pool.sel(rms_convention=rms_convention)
     for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
         ensemble = with_averages(select(pool, **dict(zip(names, values, strict=True))))
         for name in ("hurst", "elements", "case", "until_x"):
-            same = np.unique(ensemble[name].values)  # nan, for measured surfaces, is equal to nan
+            # np.unique counts all nan, the H of measured surfaces, as one value
+            same = np.unique(ensemble[name].values)
             ensemble = ensemble.assign_coords({name: same[0]}) if same.size == 1 else ensemble
         result[values if len(names) > 1 else values[0]] = ensemble
     return result
 
 
 def elements_across(elements):
-    """Return the elements across a disc of this number of elements.
+    """Return the number of elements across a disc from the number of all its elements.
 
-    A disc with n across has the elements whose centres lie within (n − 1)/2 of its centre, about π (n − 1)²/4 of them.
+    A disc with n elements across consists of the elements whose centres lie within (n − 1)/2 of its centre, in units of
+    the spacing. These are about π (n − 1)²/4 elements.
     """
     return round(1 + np.sqrt(4 * elements / np.pi))

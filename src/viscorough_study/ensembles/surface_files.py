@@ -1,4 +1,4 @@
-"""Files of surfaces: a NetCDF group for each ensemble, written and read one realization at a time."""
+"""Write and read files of surfaces, with a NetCDF group for each ensemble, one realization at a time."""
 
 import json
 
@@ -11,13 +11,14 @@ from viscorough_study.ensembles.batches import RMS, Realization
 
 
 def write_surfaces(ensembles, path):
-    """Write surfaces as NetCDF, atomically; only one of them is in memory at a time.
+    """Write surfaces to a NetCDF file, atomically; only one surface at a time is in memory.
 
-    ensembles : list of (settings, number, surfaces): dict of settings, number of realizations, and iterable of
-        (Realization, Indenter), which agree except in numbers, heights and rms heights
+    ensembles : list of (settings, number, surfaces) for each ensemble: its settings as a dict, the number of
+        realizations, and an iterable of (Realization, Indenter). All surfaces of an ensemble agree except in number,
+        heights and rms heights.
     """
     with netcdf.written_with_digest(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
-        file.set_fill_off()  # every value is written
+        file.set_fill_off()  # no fill values are needed, since every value is written
         file.setncatts({"title": "Heights of rigid indenters; larger is higher"} | netcdf.global_attributes())
         for position, (settings, number, surfaces) in enumerate(ensembles):
             group = file.createGroup(f"ensemble_{position}")
@@ -33,7 +34,7 @@ def write_surfaces(ensembles, path):
 
 
 def _define(group, realization, indenter):
-    """Define the variables of a group, and write the values common to all its realizations."""
+    """Define the variables of the group of an ensemble, and write the values common to all its realizations."""
 
     def variable(name, dimensions, long_name, units=indenter.length_unit, **kind):
         stored = group.createVariable(name, kind.pop("kind", "f8"), dimensions, **kind)
@@ -54,7 +55,7 @@ def _define(group, realization, indenter):
 
 
 def read_surfaces(path):
-    """Yield (settings of its ensemble, Realization, Indenter) of every surface in a file, read one by one.
+    """Yield (settings of the ensemble, Realization, Indenter) for every surface in a file, read one at a time.
 
     Raises a one-line ValueError if the file is missing or damaged.
     """

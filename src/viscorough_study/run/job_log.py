@@ -1,4 +1,4 @@
-"""The log of a job: one helper for every script, with warnings and tracebacks in the same file."""
+"""Log a job: every script uses this helper, which writes messages, warnings and tracebacks to the job's log file."""
 
 import logging
 import sys
@@ -8,8 +8,9 @@ from viscorough.basics.errors import ConvergenceError
 
 
 def run_job(names, call):
-    """Run a script with these global names as a job of Snakemake, with its log; otherwise do nothing.
+    """Set up the log and call a function with Snakemake's job; do nothing if Snakemake does not run the script.
 
+    names : global names of the script, among them `snakemake` in a job
     call : function of the job
     """
     if job := names.get("snakemake"):
@@ -20,14 +21,14 @@ def run_job(names, call):
 def log_to(path):
     """Log messages, warnings and uncaught exceptions to a file, which is replaced, and to stderr.
 
-    The traceback of an uncaught exception goes to both, but the traceback of a ValueError or ConvergenceError goes only
-    to the file, since the message suffices on stderr. An interrupt has none.
+    The traceback of an uncaught exception is written to both. The traceback of a ValueError or ConvergenceError is only
+    written to the file, since the message suffices on stderr. For an interrupt there is no traceback.
     """
     in_file, on_stderr = logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler()
     form = {"format": "%(asctime)s %(levelname)s %(message)s", "datefmt": "%Y-%m-%d %H:%M:%S"}
     logging.basicConfig(level=logging.INFO, handlers=[in_file, on_stderr], force=True, **form)
     logging.captureWarnings(True)
-    logging.getLogger("fontTools").setLevel(logging.WARNING)  # it logs every font of a figure
+    logging.getLogger("fontTools").setLevel(logging.WARNING)  # fontTools would log every font of a figure
 
     def report(kind, error, trace):
         if issubclass(kind, KeyboardInterrupt):

@@ -1,8 +1,8 @@
-"""Compile all numba functions once, before many processes need them.
+"""Compile all numba functions before jobs run side by side.
 
     python -m viscorough_study.run.kernels
 
-Processes that compile at the same time repeat the work.
+Otherwise every job that starts at the same time would compile the same functions.
 """
 
 import subprocess
@@ -12,14 +12,15 @@ from pathlib import Path
 
 from viscorough.io.atomic import atomic_write
 
-KERNELS_BENCHMARK = "results/benchmarks/compile_kernels.tsv"  # in the form of the benchmarks of jobs
+# file with the time of the compilation, in the format of Snakemake's benchmarks of jobs
+KERNELS_BENCHMARK = "results/benchmarks/compile_kernels.tsv"
 _STAMP = ".snakemake/kernels"
 
 
 def compile_kernels():
-    """Compile all functions of the loading path, of the lines and of the direct integration, by running them.
+    """Compile all functions of the loading path, of the lines and of the direct integration, by calling them.
 
-    The disc is large enough for the preconditioner to use coarse grids.
+    The disc of the loading path is large enough for the preconditioner to use coarse grids.
     """
     from viscorough.contact.loading_path import indent
     from viscorough.mdr import reduce_heights
@@ -35,10 +36,12 @@ def compile_kernels():
 
 
 def compile_once(digest):
-    """Compile all functions in another process, unless the run in this folder has done so with this digest of them.
+    """Compile all functions in another process, unless an earlier run in this folder has compiled the same source code.
 
-    This is no rule of the workflow: an output that many jobs need would rerun them all when it is remade, and as an
-    `ancient` input it hides changes of their parameters from Snakemake.
+    digest : digest of the source code of the functions, which is stored in the folder
+
+    The compilation is no rule of the workflow. As an output that many jobs need, it would rerun all of them whenever it
+    is remade. As an `ancient` input, it would hide changes of the parameters of these jobs from Snakemake.
     """
     stamp = Path(_STAMP)
     if stamp.is_file() and stamp.read_text() == digest:
@@ -49,7 +52,8 @@ def compile_once(digest):
     cost = Path(KERNELS_BENCHMARK)
     cost.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(cost) as temporary:
-        temporary.write_text(f"s\tmax_rss\n{time.monotonic() - start:.2f}\t\n")  # the memory is not measured
+        # the memory column is empty, since memory is not measured
+        temporary.write_text(f"s\tmax_rss\n{time.monotonic() - start:.2f}\t\n")
     stamp.write_text(digest)
 
 

@@ -1,9 +1,9 @@
-"""Names of models, choices and settings that tables and figures share."""
+"""Define names of models, choices and settings that both tables and figures use."""
 
-# Models of one surface, of the mean of many, or of both.
+# Models for a single surface, for the mean of many surfaces, or for both.
 GRID, REQUEST, CONTACT, LAW, PAPER = "grid", "requested error", "one contact", "law", "H/(1 + H)"
 MDR, MDR_PI, MDR_FITTED = "MDR", "MDR, λ = π", "MDR, λ fitted"
-# Placements of levels.
+# Methods that place the levels of a loading curve.
 AUTOMATIC, BY_HAND, NAIVE = "automatic", "best by hand", "naive"
-# Settings that decide whether a method works.
+# Settings whose values decide whether a method works (robustness.knobs).
 STEPS, BOX, RANGE = "explicit steps", "box", "power law"

@@ -7,11 +7,11 @@ import yaml
 
 
 def read_paper(folder, name):
-    """Return the content of one of the files `laws`, `numbers`, `claims` and `sentences` in the folder."""
+    """Return the content of a YAML file in the folder; its name is "laws", "numbers", "claims" or "sentences"."""
     return yaml.load((Path(folder) / f"{name}.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader)
 
 
 def read_records(path):
-    """Return the rows of a CSV file as [{column: number or text}]."""
+    """Return the rows of a CSV file as [{column: value}], where a value is a number or text."""
     with Path(path).open(newline="", encoding="utf-8") as file:
         return [{name: yaml.safe_load(value) for name, value in row.items()} for row in csv.DictReader(file)]

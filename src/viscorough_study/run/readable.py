@@ -4,7 +4,7 @@ import numpy as np
 
 
 def readable(value):
-    """Return a number as text of three digits, such as 0.397, 51433, 1.2×10⁻⁵; a dash if there is none."""
+    """Return a number as text with three digits, such as 0.397, 51433, 1.2×10⁻⁵; a dash for None and nan."""
     if value is None or np.isnan(value):
         return "–"
     if np.isinf(value):

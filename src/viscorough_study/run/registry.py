@@ -1,13 +1,13 @@
-"""The registry of figures and tables, workflow/results.yaml, with the defaults of its entries."""
+"""Hold the registry of figures and tables, workflow/results.yaml, with default values for the keys of its entries."""
 
 _FIGURE = {"target": "all", "params": []}
 _RULE = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone": False}
 
 
 class Registry:
-    """Figures and tables of the workflow; the comments of the file explain the keys of an entry.
+    """Figures and tables of the workflow; comments in workflow/results.yaml explain the keys of an entry.
 
-    content : of the file, a mapping with chapters, figures and tables
+    content : content of this file, a mapping with the keys chapters, figures and tables
 
     Attributes
     ----------
@@ -16,7 +16,7 @@ class Registry:
     figures : dict
         {figure: its entry}.
     table_rules : dict
-        {rule: its entry}, also of rules with a separate script, which have no function.
+        {rule: its entry}. It includes the rules with a separate script, whose entries name no function.
     """
 
     def __init__(self, content):
@@ -26,19 +26,22 @@ class Registry:
         self.table_rules = {name: _RULE | entry for name, entry in content["tables"].items()}
 
     def tables(self, target):
-        """Return the names of the tables that a target makes, without the costs of the rules, which are made last."""
+        """Return the names of the tables that a target makes, except rule_costs, which is made last."""
         made = [entry["tables"] for entry in self.table_rules.values() if entry["target"] == target]
         return [name for tables in made for name in tables if name != "rule_costs"]
 
     def table_functions(self, rule):
-        """Return dotted names of the function of a rule, "tabulate", and of the columns of each of its tables."""
+        """Return dotted names for a rule that makes tables: its function ("tabulate") and the columns of each table."""
         entry = self.table_rules[rule]
         default = entry["function"].rpartition(".")[0] + ".COLUMNS"
         columns = {name: table.get("columns", default) for name, table in entry["tables"].items()}
         return {"tabulate": entry["function"]} | columns
 
     def figure_functions(self, figure):
-        """Return dotted names of the function that draws a figure, "draw", and of readers of inputs without table."""
+        """Return dotted names of the functions for a figure: the one that draws it ("draw"), and readers of its inputs.
+
+        Only inputs that are no tables have a reader, under the name of the argument.
+        """
         entry = self.figures[figure]
         readers = [argument for argument, path in entry["input"].items() if not path.endswith(".csv")]
         draw = {"draw": "viscorough_study.figures.{module}.plot_{module}".format(**entry)}

@@ -24,8 +24,8 @@ PACKAGES = ("viscorough", "numpy", "scipy", "numba", "ducc0", "xarray", "netCDF4
 def rule_costs(benchmarks):
     """Return time and memory of every rule, most expensive first: a pandas.DataFrame with the columns of `COLUMNS`.
 
-    benchmarks : {rule: benchmark files of its jobs}, each written at the end of its job; missing files are left out,
-        and without any the table has no rows
+    benchmarks : {rule: benchmark files of its jobs}. Snakemake writes each file at the end of its job. Missing files
+        are left out; if no file exists, the table has no rows.
     Raises ValueError for a damaged file.
     """
     files = [(rule, Path(path)) for rule, paths in benchmarks.items() for path in sorted(paths)]
@@ -46,10 +46,12 @@ def rule_costs(benchmarks):
 
 
 def _shares(ends, seconds):
-    """Return the share of each job in the time with running jobs [s], divided equally among simultaneous jobs.
+    """Return the share of each job in the time of the run [s]; simultaneous jobs share the time equally.
 
-    The shares add up to at least the time of all jobs over the number of cores. This matters for files that were copied
-    without their times: their jobs appear to have run at the same time.
+    ends : time when each job ended [s]; seconds : duration of each job [s]
+    Time without a running job does not count. The sum of the shares is at least the total duration of all jobs divided
+    by the number of cores. This bound matters if the benchmark files were copied without their modification times,
+    because their jobs then appear to have run at the same time.
     """
     starts, shares = ends - seconds, np.zeros(len(ends))
     moments = np.unique([*starts, *ends])
@@ -67,15 +69,19 @@ def duration_text(seconds):
 
 
 def versions():
-    """Return {package: version} of Python and of the packages that compute, store and draw."""
+    """Return {name: version} of Python and of the packages that compute, store and draw."""
     return {"Python": platform.python_version()} | {name: version(name) for name in PACKAGES}
 
 
 def _time_and_memory(path):
-    """Return seconds and megabytes of a job."""
+    """Return the duration [s] and the memory [MB] of a job from its benchmark file.
+
+    Raises ValueError for a damaged file.
+    """
     try:
         job = pd.read_csv(path, sep="\t", na_values="-").iloc[-1]
-        seconds, memory = float(job["s"]), float(job.fillna(0.0)["max_rss"])  # not measured for the shortest jobs
+        # Snakemake measures no memory for the shortest jobs
+        seconds, memory = float(job["s"]), float(job.fillna(0.0)["max_rss"])
     except (ValueError, LookupError):
         seconds = memory = math.nan
     if not (0 <= seconds < math.inf and 0 <= memory < math.inf):

@@ -1,11 +1,18 @@
 """Make tables of cases: the ensembles, batches and indenters of the settings, and the memory of their jobs.
 
-A case is a dictionary that describes one ensemble of surfaces, or several, for the jobs that compute them. The
-combinations of one Hurst exponent are batched side by side, so a job has the same realizations of all combinations.
-Numbers 1 to 9 are one case, 10 to 19 the next, so a tenth combination does not change the curves of the first nine.
-Grids from coarse to fine are batched in sequence, so a job can hold many small discs. Names of cases are parts of
-file names, which contain no floating-point numbers; names of ensembles are in the tables. Cases of the same kind form a
-group; the curves of all cases evaluated together are brought to common abscissae in one pool.
+A case is a dictionary that describes one or several ensembles of surfaces for the jobs that compute their curves. Cases
+of the same kind form a group. The curves of all cases that are evaluated together are brought to common abscissae in
+one pool.
+
+A job computes one batch, that is, some realizations of a case. The ensembles of a case are batched in one of two ways:
+
+- Side by side: a batch has the same realizations of all ensembles of the case. Combinations of force, viscosity,
+  diameter and rms height at one Hurst exponent are batched this way. Combinations 1 to 9 are one case and 10 to 19 the
+  next, so a tenth combination does not change the curves of the first nine.
+- In sequence: a batch has realizations of one ensemble and then of the next. Grids from coarse to fine are batched this
+  way, so that a job can hold many small discs.
+
+Names of cases are parts of file names, which contain no floating-point numbers. Names of ensembles are in the tables.
 """
 
 import itertools
@@ -13,7 +20,7 @@ import math
 
 from viscorough_study.run import seeds
 
-# {pool: rms conventions of its surfaces}
+# {pool: conventions of the rms heights of its surfaces}
 POOLS = {
     "discs": ("disc", "square", "ensemble"),
     "lines": ("line",),
@@ -21,7 +28,7 @@ POOLS = {
     "size_lines": ("line",),
     "measured": ("disc",),
 }
-# {pool: kind of its surfaces}, the folder of their curves
+# {pool: kind of its surfaces}. The kind is also the name of the folder with their curves.
 POOL_KINDS = {
     "discs": "discs",
     "lines": "lines",
@@ -29,23 +36,23 @@ POOL_KINDS = {
     "size_lines": "lines",
     "measured": "measured",
 }
-SURFACE_CONVENTIONS = {"period", "corners", "amplitudes"}  # settings of surfaces that the paper leaves open
+SURFACE_CONVENTIONS = {"period", "corners", "amplitudes"}  # settings of surfaces that the paper does not state
 UNIT_DISC = {"rms": 1.0, "diameter": 1.0, "length_unit": "1"}
 UNIT_LINE = {"rms": 1.0, "length": 1.0}
 
 
 def hurst_id(hurst):
-    """Return the name of a Hurst exponent in file names, such as h01000 for 0.1."""
+    """Return the text for a Hurst exponent in file names, such as h01000 for 0.1."""
     return f"h{round(hurst * 1e4):05d}"
 
 
 def disc_cases(settings):
-    """Return {case: its description} of every case of discs.
+    """Return {case: its description} of all cases of discs.
 
-    A description has pool, group, realizations, batch, indentation and ensembles; each ensemble has name, spawn_key,
-    elements, surface (arguments of self_affine_disc) and realizations, in base cases also combination. The number of
-    the realization is appended to the spawn key (run.seeds). Realizations are counted over all ensembles of the case
-    together, or for each ensemble if `side_by_side` is true.
+    A description has the keys pool, group, realizations, batch, indentation and ensembles. Each ensemble has the keys
+    name, spawn_key, elements, surface (arguments of self_affine_disc) and realizations; in base cases it also has
+    combination. The seed of a disc is the spawn key followed by the number of the realization (run.seeds).
+    `realizations` of a case is the sum over its ensembles, or, if `side_by_side` is true, the number for each ensemble.
     """
     return _paper_discs(settings) | _size_discs(settings)
 
@@ -71,13 +78,13 @@ def _paper_discs(settings):
 
 
 def _changes_of_variants(settings):
-    """Return {variant: settings of its surfaces that differ from `surface`}."""
+    """Return {variant: settings of its surfaces that differ from section `surface`}."""
     variants = settings["variants"]["cases"]
     return {variant["name"]: {key: value for key, value in variant.items() if key != "name"} for variant in variants}
 
 
 def surfaces_left_open(settings):
-    """Return groups of discs whose surfaces differ only in conventions that the paper leaves open.
+    """Return the groups of discs whose surfaces differ from each other only in conventions that the paper leaves open.
 
     Variants with other differences, such as a roll-off, are controls, and are omitted.
     """
@@ -87,7 +94,8 @@ def surfaces_left_open(settings):
 
 def _size_discs(settings):
     sizes = settings["sizes"]
-    ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}  # all end at the same X
+    # all curves end at the same X
+    ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}
     shared = {"pool": "size_discs", "indentation": settings["indentation"] | ends}
     surface, powers = settings["surface"] | UNIT_DISC, [{"hurst": hurst} for hurst in sizes["hurst"]]
     cases = {}
@@ -104,22 +112,25 @@ def _size_discs(settings):
 
 
 def _ensemble(name, spawn_key, surface, grid):
-    """Return an ensemble of a case; grid : settings, among them its realizations, and elements or points"""
+    """Return the description of an ensemble of a case.
+
+    grid : settings with the number of realizations, and of elements across or points
+    """
     numbers = {key: grid[key] for key in ("elements", "points", "realizations") if key in grid}
     return {"name": name, "spawn_key": spawn_key, "surface": surface} | numbers
 
 
 def _joint_case(ensembles, batch, group, **shared):
-    """Return a case whose ensembles are batched in sequence; shared : entries that it shares with other cases"""
+    """Return the description of a case whose ensembles are batched in sequence; shared : further keys"""
     realizations = sum(ensemble["realizations"] for ensemble in ensembles)
     return shared | {"group": group, "ensembles": ensembles, "realizations": realizations, "batch": batch}
 
 
 def line_cases(settings):
-    """Return {line: its description} of every case of lines.
+    """Return {line: description of the case} of all cases of lines.
 
-    A description has the form of a case of discs, with points instead of elements, the arguments of self_affine_line as
-    surface, and until_x instead of indentation.
+    A description has the form described in `disc_cases`, with three differences: an ensemble has points instead of
+    elements, surface contains the arguments of self_affine_line, and the case has until_x instead of indentation.
     """
     lines, sizes, cases = settings["lines"], settings["sizes"], {}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
@@ -137,7 +148,7 @@ def line_cases(settings):
 
 
 def method_problems(settings):
-    """Return arguments of performance.problems.named_problem for every indenter in the comparison of methods."""
+    """Return the arguments of performance.problems.named_problem for every indenter in the comparison of methods."""
     methods = settings["methods"]
     bodies = [{"name": body, "elements": n} for body in methods["bodies"] for n in methods["bodies_elements"]]
     return bodies + [
@@ -146,19 +157,22 @@ def method_problems(settings):
 
 
 def first_combination(settings):
-    """Return names of the ensembles of the first combination, one for every Hurst exponent."""
+    """Return the names of the ensembles of the first combination in the settings, one for every Hurst exponent."""
     first = settings["discs"]["combinations"][0]["number"]
     return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
 
 
 def combined_ensembles(settings):
-    """Return {name: ensemble} of every combination and Hurst exponent."""
+    """Return {name: description} of the ensembles of all combinations and Hurst exponents."""
     bases = (case for case in disc_cases(settings).values() if case["group"] == "base")
     return {ensemble["name"]: ensemble for case in bases for ensemble in case["ensembles"]}
 
 
 def example_discs(settings):
-    """Return ensembles, as in a batch, of the first disc of every H: of the first combination, with h = L = 1."""
+    """Return ensembles with the first disc of every H: realization 0 of the first combination, scaled to h = L = 1.
+
+    The ensembles have the form of `batch_ensembles`.
+    """
     ensembles = combined_ensembles(settings)
     examples = [_in_batch(ensembles[name], [0, 1]) for name in first_combination(settings)]
     return [example | {"surface": example["surface"] | UNIT_DISC} for example in examples]
@@ -168,15 +182,15 @@ def example_discs(settings):
 
 
 def batches(case):
-    """Return names of a case's batches, first and last realization: 0000-0007, 0008-0015, ..."""
+    """Return the names of a case's batches, made of their first and last realization: 0000-0007, 0008-0015, ..."""
     number, size = case["realizations"], case["batch"]
     return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
 
 
 def batch_ensembles(case, batch):
-    """Return ensembles of a batch, each with name, spawn_key, surface, elements or points, and numbers.
+    """Return the parts of ensembles in a batch: dicts with name, spawn_key, surface, elements or points, and numbers.
 
-    numbers : first realization of the batch in this ensemble, and last realization plus 1
+    numbers : [first, end], the range of realizations of the ensemble in this batch; end is not included
     """
     first, last = map(int, batch.split("-"))
     parts, before = [], 0
@@ -194,7 +208,10 @@ def _in_batch(ensemble, numbers):
 
 
 def pool_batches(tables, pool):
-    """Return [(case, batch)] of all cases of a pool, in the order of the table; tables : {kind: {case: description}}"""
+    """Return [(case, batch)] of all cases of a pool, in the order of the table.
+
+    tables : {kind: {case: description}}
+    """
     cases = tables[POOL_KINDS[pool]]
     return [(name, batch) for name, case in cases.items() if case["pool"] == pool for batch in batches(case)]
 
@@ -227,34 +244,34 @@ def combination_curves(discs):
 
 # ---- memory of jobs [MB]
 
-BASE_MEMORY = 700  # Python with its imports and, in a Slurm job, two surrounding Snakemake processes
+BASE_MEMORY = 700  # memory of Python with its imports; in a Slurm job also of two Snakemake processes around it
 
 
 def generation_memory(ensembles):
-    """Return memory for a disc and the square that it is cut from."""
+    """Return the memory for generating a disc: for the disc and the square from which it is cut."""
     bytes_ = max((24 + 64 * ensemble["surface"]["period"] ** 2) * ensemble["elements"] ** 2 for ensemble in ensembles)
     return round(BASE_MEMORY + bytes_ / 1e6)
 
 
 def disc_memory(case):
-    """Return memory for a disc and the fields of the solver on a doubled grid."""
+    """Return the memory for indenting a disc, including the fields of the solver on a grid of twice the width."""
     return round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
 
 
 def measured_memory(case):
-    """Return the memory that a scan needs: its heights, of four bytes or more each, and the fields of the solver."""
+    """Return the memory for indenting a scan of at least four bytes per height, with the fields of the solver."""
     return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
 
 
 def line_memory(case):
-    """Return memory for spectrum, heights and gaps of a line."""
+    """Return the memory for reducing a line: for its spectrum, heights and gaps."""
     return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case["ensembles"]) / 1e6)
 
 
 def pool_memory(tables, pool, ensemble):
-    """Return memory for all realizations of a pool on common abscissae, twice.
+    """Return the memory for two copies of all realizations of a pool on common abscissae.
 
-    tables : {kind: {case: description}}; ensemble : setting of that name
+    tables : {kind: {case: description}}; ensemble : section `ensemble` of the settings
     """
     cases = [case for case in tables[POOL_KINDS[pool]].values() if case["pool"] == pool]
     members = [member for case in cases for member in case.get("ensembles", [case])]
@@ -265,5 +282,5 @@ def pool_memory(tables, pool, ensemble):
 
 
 def medium_label(name):
-    """Return the name of a medium of the settings as text: "Standard linear solid"."""
+    """Return the name of a medium in the settings as text for readers, such as "Standard linear solid"."""
     return name.replace("_", " ").capitalize().replace("Kelvin voigt", "Kelvin-Voigt")

@@ -1,4 +1,4 @@
-"""Make cases of the measured surfaces that the settings name."""
+"""Make the cases of the measured surfaces that the settings name."""
 
 import hashlib
 import re
@@ -9,14 +9,15 @@ from viscorough_study.run.settings_model import ScanGroup
 
 
 def scans(entries, indentation):
-    """Return {scan: description of its case (run.cases), an ensemble of one realization} of all files.
+    """Return {scan: description of its case} of all files that the setting `measured` names.
 
-    entries : the setting `measured`; its patterns are relative to the working directory
-    indentation : setting of that name
+    entries : setting `measured`; its patterns of files are relative to the working directory
+    indentation : section `indentation` of the settings
 
-    A description has pool, realizations, batch, indentation and group; file, its bytes and a digest of its content; and
-    spacing, unit, preparation, forces, young_modulus and poisson_ratio of the entry. A scan is named after its group
-    and file. Raises ValueError if a pattern matches no file, or two names agree.
+    A case is an ensemble of one realization (run.cases). Its description has the keys pool, realizations, batch,
+    indentation and group; file, bytes (size of the file) and digest of its content; and spacing, unit, preparation,
+    forces, young_modulus and poisson_ratio from the entry. The name of a scan consists of the names of its group and
+    its file. Raises ValueError if a pattern matches no file, or if two scans have the same name.
     """
     shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": indentation | {"whole_curves": 1}}
     shared |= {name: field.default for name, field in ScanGroup.model_fields.items() if not field.is_required()}
@@ -37,7 +38,7 @@ def scans(entries, indentation):
 
 
 def _content(file):
-    """Return size and digest of a file, so a scan is recomputed only if its content changes."""
+    """Return the size and a digest of the content of a file, so that only a change of the content reruns its jobs."""
     with open(file, "rb") as opened:
         digest = hashlib.file_digest(opened, "sha256").hexdigest()[:16]
     return {"digest": digest, "bytes": Path(file).stat().st_size}

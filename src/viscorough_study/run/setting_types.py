@@ -1,12 +1,12 @@
-"""Types of settings: numbers with limits and a unit, choices, texts and lists.
+"""Define types of settings: numbers with limits and a unit, choices, texts and lists.
 
-A type is an annotation of pydantic. It checks a value strictly, so 33.0 is no whole number and "33" no number. It
-becomes a part of the JSON schema, with keywords that the standard does not have:
+A type is an annotation of pydantic. It checks values strictly: 33.0 is no whole number, and "33" is no number. It also
+becomes a part of the JSON schema, with keywords that the JSON Schema standard does not have:
 
-- `unit` of a number, "1" without a unit,
+- `unit` of a number, "1" for a number without a unit,
 - `decimals`, the largest number of decimals, so that different Hurst exponents have different file names,
-- `eachOnce` of a list: true, or the key whose values must differ between its mappings,
-- `allowed`, the pattern of a text in words,
+- `eachOnce` of a list: true if its items must differ, or the key whose values must differ between its mappings,
+- `allowed`, a description in words of the pattern of a text,
 - `also`, a requirement in addition to the limits, such as an order of two settings.
 """
 
@@ -18,28 +18,32 @@ from pydantic_core import PydanticCustomError
 
 
 class Section(BaseModel):
-    """Base class of mappings of settings, which refuses unknown keys, inf and nan."""
+    """Base class of sections, which are mappings of settings; unknown keys, inf and nan are errors."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, regex_engine="python-re")
 
 
 def meaning(description, default: Any = ..., *, also=""):
-    """Describe a setting.
+    """Return the field of a setting, with its meaning, default value and requirements.
 
     description : meaning of the setting; messages quote it up to the first semicolon
-    default : value of a setting that may be omitted; other defaults are in config/config.yaml
+    default : value if the setting is omitted. Only settings that may be omitted have a default here; the values of all
+        others are in config/config.yaml.
     also : requirement in addition to the limits of the type, such as an order of two settings
     """
     return Field(default, description=description, json_schema_extra={"also": also} if also else {})
 
 
 def whole(low, high):
-    """Return the type of whole numbers from `low` to `high`."""
+    """Return a setting type that accepts whole numbers from `low` to `high`."""
     return Annotated[int, Field(ge=low, le=high, json_schema_extra={"unit": "1"})]
 
 
 def real(low=None, high=None, *, above=None, unit="1", decimals=None):
-    """Return the type of numbers from `low`, or above `above`, to `high`, with at most this number of decimals."""
+    """Return a setting type that accepts numbers from `low` to `high`, or numbers above `above` up to `high`.
+
+    decimals : largest number of decimals, by default any
+    """
     limited = Annotated[float, Field(ge=low, gt=above, le=high, json_schema_extra={"unit": unit})]
     if decimals is None:
         return limited
@@ -53,14 +57,16 @@ def real(low=None, high=None, *, above=None, unit="1", decimals=None):
 
 
 def text(pattern, allowed):
-    """Return the type of texts of a pattern; allowed : the pattern in words"""
+    """Return a setting type that accepts texts that match `pattern`; allowed : the pattern in words, for messages"""
     return Annotated[str, Field(pattern=pattern, json_schema_extra={"allowed": allowed})]
 
 
 def several(item, least, most, *, once=False):
-    """Return the type of lists of `least` to `most` items.
+    """Return a setting type that accepts lists of `least` to `most` items.
 
-    once : whether items must differ, or the key whose values must differ between mappings
+    item : type of the items
+    once : True if items must differ; or, for mappings as items, the key whose values must differ; False for no
+        condition
     """
     items = Annotated[list[item], Field(min_length=least, max_length=most)]
     if not once:
@@ -77,14 +83,17 @@ def several(item, least, most, *, once=False):
 
 
 def shown(value):
-    """Return a setting as text for messages: 30 for 30.0."""
+    """Return the value of a setting as text for messages, such as "30" for 30.0."""
     if isinstance(value, list):
         return f"[{', '.join(map(shown, value))}]"
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 class Schema(GenerateJsonSchema):
-    """Generate a JSON schema without titles, and without a default if an omitted setting has no value."""
+    """Generator of the JSON schema of the settings.
+
+    The schema has no titles, and no default None.
+    """
 
     def field_title_should_be_set(self, schema):
         return False

@@ -1,6 +1,6 @@
-"""Complete the settings of a run with the default settings, and check them, with one line for the first error.
+"""Complete the settings of a run with the default settings, and check them; an error is one line on the first fault.
 
-The model of the settings (run.settings_model) has types, limits and rules. Values are in config/config.yaml.
+The model of the settings (run.settings_model) has types, limits and rules. Default values are in config/config.yaml.
 """
 
 import difflib
@@ -16,12 +16,13 @@ from viscorough_study.run.settings_rules import name_of
 
 
 def complete_settings(defaults, given, files, options):
-    """Return the settings of a run, default settings where no others are given, and the sources of `check_settings`.
+    """Return the settings of a run, completed with default settings, and the sources for `check_settings`.
 
-    defaults : file of the default settings
-    given : all settings given by files, by the command line, or by a workflow that uses this workflow as a module
-    files : files of settings; options : settings of the command line
-    Raises ValueError, one line with a file, for the first file that cannot be read, or for the first wrong setting.
+    defaults : path of the file of the default settings
+    given : all settings of this run, from files, from the command line, or from a workflow that uses this workflow as a
+        module
+    files : paths of settings files, and options : settings of the command line; they only locate faults in messages
+    Raises ValueError, one line that names a file, for the first file that cannot be read or the first wrong setting.
     """
     sources = {_shown(defaults): read_settings_file(defaults), "the settings of the module": given}
     sources |= {_shown(path): read_settings_file(path) for path in files} | {"--config": options}
@@ -31,14 +32,14 @@ def complete_settings(defaults, given, files, options):
 
 
 def _merged(base, changes):
-    """Return settings with changes: mappings are merged at any depth, other values are replaced."""
+    """Return settings with changes applied: mappings are merged at any depth, other values are replaced."""
     if not (isinstance(base, dict) and isinstance(changes, dict)):
         return changes
     return base | {key: _merged(base.get(key), value) for key, value in changes.items()}
 
 
 def _shown(path):
-    """Return a path from the folder of the run, if it is in there."""
+    """Return a path for messages: relative to the working directory if the file lies in it, otherwise unchanged."""
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
@@ -46,8 +47,9 @@ def check_settings(settings, sources=None):
     """Raise ValueError unless the settings agree with their model.
 
     settings : mapping of all settings
-    sources : {name: settings that it gives}; later sources override earlier ones; by default messages name no source
-    The message is one line with the source, key, value and allowed values.
+    sources : {name of a source, such as a file: settings from this source}, where later sources override earlier ones.
+        Messages name the source of a wrong setting; by default they name none.
+    The message is one line with the source, the key, the value, and the allowed values.
     """
     try:
         Settings.model_validate(settings)
@@ -58,7 +60,10 @@ def check_settings(settings, sources=None):
 
 
 def source_of(path, sources):
-    """Return the name of the last source that gives a setting, or None; path : its keys, as ["discs", "hurst"]."""
+    """Return the name of the last source that contains a setting, or None.
+
+    path : keys of the setting, such as ["discs", "hurst"]; sources : see `check_settings`
+    """
     for name, value in reversed(sources.items()):
         for key in path:
             try:
@@ -71,7 +76,10 @@ def source_of(path, sources):
 
 
 def _complaint(error):
-    """Return paths of the settings that an error of pydantic is about, and one line on it."""
+    """Return the paths of the settings that are wrong, and a line about them, from an error of pydantic.
+
+    error : first entry of the `errors` of a pydantic.ValidationError
+    """
     path, kind = list(error["loc"]), error["type"]
     name, above = name_of(path) or "settings", name_of(path[:-1]) or "settings"
     if kind == "contradiction":
@@ -104,12 +112,12 @@ def schema():
 
 
 def resolved(rule):
-    """Return a part of the JSON schema, or the definition that it refers to."""
+    """Return a part of the JSON schema itself, or, if this part is a reference, the definition to which it refers."""
     return schema()["$defs"][rule["$ref"].rpartition("/")[2]] if "$ref" in rule else rule
 
 
 def _rule(path):
-    """Return the part of the JSON schema for a path of the settings."""
+    """Return the part of the JSON schema that describes the setting at a path, such as ["discs", "hurst"]."""
     rule = schema()
     for key in path:
         rule = resolved(rule["items"] if isinstance(key, int) else rule["properties"][key])
@@ -136,7 +144,7 @@ def allowed(rule):
     return ", ".join(filter(None, parts))
 
 
-# {type of the items of a list: (noun, words before the values allowed for an item)}
+# {type of the items of a list: (noun for the items, words between this noun and the allowed values of an item)}
 _ITEMS = {
     "integer": ("integers", ", each"),
     "number": ("numbers", ", each"),
@@ -155,7 +163,7 @@ def _allowed_items(rule):
 
 
 def unit_of(rule):
-    """Return the unit of a setting or of the items of a list, empty without one."""
+    """Return the unit of a setting, or of the items of a list; empty if there is none."""
     rule = resolved(rule)
     unit = unit_of(rule["items"]) if "items" in rule else rule.get("unit", "1")
     return "" if unit == "1" else unit
@@ -167,13 +175,16 @@ def _unit(rule):
 
 
 def _gist(path):
-    """Return the meaning of a setting, or of the list that holds it, up to the first semicolon."""
+    """Return the meaning of a setting up to the first semicolon.
+
+    If an item of a list has no description, the meaning of the list is returned.
+    """
     meaning = next(filter(None, (_rule(path[:end]).get("description") for end in range(len(path), -1, -1))))
     return meaning.partition(";")[0].rstrip(".")
 
 
 def _short(number):
-    """Return a number as text, such as 10000, 0.01, 1e-8."""
+    """Return a number as short text, such as 10000, 0.01, 1e-8."""
     if isinstance(number, int):
         return str(number)
     mantissa, _, exponent = f"{number:g}".partition("e")

@@ -1,9 +1,10 @@
-"""Read settings files, with errors in one line that name file and line.
+"""Read settings files; an error is one line that names the file and, if possible, the line in it.
 
     python -m viscorough_study.run.settings_files mine.yaml
 
-checks that files can be read. Snakemake itself reads the files given with --configfile before it reads the Snakefile,
-and its errors name neither file nor line; profiles/default therefore calls `check_command_line` before.
+checks that settings files can be read. Snakemake reads the files given with --configfile before it reads the Snakefile,
+and its own messages name neither file nor line. Therefore profiles/default calls `check_command_line` before Snakemake
+reads the files.
 """
 
 import sys
@@ -16,7 +17,10 @@ from viscorough.io.unique_keys import UniqueKeys
 
 
 def read_settings_file(path):
-    """Read the mapping in a file. Raise a one-line ValueError that names the file and, if possible, the line."""
+    """Return the mapping in a settings file.
+
+    Raises a one-line ValueError that names the file and, if possible, the line.
+    """
     with reading(path, "a mapping of YAML in UTF-8 is needed"):
         settings = yaml.load(Path(path).read_bytes().decode("utf-8-sig"), UniqueKeys)
         if not isinstance(settings, dict):
@@ -25,9 +29,9 @@ def read_settings_file(path):
 
 
 def check_command_line(arguments):
-    """End this process with one line if a file of settings on the command line of Snakemake cannot be read.
+    """End this process with one line if a settings file on the command line of Snakemake cannot be read.
 
-    arguments : arguments of Snakemake, with --configfile or --configfiles followed by paths, or --configfile=path
+    arguments : arguments of Snakemake; --configfile or --configfiles is followed by paths, or by "=" and one path
     """
     paths, reads_paths = [], False
     for argument in arguments:

@@ -1,14 +1,15 @@
-"""Rules that involve several settings: of ends of ranges, of Hurst exponents of discs and lines, and so on.
+"""Define rules that involve several settings, such as the order of the ends of a range.
 
-Each rule takes the model of the settings (run.settings_model) and yields the contradictions that it finds: the paths of
-the settings, such as ["discs", "hurst"], and one line that names them and states the allowed values.
+Each rule is a function of the model of the settings (run.settings_model). It yields the contradictions that it finds:
+the paths of the settings, such as ["discs", "hurst"], and one line that names these settings and states the allowed
+values.
 """
 
 from itertools import chain
 
 from viscorough_study.run.setting_types import shown
 
-# Ends of ranges, and the smallest factor between them.
+# (setting with the lower end, setting with the upper end, smallest allowed ratio of the upper to the lower end)
 _RANGES = [
     ("ensemble.x_low", "ensemble.x_high", 10),
     ("reduction.x_low", "reduction.x_high", 10),
@@ -21,7 +22,8 @@ _RANGES = [
     ("verdicts.plateau_range.1", "ensemble.x_high", 1),
     ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
 ]
-# {setting with a list: setting with the lower end for its entries, or None if each entry is a range itself}
+# Ranges in lists, whose ends must differ by a factor of ten: {setting with a list of upper ends: setting with the lower
+# end}. The lower end is None if each entry of the list is a pair of both ends.
 _RANGES_IN_LISTS = {
     "sizes.windows": None,
     "collapse.x_high": "ensemble.x_low",
@@ -30,7 +32,7 @@ _RANGES_IN_LISTS = {
 
 
 def contradictions(settings):
-    """Yield (paths of settings, complaint in one line) for every contradiction between settings; settings : Settings"""
+    """Yield (paths of settings, one line about them) for all contradictions between settings; settings : Settings"""
     return chain.from_iterable(rule(settings) for rule in _RULES)
 
 
@@ -57,7 +59,7 @@ def _unlike_lengths(settings):
 
 
 def _too_short_wave(settings):
-    """Yield wavelengths of a roll-off below four elements, which no grid resolves."""
+    """Yield contradictions for each roll-off wavelength below four elements, since no grid resolves such waves."""
     shared, across = settings.surface.roll_off_wavelength, settings.discs.elements
     waves = [(["surface", "roll_off_wavelength"], "surface", shared, across)]
     for i, case in enumerate(settings.variants.cases):
@@ -79,14 +81,14 @@ def _empty_range(settings):
     for low_name, high_name, factor in ranges:
         paths = _path(low_name), _path(high_name)
         low, high = (_value(settings, path) for path in paths)
-        if high < factor * low * (1 - 1e-9):  # allows for rounding
+        if high < factor * low * (1 - 1e-9):  # the factor 1 − 1e-9 allows for rounding
             fault = "in the wrong order" if high < low else "too close"
             allowed = f"the second from {factor} times the first"
             yield paths, f"{_range_name(*paths)}: {shown(low)} and {shown(high)} are {fault}; allowed: {allowed}"
 
 
 def _path(name):
-    """Return the path of a setting from its name with points; whole numbers are positions in a list."""
+    """Return the path of a setting from its name with dots, in which a whole number is a position in a list."""
     return [int(key) if key.isdecimal() else key for key in name.split(".")]
 
 
@@ -124,7 +126,7 @@ def _too_short_curve(settings):
 
 
 def _wrong_medium(settings):
-    from viscorough.io.medium_files import medium_from_mapping  # this import takes long
+    from viscorough.io.medium_files import medium_from_mapping  # imported here, since the import takes long
 
     for i, case in enumerate(settings.media.cases):
         try:

@@ -1,14 +1,14 @@
-"""Compute digests of the source code of rules, so that an edit reruns exactly the rules that use it.
+"""Compute digests of the source code of rules, so that an edit reruns exactly the rules that use the edited code.
 
-Snakemake compares the parameters of a rule with the parameters of its last run, but ignores changes of the modules that
-a script imports. A digest of these modules as a parameter closes this gap. It covers the script and all modules of our
-packages that it imports, directly or through other modules, including imports inside functions. It is computed from
-syntax trees without docstrings, so wording, comments and layout change no digest. Tables (.csv) in the folder `data`
-next to a module that names them are part of it. The syntax tree, and with it the digest, may differ between versions of
-Python.
+Snakemake reruns a rule if its parameters changed since its last run. It ignores changes of the modules that a script
+imports. A digest of these modules, given to the rule as a parameter, closes this gap. The digest covers the script and
+all modules of our packages that it imports, directly or through other modules, including imports inside functions. The
+digest is computed from syntax trees without docstrings, so wording, comments and layout do not change it. Tables (.csv)
+in the folder `data` next to a module are part of the digest if the module names them. The syntax tree of a file, and
+with it the digest, may differ between versions of Python.
 
-Imports by names computed at run time are not followed. A name imported from a package itself, which may be looked up
-lazily, therefore counts as an import of all modules of the package.
+Imports by names computed at run time are not followed. A name imported from a package itself may be looked up lazily,
+and therefore counts as an import of all modules of the package.
 """
 
 import ast
@@ -25,10 +25,12 @@ _WITH_DOCSTRING = (ast.Module, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassD
 
 
 class SourceDigests:
-    """Compute digests of scripts; modules are read once, and parsed again only if their text has changed.
+    """Compute digests of scripts.
+
+    A module is read once, and its text is parsed again only if it differs from the text in the last run.
 
     folder : folder of the packages
-    kept : cache file for later runs
+    kept : path of the cache file, which keeps digests for later runs
     """
 
     def __init__(self, folder, kept):
@@ -37,8 +39,9 @@ class SourceDigests:
         self._used = {}
 
     def digest(self, script, *functions):
-        """Return sixteen hexadecimal digits for a script and the modules that it uses.
+        """Return sixteen hexadecimal digits for a script and all modules that it uses.
 
+        script : path of the script
         functions : dotted names of functions that the script imports by name at run time
         """
         lines, used, waiting = [], set(), {Path(script)}.union(*(self._files(name.split(".")) for name in functions))
@@ -50,7 +53,7 @@ class SourceDigests:
         return _digest("\n".join(sorted(lines)))
 
     def _module(self, path):
-        """Return (digest of the syntax tree, files of the imported modules) of a file."""
+        """Return (digest of the syntax tree, set of the files of all imported modules) of a source file."""
         if path not in self._modules:
             text = path.read_text(encoding="utf-8")
             tables = {path.parent / "data" / name for name in re.findall(r"[\"'](\w+\.csv)[\"']", text)}
@@ -61,14 +64,17 @@ class SourceDigests:
         return self._modules[path]
 
     def keep(self):
-        """Write the cache file."""
+        """Write the cache file if its content has changed."""
         if self._used.keys() != self._known.keys():
             self._kept.parent.mkdir(exist_ok=True)
             with atomic_write(self._kept) as temporary:
                 temporary.write_text(json.dumps(self._used))
 
     def _files(self, parts):
-        """Return the files of an imported name, such as ["viscorough", "lines", "SelfAffineLines"], if it is ours."""
+        """Return the set of the source files of an imported name; empty if the name is not in our packages.
+
+        parts : parts of the dotted name, such as ["viscorough", "lines", "SelfAffineLines"]
+        """
         for length in (len(parts), len(parts) - 1) if parts[0] in PACKAGES else ():
             place = self.folder.joinpath(*parts[:length])
             if place.with_suffix(".py").is_file():
@@ -79,7 +85,10 @@ class SourceDigests:
 
 
 def _parsed(text, tables):
-    """Return (digest of the syntax tree and the tables, imported names) of the text of a module."""
+    """Return (digest of the syntax tree and of tables, imported names) of a module.
+
+    text : source code of the module; tables : contents of the tables that it names
+    """
     tree, names = ast.parse(text), set()
     for node in _statements(tree):
         if isinstance(node, _WITH_DOCSTRING) and ast.get_docstring(node, clean=False) is not None:
@@ -89,7 +98,7 @@ def _parsed(text, tables):
 
 
 def _statements(tree):
-    """Yield the statements of a syntax tree, at any depth, each before the statements in it."""
+    """Yield all statements of a syntax tree, at any depth; a statement precedes the statements that it contains."""
     waiting = [tree]
     while waiting:
         yield (node := waiting.pop())
@@ -98,7 +107,10 @@ def _statements(tree):
 
 
 def _imported_names(node):
-    """Return dotted names that a statement imports. Raises ValueError for a relative import."""
+    """Return the dotted names that a statement imports.
+
+    Raises ValueError for a relative import.
+    """
     if isinstance(node, ast.Import):
         return [alias.name for alias in node.names]
     if not isinstance(node, ast.ImportFrom):

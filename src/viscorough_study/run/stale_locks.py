@@ -1,8 +1,9 @@
-"""Remove stale locks of Snakemake, which killed runs leave behind and which would block the next run.
+"""Remove stale locks of Snakemake: locks that killed runs leave behind and that would block the next run.
 
-Snakemake writes no process number into its locks. Every Snakemake in a folder therefore also holds a shared lock of the
-operating system, which is released whenever its process ends. If a process obtains this lock exclusively, no other
-Snakemake is running, and all locks of Snakemake belong to killed runs.
+Snakemake writes no process number into its locks, so a lock does not show whether its run is alive. Every Snakemake in
+a folder therefore also holds a shared lock of the operating system, which is released whenever the process ends. If a
+process obtains this lock exclusively, then no other Snakemake is running, and all locks of Snakemake belong to killed
+runs.
 """
 
 import contextlib
@@ -15,10 +16,11 @@ REMOVED = "The last run in this folder was killed: its lock is removed, its resu
 
 
 def remove_stale_locks(folder=".snakemake"):
-    """Remove Snakemake's locks from its folder unless another Snakemake is running in it.
+    """Remove Snakemake's locks from a folder unless another Snakemake is running there.
 
-    Returns the descriptor of an open file, which marks this process as running until it ends, or None if the folder
-    cannot be written or its file system has no such locks; Snakemake's own message on its locks then applies.
+    folder : Snakemake's folder for its records
+    Returns the descriptor of an open file, whose lock marks this process as running until it ends. Returns None if the
+    folder cannot be written, or if its file system has no such locks; Snakemake then shows its own message on locks.
     """
     folder = Path(folder)
     try:

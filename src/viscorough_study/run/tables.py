@@ -1,7 +1,7 @@
-"""Read and write tidy tables as CSV and NetCDF.
+"""Read and write tidy tables as pairs of a CSV and a NetCDF file.
 
-The NetCDF file contains its own digest (viscorough.io.digest) and the digest of the CSV file. So a table that was
-truncated or changed after writing is refused, while the CSV contains only the table.
+The NetCDF file contains its own digest (viscorough.io.digest) and the digest of the CSV file. So reading refuses a
+table that was truncated or changed after it was written, although the CSV file contains only the table.
 """
 
 import io
@@ -14,19 +14,21 @@ import pandas as pd
 from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.netcdf import opened
 
-CSV_DIGEST = "csv_sha256"  # attribute of the NetCDF file: SHA-256 of the bytes of the CSV file
+CSV_DIGEST = "csv_sha256"  # name of the attribute of the NetCDF file with the SHA-256 of the bytes of the CSV file
 
 
 def write_table(table, csv_path, nc_path, *, columns, dimension, title, attributes=None):
-    """Write a tidy table (pandas.DataFrame, one case per row) as CSV and NetCDF, each atomically.
+    """Write a tidy table (pandas.DataFrame, one case per row) to a CSV file and to a NetCDF file, each atomically.
 
+    csv_path, nc_path : paths that differ only in their suffix
     columns : {column: (long_name, units)} for exactly the columns of the table; text has no units
-    dimension : name of the rows in the NetCDF file; attributes : its further global attributes
+    dimension : name of the dimension of the rows in the NetCDF file
+    title, attributes : global attributes of the NetCDF file
 
-    Floats in the CSV have as many digits as needed to read them back exactly; missing values are empty.
-    Both files must have the same name but for the suffix. Raises ValueError if columns and table differ.
+    Floats in the CSV file have as many digits as needed to read them back exactly; missing values are empty. Raises
+    ValueError if `columns` and the columns of the table differ.
     """
-    import xarray as xr  # takes long to import, and only writing needs it
+    import xarray as xr  # imported here, since the import takes long and only writing needs it
 
     from viscorough.io.datasets import write_dataset
 
@@ -36,11 +38,12 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
     ds = xr.Dataset(attrs={"title": title} | (attributes or {}) | {CSV_DIGEST: sha256(csv).hexdigest()})
     for name, (long_name, units) in columns.items():
         values, attributes = table[name].to_numpy(), {"long_name": long_name, "units": units}
-        if not values.size:  # empty columns have no types
+        if not values.size:  # an empty column has no type, so its type follows from its units
             values = values.astype(float if units else str)
         if values.dtype.kind not in "biuf":
             values, attributes = values.astype(str), {"long_name": long_name}
-            values = values.astype(object) if values.size else values  # empty objects would be stored as numbers
+            # an empty array of objects would be stored as numbers
+            values = values.astype(object) if values.size else values
         ds[name] = (dimension, values, attributes)
     write_dataset(ds, nc_path)
     with atomic_write(csv_path) as temporary:
@@ -48,10 +51,10 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
 
 
 def read_table(csv_path, **options):
-    """Read the CSV file of a table that write_table wrote, with options of pandas.read_csv.
+    """Return the table in a CSV file that write_table wrote, read with options of pandas.read_csv.
 
-    Raises a one-line ValueError, which names the file, if the table differs from the table that was written with the
-    NetCDF file of the same name, or if either file is missing or damaged.
+    Raises a one-line ValueError, which names the file, if the CSV or the NetCDF file is missing or damaged, or if the
+    CSV file differs from the file that was written together with the NetCDF file of the same name.
     """
     nc_path = Path(csv_path).with_suffix(".nc")
     with opened(nc_path) as file:
@@ -64,14 +67,15 @@ def read_table(csv_path, **options):
 
 
 def recorded(**mappings):
-    """Return attributes for write_table that record mappings, such as settings, as JSON; see `read_recorded`."""
+    """Return attributes for write_table that record mappings, such as settings, as JSON (read with `read_recorded`)."""
     return {name: json.dumps(mapping) for name, mapping in mappings.items()}
 
 
 def read_recorded(nc_path, name, missing=None):
-    """Return a mapping recorded as an attribute of a NetCDF file, of a table or of an ensemble.
+    """Return a mapping that is recorded as JSON in an attribute of a NetCDF file.
 
-    missing : value returned if the file has no such attribute; None raises a ValueError
+    nc_path : file of a table or of an ensemble; name : name of the attribute
+    missing : value to return if the file has no such attribute; with None a missing attribute raises a ValueError
     """
     with opened(nc_path) as file:
         return json.loads(file.getncattr(name)) if missing is None or name in file.ncattrs() else missing

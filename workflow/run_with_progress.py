@@ -1,4 +1,4 @@
-"""Run Snakemake with one line of progress on the terminal; its output and its jobs' output go to a file.
+"""Run Snakemake with one line of progress on the terminal; all output of Snakemake and its jobs goes to a file.
 
 python workflow/run_with_progress.py -- snakemake --cores 2 -- all
 """
@@ -27,21 +27,21 @@ LOOK = {"bar_format": "{desc} |{bar}| {remaining} left", "smoothing": 0, "dynami
 
 
 class Progress:
-    """Show the progress of a run, from the lines that Snakemake prints, on standard error if it is a terminal.
+    """Show the progress of a run on standard error if it is a terminal, from the lines that Snakemake prints.
 
-    seconds : pandas.Series, share of the run time per job of every rule [s] in an earlier run, for the time left; other
-        rules are assigned the mean
+    seconds : pandas.Series, time per job of every rule [s] in an earlier run, from which the remaining time is
+        estimated. Rules that it lacks are assigned the mean.
     """
 
     def __init__(self, seconds):
         self.seconds, self.planned, self.done, self.bar = seconds, 0.0, "", None
 
     def read(self, line):
-        """Update the progress by a line."""
+        """Update the progress from one line that Snakemake prints."""
         if self.bar is None:
             if match := re.fullmatch(r"total +(\d+)", line):
                 self.done = f"0 of {match[1]}"
-                silent = True if sys.stderr is None else None  # None shows progress on terminals only
+                silent = True if sys.stderr is None else None  # with None, tqdm shows progress on terminals only
                 self.bar = tqdm(total=self.planned, file=sys.stderr, disable=silent, **LOOK)
             elif match := re.fullmatch(r"(\w+) +(\d+)", line):
                 self.planned += int(match[2]) * self._seconds_of(match[1])
@@ -57,10 +57,12 @@ class Progress:
 
 
 def run(command, output=OUTPUT):
-    """Run a command of Snakemake with its progress on the terminal, report errors at the end; returns its exit code.
+    """Run a command of Snakemake with its progress on the terminal, report errors at the end, and return the exit code.
 
-    Ctrl-C reaches the command itself, which then ends its jobs and unlocks its folder. SIGTERM, which reaches only this
-    process, is passed on. Without a terminal, one line has the number of steps and the file with their progress.
+    command : list of the words of the command; output : file for the output of Snakemake and its jobs
+    Ctrl-C reaches Snakemake itself, which then ends its jobs and unlocks its folder. SIGTERM reaches only this process,
+    which passes it on. Without a terminal, one printed line states the number of steps and the file with their
+    progress.
     """
     costs = pd.read_csv(PUBLISHED_COSTS, index_col="rule")
     progress = Progress(costs["share_s"] / costs["jobs"])
@@ -90,7 +92,7 @@ def run(command, output=OUTPUT):
             if line.startswith(PASSED_ON):
                 _show(line)
     if progress.bar is not None:
-        progress.bar.close()  # erases the line
+        progress.bar.close()  # this erases the line of progress
     code = 128 - process.returncode if process.returncode < 0 else process.returncode
     if code and stopped:
         _show(f"Stopped after {progress.done or 'no'} steps; the same command continues\n")
@@ -100,13 +102,17 @@ def run(command, output=OUTPUT):
 
 
 def _show(text):
-    """Write to standard error, above the line of progress; the run continues if that is closed."""
+    """Write a text to standard error, above the line of progress; do nothing if standard error is closed."""
     with contextlib.suppress(OSError):
         tqdm.write(text, file=sys.stderr, end="")
 
 
 def _errors(output):
-    """Return error messages of a run: error and log of every failed job, otherwise the message of Snakemake."""
+    """Return the lines that report the errors of a run.
+
+    For every failed job with a log there is a line with its first error and the path of the log. Without failed jobs,
+    the message of Snakemake itself is returned.
+    """
     text, everything = output.read_text(encoding="utf-8"), f"Full output: {output}"
     if logs := dict.fromkeys(re.findall(r"^ +log: (\S+) \(check log file", text, re.MULTILINE)):
         return [*(f"Error: {_error_in(Path(log))} (log: {log})" for log in logs), everything]
@@ -116,14 +122,14 @@ def _errors(output):
 
 
 def _error_in(log):
-    """Return the first error in the log of a job."""
+    """Return the first error message in the log of a job."""
     text = log.read_text(encoding="utf-8", errors="replace") if log.is_file() else ""
     match = re.search(r"^\S+ \S+ ERROR (.*)$", text, re.MULTILINE)
     return match[1] if match else "a job was ended, or failed before it wrote its log"
 
 
 def summary(results=Path("results"), paper=Path("resources/paper")):
-    """Return the last lines of a run: number of claims by verdict, its time and the paper's, and the page to open."""
+    """Return the last lines of a run: claims by verdict, time of the run and of the paper, and the page to open."""
     claims = counted_verdicts(pd.read_csv(results / "tables/claims.csv"))
     with opened(results / "tables/claims.nc") as file:
         trial = "; trial scale, on which verdicts mean nothing" * int(file.getncattr("trial"))

@@ -1,4 +1,4 @@
-# Realizations of all cases on common abscissae.
+# This rule brings the realizations of all cases in a pool to common abscissae.
 
 
 rule aggregate_curves:

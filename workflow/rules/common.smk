@@ -1,4 +1,4 @@
-"""Functions and constants of the rules; code independent of Snakemake is in viscorough_study."""
+"""Define functions and constants for the rules; code that does not depend on Snakemake is in viscorough_study."""
 
 import hashlib
 import re
@@ -15,8 +15,8 @@ from viscorough_study.run.scans import scans
 from viscorough_study.run.settings import complete_settings, source_of
 from viscorough_study.run.source_digest import SourceDigests
 
-# Threads of a timed job, so that no other job runs with it: Snakemake reduces them to --cores. `workflow.cores` would
-# make --unlock, --summary, --rulegraph and --report fail without --cores.
+# A timed job requests this number of threads, which Snakemake reduces to the number of --cores, so that no other job
+# runs at the same time. `workflow.cores` would make --unlock, --summary, --rulegraph and --report fail without --cores.
 ALL_CORES = 10**6
 
 REGISTRY = Registry(read_yaml("workflow/results.yaml"))
@@ -27,9 +27,9 @@ SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).pare
 
 
 def complete(given, files, options):
-    """Return all settings and the cases of measured surfaces; end with one line for a wrong setting.
+    """Return all settings and the cases of measured surfaces; end the run with one line for a wrong setting.
 
-    given, files, options : as in `complete_settings`
+    given, files, options : arguments of `complete_settings`
     """
     try:
         defaults = PROJECT / "config" / "config.yaml"
@@ -41,12 +41,12 @@ def complete(given, files, options):
 
 
 def chosen(section, *names):
-    """Return {name: setting} of these settings of a section."""
+    """Return {name: setting} of the named settings of a section."""
     return {name: config[section][name] for name in names}
 
 
 def without(section, *names):
-    """Return {name: setting} of a section without these settings."""
+    """Return {name: setting} of all settings of a section except the named settings."""
     return {name: value for name, value in config[section].items() if name not in names}
 
 
@@ -55,12 +55,16 @@ def without(section, *names):
 
 @cache
 def paper(name):
-    """Return the content of a file in resources/paper."""
+    """Return the content of a file in resources/paper; name : name of the file without suffix."""
     return read_paper(PROJECT / "resources" / "paper", name)
 
 
 def text_digests(paths):
-    """Return digests of texts that are not results of the run; their paths depend on the location of the project."""
+    """Return digests of the contents of text files, for params.
+
+    These files belong to the project, not to the run. They are no inputs of rules, because their paths depend on the
+    location of the project.
+    """
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in paths]
 
 
@@ -68,19 +72,22 @@ def text_digests(paths):
 
 
 def batch_ensembles(table, case, batch):
-    """Return the ensembles of a batch of a case; end with one line if the settings do not have this batch."""
+    """Return the parts of ensembles in a batch of a case; end the run with one line if there is no such batch.
+
+    table : {case: its description}; see `cases.batch_ensembles`
+    """
     if batch not in (existing := cases.batches(table[case])):
         end_run(f"batch {batch} of {case} is not one of the settings; allowed: {', '.join(existing)}")
     return cases.batch_ensembles(table[case], batch)
 
 
 def scan_value(name):
-    """Return an input or params function, of a value of the measured surface."""
+    """Return a function of the wildcards, for input or params, that returns a value from the case of a scan."""
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
 
 def indentation_memory(wildcards):
-    """Return the memory of a job that indents [MB]."""
+    """Return the memory [MB] of a job that indents the surfaces of a batch."""
     case = CASES[wildcards.kind][wildcards.case]
     return cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
 
@@ -89,7 +96,10 @@ def indentation_memory(wildcards):
 
 
 def chapter(name):
-    """Return a function for the category of a result, which Snakemake calls only when it makes a report."""
+    """Return a function that returns the category of a result in the report.
+
+    Snakemake calls the function only when it makes a report; the function then checks that all results are current.
+    """
 
     def category(wildcards):
         require_current()
@@ -99,7 +109,7 @@ def chapter(name):
 
 
 def require_current():
-    """End with one line if jobs would have to run before the report, whose captions would not match the results."""
+    """End the run with one line if any result is outdated, since the captions of the report would not match it."""
     if outdated := sorted({job.rule.name for job in workflow.dag.needrun_jobs() if job.output}):
         end_run(
             "results were not made with these settings and sources; run the workflow first, or give the settings that "
@@ -108,13 +118,13 @@ def require_current():
 
 
 def figure_files(target):
-    """Return the files of the figures of a target, from their rules."""
+    """Return the files of all figures that belong to a target, from the rules that draw them."""
     names = (name for name, figure in REGISTRY.figures.items() if figure["target"] == target)
     return [getattr(rules, f"plot_{name}").output for name in names]
 
 
 def table_files(target):
-    """Return the files of the tables of a target."""
+    """Return the files of all tables that belong to a target."""
     return expand("results/tables/{table}.{kind}", table=REGISTRY.tables(target), kind=("csv", "nc"))
 
 
@@ -122,12 +132,15 @@ def table_files(target):
 
 
 def own_rules():
-    """Return the rules of this workflow, without the rules of a workflow that uses it as a module."""
+    """Return the rules of this workflow; another workflow that uses it as a module may have further rules."""
     return [member for member in workflow.rules if path_of(member.basedir).is_relative_to(WORKFLOW)]
 
 
 def benchmark_files(counted):
-    """Return {rule: benchmark files of its jobs} of rules, with the jobs of these settings."""
+    """Return {rule: benchmark files of its jobs}, for the jobs that the settings need.
+
+    counted : list of the rules
+    """
     jobs, files = cases.pool_jobs(CASES), {}
     for member in counted:
         if pattern := member.benchmark:
@@ -137,13 +150,15 @@ def benchmark_files(counted):
 
 
 def add_digests(rules):
-    """Give every rule with a script an unnamed parameter, the digest of the source code that it uses.
+    """Give every rule with a script an unnamed parameter: the digest of the source code that the script uses.
 
-    Snakemake itself sees changes of a script, but not of its imports, and would rerun for reworded comments:
-    profiles/default switches its trigger `code` off. Every rule without a docstring gets its message, for --list.
+    The digest replaces Snakemake's trigger `code`, which profiles/default switches off. That trigger sees changes of a
+    script but not of the modules that it imports, and it reruns a job when only comments have changed.
+
+    Every rule without a docstring gets its message as docstring, which --list shows.
     """
     for member in rules:
         member.docstring = member.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", member.message or "")
         if member.script:
-            functions = dict(member.params).get("functions", {})  # imported by name in the script
+            functions = dict(member.params).get("functions", {})  # functions that the script imports by name
             member.set_params(SOURCES.digest(WORKFLOW / "rules" / member.script, *functions.values()))

@@ -1,6 +1,7 @@
-# Figures 1 to 4 of the paper, and the effect of its conventions. PNG for the report, PDF as vector graphics.
+# Rules that draw Figures 1 to 4 of the paper and all other figures of workflow/results.yaml: as PNG for the report, and
+# as PDF for vector graphics.
 
-# {further argument of functions that draw: its value}
+# {further argument of the functions that draw figures: its value}
 FIGURE_PARAMS = {
     "combinations": {name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()},
     "conventions": config["figures"],

@@ -1,5 +1,6 @@
-# The fits of the main chain: β and ζ of every ensemble, λ of lines matched to discs, and the interface.
-# workflow/results.yaml has further tables, and the fits on grids from coarse to fine.
+# Rules for the fits that the verdicts and the figures of the paper need: β and ζ of every ensemble, λ of lines matched
+# to discs, and the interface. workflow/results.yaml has further tables, among them the fits on grids from coarse to
+# fine.
 
 
 rule fit_power_laws:

@@ -1,10 +1,12 @@
-# Elastic loading curves: surfaces by boundary elements, lines by the method of dimensionality reduction.
+# Rules that compute elastic loading curves: of surfaces by boundary elements, of lines by the method of dimensionality
+# reduction.
 
 
 rule indent_surfaces:
     input:
-        # These files are temporary and usually missing, but a change of their rule reruns this rule. Marked as ancient,
-        # existing files would not, and Snakemake would end without an error and without the dependent results.
+        # These files are temporary and usually missing, but this rule must be rerun when the rule that makes them has
+        # changed. If they were marked as ancient, existing files would not cause a rerun, and Snakemake would end
+        # without an error and without the dependent results.
         surfaces="results/surfaces/{kind}/{case}/{batch}.nc",
     output:
         curves="results/curves/{kind}/{case}/{batch}.nc",
@@ -12,7 +14,7 @@ rule indent_surfaces:
         "results/logs/indent_surfaces/{kind}/{case}/{batch}.log",
     benchmark:
         "results/benchmarks/indent_surfaces/{kind}/{case}/{batch}.tsv"
-    priority: 1  # frees the disk of surfaces
+    priority: 1  # indent early, since this frees the disk space of the surfaces
     conda:
         "../envs/viscorough.yaml"
     resources:
@@ -25,7 +27,7 @@ rule indent_surfaces:
         "../scripts/indent_surfaces.py"
 
 
-# Lines are generated in the job that reduces them: a line of 4 000 000 points takes 16 MB.
+# A line is generated in the same job that reduces it, and not stored: a line of 4 000 000 points takes 16 MB.
 rule reduce_lines:
     output:
         curves="results/curves/lines/{line}/{batch}.nc",

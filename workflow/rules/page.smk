@@ -1,6 +1,7 @@
-# The page of the results, the last output of `all`, and the article, both made from results only.
+# Rules that make the page of the results, which is the last output of `all`, and the article. Both are made from
+# results only.
 
-# Figures on the page, with their captions in the report.
+# {file of a figure on the page: description for readers who cannot see the figure}. The report has their captions.
 PAGE_FIGURES = {
     figure["file"]: figure["alternative"]
     for figure in REGISTRY.figures.values()

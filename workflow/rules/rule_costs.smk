@@ -1,6 +1,7 @@
-# Cost of the rules, which differs from run to run, as do all measured times.
+# Rules that tabulate the time and memory of all rules. As all measured times, they differ from run to run.
 
-# The rules of the files included before this file, except for rules that need scans.
+# Rules in the tables of costs: all rules of the files included before this file. Rules that need scans are left out if
+# the settings name no scan.
 NEED_SCANS = [rules.press_measured.rule, rules.evaluate_measured.rule, rules.plot_measured.rule]
 COUNTED = [member for member in own_rules() if MEASURED or member not in NEED_SCANS]
 

@@ -1,6 +1,7 @@
-# Surfaces that boundary elements indent: generated discs and prepared measured surfaces, in files of one form. They are
-# temporary (`--notemp` keeps them). Each batch has a separate file: if batches shared a file, adding a batch would
-# make Snakemake compute the curves of all of them again. Lines are not stored: rules/indentation.smk.
+# Rules that make the surfaces for boundary elements: generated discs and prepared measured surfaces, in files of the
+# same form. The files are temporary (`--notemp` keeps them). Each batch has a separate file: if batches shared a file,
+# adding a batch would make Snakemake compute the curves of all batches again. Lines are not stored
+# (rules/indentation.smk).
 
 
 rule generate_discs:
@@ -43,7 +44,8 @@ use rule generate_discs as generate_examples with:
 
 rule prepare_measured:
     input:
-        heights=ancient(scan_value("file")),  # the digest of its content counts
+        # the parameter `digest` shows changes of the content, so the time of the file is ignored
+        heights=ancient(scan_value("file")),
     output:
         surfaces=temp("results/surfaces/measured/{scan}/0000-0000.nc"),
     log:

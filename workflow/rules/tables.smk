@@ -1,7 +1,7 @@
-# The tables of workflow/results.yaml that are not in the main chain (fits.smk, verdicts.smk): one rule for each function
-# that makes tables, and one script for all.
+# Rules for the tables of workflow/results.yaml that fits.smk and verdicts.smk do not make. There is a rule for each
+# function that makes tables, and one script for all these rules.
 
-# {name of an input: files}
+# {name of an input in workflow/results.yaml that is no single file: its files}
 TABLE_INPUTS = {
     "curves_of_combinations": cases.combination_curves(DISCS),
     "measured_curves": cases.pool_curves(CASES, "measured"),
@@ -11,7 +11,7 @@ BETA_HURST_MIN = paper("numbers")["agreement"]["beta_hurst_min"]["value"]
 CONTROLS = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
 # Settings of a measured surface that determine its contacts; its digest changes with the file.
 PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces", "young_modulus", "poisson_ratio")
-# {rule: further arguments of its function}
+# {rule: further arguments of the function that makes its tables}
 TABLE_PARAMS = {
     "tabulate_calibration": {"conventions": config["figures"], "across": config["discs"]["elements"]},
     "compare_periodic": without("periodic", "hurst") | {"hursts": config["periodic"]["hurst"]} | SEED,

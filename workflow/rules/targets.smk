@@ -1,6 +1,6 @@
-# Targets besides `all` and single results.
+# Targets for groups of results. Further targets are `all` and every single result.
 
-# {target: its description, and what it makes}
+# {target: (its description, the files that it makes)}
 TARGETS = {
     "curves": (
         "The loading curves of all surfaces.",

@@ -1,4 +1,5 @@
-# Verdicts on the comparison with exact solutions, which `all` requires to pass, and on the claims of the paper.
+# Rules for two verdicts: on the comparison with exact solutions, which must pass for `all`, and on the claims of the
+# paper.
 
 
 rule check_validation:
@@ -23,7 +24,7 @@ rule check_validation:
         "../scripts/check_validation.py"
 
 
-# Tables for judging the claims.
+# Names of the tables by which the claims are judged.
 EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "zeta_laws")
 EVIDENCE += ("methods", "sizes", "grid_dependence", "histories")
 
@@ -52,7 +53,7 @@ rule judge_claims:
         conventions=config["figures"],
         surfaces=cases.surfaces_left_open(config),
         across=config["discs"]["elements"],
-        limits=without("scaling", "stiffness_range", "resamples"),  # those of region (b)
+        limits=without("scaling", "stiffness_range", "resamples"),  # limits of region (b)
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
     message:

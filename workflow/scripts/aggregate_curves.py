@@ -1,4 +1,4 @@
-"""Put all realizations of a pool of cases on common abscissae, in one dataset."""
+"""Bring all realizations of a pool of cases to common abscissae, in one dataset."""
 
 from viscorough.io import netcdf
 from viscorough.io.datasets import write_dataset
@@ -8,10 +8,11 @@ from viscorough_study.run.job_log import run_job
 
 
 def main(curves, pool, *, groups, conventions, ensemble):
-    """Pool batches of loading curves.
+    """Write the pool of several batches of loading curves.
 
-    curves : files of the batches; groups : group of each batch
-    conventions : conventions of the rms heights, side by side; ensemble : x_low, x_high and per_decade of the abscissae
+    curves : files of the batches; pool : file of the pool; groups : group of each batch
+    conventions : conventions of the rms heights, all of which the pool contains
+    ensemble : x_low, x_high and per_decade of the abscissae
     """
     x = abscissa(ensemble["x_low"], ensemble["x_high"], ensemble["per_decade"])
     batches = zip(groups, map(netcdf.read, curves), strict=True)

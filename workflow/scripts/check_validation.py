@@ -1,4 +1,4 @@
-"""Stop the workflow with the names of failed cases if a comparison with an exact solution failed."""
+"""Check the comparisons with exact solutions; if any failed, stop the workflow and name the failed cases."""
 
 from pathlib import Path
 
@@ -8,7 +8,12 @@ from viscorough_study.run.tables import read_table
 
 
 def main(table, passed, *, order_margin):
-    """Write the names of passed comparisons. Raises ValueError, naming the failed ones, if there are any."""
+    """Write the names of the passed comparisons.
+
+    table : CSV file of the comparisons; passed : file to write
+    order_margin : amount by which an observed order of convergence may be below the expected order
+    Raises ValueError with the names of the failed comparisons if there are any.
+    """
     comparisons = read_table(table)
     if failed := failures(comparisons, order_margin):
         raise ValueError(f"validation failed, see {table}: " + "; ".join(failed))

@@ -1,4 +1,4 @@
-"""Fit the contribution to vt/h of a rough interface in series with a flat punch, and its plateau u₀/h."""
+"""Fit the contribution to vt/h of a rough interface in series with a flat punch, and its plateau value u₀/h."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fits.interface import COLUMNS, CURVES, interface_tables
@@ -13,10 +13,12 @@ TABLES = {
 
 
 def main(discs, lines, size_discs, size_lines, csv, nc, **settings):
-    """Fit the interface of every ensemble.
+    """Write tables of the interface of every ensemble.
 
-    discs, lines, size_discs, size_lines : files of the pools, the last two of grids from coarse to fine
-    csv, nc : files of each table; settings : further arguments of `interface_tables`
+    discs, lines : files of the pools with the usual grid
+    size_discs, size_lines : files of the pools with grids from coarse to fine
+    csv, nc : lists of the files to write, one for each table
+    settings : further arguments of `interface_tables`
     """
     tables = interface_tables(*map(read_dataset, (discs, lines, size_discs, size_lines)), **settings)
     for (name, (columns, dimension, title)), *paths in zip(TABLES.items(), csv, nc, strict=True):

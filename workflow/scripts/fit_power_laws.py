@@ -7,9 +7,9 @@ from viscorough_study.run.tables import recorded, write_table
 
 
 def main(discs, lines, csv, nc, **fit):
-    """Fit every ensemble under every convention that the paper leaves open.
+    """Write the table of fits of every ensemble under every convention that the paper leaves open.
 
-    discs, lines : files of the pools
+    discs, lines : files of the pools; csv, nc : files to write
     fit : arguments of `scaling_table`: limits of region (b), resamples and seed of the bootstrap
     """
     table = scaling_table(read_dataset(discs), read_dataset(lines), **fit)

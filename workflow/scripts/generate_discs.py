@@ -8,9 +8,11 @@ from viscorough_study.run.seeds import realization_seed
 
 
 def main(surfaces, *, ensembles, seed):
-    """Generate the realizations of a batch; lengths in the unit of each surface.
+    """Write the discs of a batch to a file; lengths are in the unit of each surface.
 
-    ensembles : from `viscorough_study.run.cases.batch_ensembles`; surface : arguments of self_affine_disc
+    surfaces : file to write
+    ensembles : parts of ensembles in this batch, from `viscorough_study.run.cases.batch_ensembles`
+    seed : root seed
     """
 
     def discs(name, spawn_key, surface, elements, numbers):

@@ -11,8 +11,9 @@ from viscorough_study.run.job_log import run_job
 
 
 def main(surfaces, curves, *, indentation):
-    """Indent the surfaces in a file; lengths in the unit of each surface.
+    """Write the loading curves of the surfaces in a file; lengths are in the unit of each surface.
 
+    surfaces : file of the surfaces; curves : file to write
     indentation : further arguments of `indent_realization`
     """
     members, ensembles = [], []

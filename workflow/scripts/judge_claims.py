@@ -1,4 +1,4 @@
-"""Judge the paper's claims."""
+"""Judge the paper's claims, and write the verdicts as a table and as Markdown."""
 
 from pathlib import Path
 
@@ -12,9 +12,11 @@ from viscorough_study.verdicts.evidence import Evidence
 
 
 def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
-    """Judge the claims by the pool of discs and by tables, which their files name.
+    """Write the verdicts on the claims, which are judged by the pool of discs and by tables.
 
-    settings : further fields of Evidence
+    discs : file of the pool; tables : CSV files of the tables, whose names without suffix are the names of the tables
+    csv, nc, verdicts : files to write; verdicts is in Markdown
+    claims : content of resources/paper/claims.yaml; settings : further fields of `Evidence`
     """
     evidence = Evidence(
         discs=select(read_dataset(discs), group="base"),

@@ -11,8 +11,11 @@ from viscorough_study.run.job_log import run_job
 def main(project, figures, pdf, *, repository, **run):
     """Write the article.
 
-    project : folder of the project, which has template, style, citation, literature, published numbers and verdicts
-    figures : paths, which the template names from their folder; repository : address of the code, or an empty text
+    project : folder of the project, which contains template, style, citation, literature, published numbers and
+        verdicts
+    figures : paths of the figures; the template names the figures relative to their folder
+    pdf : file to write
+    repository : address of the code that the article states, or an empty text
     run : further arguments of `contents_of`
     """
     contents, folder = contents_of(project, **run), Path(figures[0]).parent

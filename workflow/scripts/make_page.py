@@ -12,9 +12,11 @@ from viscorough_study.run.job_log import run_job
 def main(project, figures, page, *, alternative, **run):
     """Write the page.
 
-    project : folder of the project, which has template, style, captions, published numbers and verdicts, and the
+    project : folder of the project, which contains template, style, captions, published numbers and verdicts, and the
         picture of the rules
-    figures : paths, whose stems name them; alternative : {figure: text for readers who cannot see it}
+    figures : paths of the figures; the names of the files without suffix are the names of the figures
+    page : file to write
+    alternative : {figure: description for readers who cannot see the figure}
     run : further arguments of `contents_of`
     """
     figures = {Path(path).stem: path for path in figures}

@@ -10,9 +10,10 @@ from viscorough_study.run.tables import read_table
 def main(files, png, pdf, *, functions, **params):
     """Draw a figure from files.
 
-    files : {argument of the function that draws: path}; params : its further arguments
-    functions : dotted names of the function that draws ("draw") and, under the arguments, of their readers, which take
-        `files`; other arguments are tables
+    files : {argument of the function that draws the figure: path of its data}
+    params : further arguments of this function
+    functions : {"draw": dotted name of this function, argument: dotted name of a reader}. A reader takes `files` and
+        returns the argument; arguments without a reader are tables.
     """
     inputs = {
         name: resolve_name(functions[name])(files) if name in functions else read_table(path)

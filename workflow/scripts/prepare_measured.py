@@ -9,9 +9,11 @@ from viscorough_study.run.job_log import run_job
 
 
 def main(heights, surfaces, *, name, group, **reading):
-    """Prepare one scan.
+    """Write a prepared scan to a file of surfaces.
 
-    heights : its file; name : name of the scan; group : its group of scans; reading : spacing, unit, preparation
+    heights : file of the scan; surfaces : file to write
+    name : name of the scan; group : name of its group of scans
+    reading : spacing, unit and preparation, arguments of `measured_indenter`
     """
     indenter = measured_indenter(heights, **reading)
     measured = lengths(indenter)

@@ -9,14 +9,16 @@ from viscorough_study.run.seeds import realization_seed
 
 
 def main(curves, *, ensembles, seed, until_x):
-    """Generate and reduce the realizations of a batch up to X = F/(4GhL) = until_x; lengths are dimensionless.
+    """Generate and reduce the lines of a batch up to X = F/(4GhL) = until_x; lengths are dimensionless.
 
-    ensembles : from `viscorough_study.run.cases.batch_ensembles`; surface : arguments of SelfAffineLines
+    curves : file to write; seed : root seed
+    ensembles : parts of ensembles in this batch, from `viscorough_study.run.cases.batch_ensembles`
     """
     members = []
     for ensemble in ensembles:
         surface = ensemble["surface"]
-        lines = SelfAffineLines(points=ensemble["points"], **surface)  # shared by all its realizations
+        # all realizations of the ensemble share this object
+        lines = SelfAffineLines(points=ensemble["points"], **surface)
         until_force = 4 * surface["rms"] * surface["length"] * until_x
         lengths = surface["length"], lines.spacing, {"line": surface["rms"]}  # every line has the nominal rms height
         for number in range(*ensemble["numbers"]):

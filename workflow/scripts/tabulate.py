@@ -1,4 +1,4 @@
-"""Make tables of workflow/results.yaml."""
+"""Make the tables of a rule in workflow/results.yaml."""
 
 from pkgutil import resolve_name
 
@@ -12,17 +12,24 @@ from viscorough_study.run.tables import read_table, recorded, write_table
 
 
 def read_input(path):
-    """Return the table of a CSV file, the dataset of a NetCDF file, or an iterator over Contents of NetCDF files."""
+    """Return the data in a file: the table of a CSV file, or the dataset of a NetCDF file.
+
+    For a list of NetCDF files, return an iterator over their contents (`netcdf.Content`).
+    """
     if not isinstance(path, str):
         return map(netcdf.read, path)
     return read_table(path) if path.endswith(".csv") else read_dataset(path)
 
 
 def main(files, csv, nc, *, functions, tables, arguments):
-    """Make tables from files, {argument of the function: path, or paths}, and its further arguments.
+    """Write the tables of one function.
 
-    functions : dotted names of the function that makes the tables ("tabulate"), and of the columns of each table
-    tables : {table: its entry, with label, dimension, and whether it is timed, so that the machine is recorded}
+    files : {argument of the function: path, or list of paths, of its data}; arguments : further arguments of the
+        function
+    functions : {"tabulate": dotted name of the function, table: dotted name of its columns}
+    tables : {table: its entry in workflow/results.yaml, with label and dimension; `timed` means that the machine is
+        recorded}
+    csv, nc : lists of the files to write, one for each table
     """
     inputs = {name: read_input(path) for name, path in files.items()}
     made = resolve_name(functions["tabulate"])(**inputs, **arguments)

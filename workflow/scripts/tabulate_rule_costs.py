@@ -9,7 +9,10 @@ from viscorough_study.run.tables import recorded, write_table
 
 
 def main(csv, nc, *, benchmarks):
-    """Sum up the benchmark files of jobs; benchmarks : {rule: files of its jobs}."""
+    """Write the table of the time and memory of every rule.
+
+    benchmarks : {rule: benchmark files of its jobs}
+    """
     made = {"date": date.today().isoformat()}
     attributes = recorded(machine=timing.machine(), versions=versions(), made=made)
     table, title = rule_costs(benchmarks), "Time and memory of every rule"

@@ -1,11 +1,11 @@
-"""The model of the settings: every key with its type, limits, unit and meaning.
+"""Define the model of the settings: every key with its type, limits, unit and meaning.
 
 `python docs/write_settings.py` writes the JSON schema workflow/schemas/config.schema.yaml and the tables of
-config/README.md from it. Values are in config/config.yaml, the default settings; the model itself has values only for
-keys that may be omitted. Rules that involve several settings are in run.settings_rules.
+config/README.md from this model. Default values are in config/config.yaml; the model itself has values only for keys
+that may be omitted. Rules that involve several settings are in run.settings_rules.
 
-X is the dimensionless force F/(4GhL), κ the dimensionless stiffness k/(4GL), h the rms height, L the diameter of an
-indenter or the length of a line.
+X is the dimensionless force F/(4GhL), κ is the dimensionless stiffness k/(4GL), h is the rms height, and L is the
+diameter of an indenter or the length of a line.
 """
 
 from typing import Any, Literal
@@ -108,7 +108,7 @@ class Surface(Section):
 
 
 class Variant(Section):
-    """A name, and the keys of `surface` that differ, at least one of them."""
+    """A variant of the surfaces: a name, and at least one key of `surface` with another value."""
 
     model_config = ConfigDict(json_schema_extra={"minProperties": 2})
 
@@ -212,7 +212,7 @@ class Interface(Section):
 
 
 class RollOff(Section):
-    """The roll-off of the second spectrum."""
+    """Roll-off of the second spectrum of the periodic surfaces."""
 
     wavelength: real(above=0, high=1) = meaning(
         "longest wavelength of the power law over the period; of the second spectrum"
@@ -221,7 +221,7 @@ class RollOff(Section):
 
 
 class Periodic(Section):
-    """The control of two springs: contact of the same spectra on a periodic half-space."""
+    """Test of the model of two springs: contact of surfaces with the same spectra on a periodic half-space."""
 
     hurst: HURST_EXPONENTS = meaning("Hurst exponents")
     points: whole(16, 4096) = meaning("elements along a side of the periodic square")
@@ -253,7 +253,7 @@ class Verdicts(Section):
 
 
 class Figures(Section):
-    """Conventions that the figures show, among those tabulated."""
+    """Conventions of the tables that the figures show."""
 
     average: Literal["arithmetic", "geometric"] = meaning("mean over the realizations at fixed X")
     rms_convention: Literal["disc", "square", "ensemble"] = meaning(
@@ -267,7 +267,7 @@ class Figures(Section):
 
 
 class Article(Section):
-    """The article."""
+    """The article that `make article` writes."""
 
     repository: text(
         r'^(https?://[^\s"\\]{1,200})?$(?!\n)', "an address that begins with https:// or http://, or empty"
@@ -278,7 +278,7 @@ LIMIT = real(above=0, high=1)
 
 
 class Limits(Section):
-    """Largest relative error on the finest grid, by quantity."""
+    """Largest allowed relative error on the finest grid, for each quantity."""
 
     force: LIMIT = meaning("largest relative error of the force on sphere and cone")
     depth: LIMIT = meaning(
@@ -307,7 +307,7 @@ class Validation(Section):
 
 
 class Direct(Section):
-    """Direct integration in time, against both readings of the law and against the row of springs."""
+    """Comparison of direct integration in time with both readings of the law, and with the row of springs."""
 
     elements: whole(9, 257) = meaning("elements across the indenters whose motion is integrated directly in time")
     impulses: whole(2, 10_000) = meaning("impulses ∫F dt/η at which depths are compared, for each indenter")
@@ -325,7 +325,7 @@ POSITIVE = {"above": 0, "high": 1e30}
 
 
 class MediumCase(Section):
-    """A name, the kind of medium, and the keys of this kind."""
+    """A medium: its name, its kind, and the parameters of this kind."""
 
     name: NAME = meaning("name in tables and figures")
     kind: Literal["newtonian", "maxwell", "kelvin_voigt", "standard_linear_solid", "prony", "springpot"] = meaning(
@@ -357,7 +357,7 @@ class Media(Section):
 
 
 class Preparation(Section):
-    """Preparation of heights, in this order."""
+    """Steps that prepare heights, in the order in which they are applied."""
 
     nodata: several(real(-1e300, 1e300, unit="unit of the heights"), 0, 10) = meaning(
         "values that mark points that were not measured", None
@@ -395,7 +395,7 @@ class ScanGroup(Section):
 
 
 class Reduction(Section):
-    """The method of dimensionality reduction against boundary elements, surface by surface."""
+    """Comparison of the method of dimensionality reduction with boundary elements, surface by surface."""
 
     x_low: real(1e-15, 0.1) = meaning("lowest abscissa X at which a line is compared with its disc")
     x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
@@ -406,14 +406,14 @@ ROUGH_GRIDS = several(whole(9, 1025), 1, 8, once=True)
 
 
 class Scenes(Section):
-    """Indenters of the comparison of placements of levels."""
+    """Indenters for which placements of the levels of a loading curve are compared."""
 
     elements: whole(9, 1025) = meaning("elements across the indenters for which the placement of levels is compared")
     hurst: real(0, 1) = meaning("Hurst exponent of the rough disc among these indenters")
 
 
 class OneSurface(Section):
-    """Surfaces of the comparison of all models of one surface."""
+    """Surfaces on which all models of a single surface are compared."""
 
     hurst: several(real(0.1, 1), 2, 4, once=True) = meaning(
         "Hurst exponents of the surfaces on which grids, requested errors, the MDR and the law are measured"
@@ -426,7 +426,7 @@ class OneSurface(Section):
 
 
 class Methods(Section):
-    """Speed against accuracy of every method."""
+    """Comparison of the speed and the accuracy of all methods."""
 
     hurst: HURST_EXPONENTS = meaning("Hurst exponents of the rough discs")
     elements: ROUGH_GRIDS = meaning(
@@ -446,7 +446,7 @@ class Methods(Section):
 
 
 class Stability(Section):
-    """Failures of the methods."""
+    """Stress tests, which show where the methods fail."""
 
     across: whole(9, 65) = meaning(
         "elements across the indenters of all stress-test cases but those that vary the grid"
@@ -502,7 +502,7 @@ class Sizes(Section):
 
 
 class Collapse(Section):
-    """Collapse of the curves of all grids, and one law fitted to all of them."""
+    """Test of the collapse of the curves of all grids, and one law fitted to all these curves."""
 
     elements_min: several(whole(1, 1_000_000), 1, 5, once=True) = meaning(
         "median of the elements in contact from which curves are compared and fitted"
@@ -544,7 +544,7 @@ class Settings(Section):
 
     @model_validator(mode="after")
     def _agree(self) -> Any:
-        """Raise the first contradiction between settings that are valid separately."""
+        """Raise an error for the first contradiction between settings that are valid separately."""
         for paths, complaint in contradictions(self):
             raise PydanticCustomError("contradiction", "{text}", {"text": complaint, "paths": paths})
         return self

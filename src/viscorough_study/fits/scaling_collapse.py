@@ -213,7 +213,7 @@ def p_value(curves, beta):
     beta : exponent with which the curves are collapsed
     Returns nan if the collapsed curves have no abscissa in common.
     """
-    power = beta / (1 - beta)  # H'
+    power = beta / (1 - beta)  # the exponent H' of the module's docstring
     scaled = [log_x + (1 + power) * np.log(grid.number) for grid, (log_x, _) in curves]
     step = scaled[0][1] - scaled[0][0]
     common_x = np.arange(min(x[0] for x in scaled), max(x[-1] for x in scaled), step)

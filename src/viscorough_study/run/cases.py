@@ -228,7 +228,8 @@ def pool_groups(tables, pool):
 
 def pool_jobs(tables):
     """Return {wildcard: value} for every batch of every pool; tables : {kind: {case: description}}"""
-    names = {"discs": ["case"], "lines": ["line"], "measured": ["case", "scan"]}  # wildcards for a case, by kind
+    # {kind: names of the wildcards whose value is the name of a case}
+    names = {"discs": ["case"], "lines": ["line"], "measured": ["case", "scan"]}
     return [
         dict.fromkeys(names[kind], case) | {"batch": batch, "kind": kind, "pool": pool}
         for pool, kind in POOL_KINDS.items()
@@ -237,7 +238,10 @@ def pool_jobs(tables):
 
 
 def combination_curves(discs):
-    """Return the files of the loading curves of all combinations; discs : {case: description}"""
+    """Return the files of the loading curves of all combinations, that is, of the base discs.
+
+    discs : {case: description}
+    """
     bases = {name: case for name, case in discs.items() if case["group"] == "base"}
     return [f"results/curves/discs/{name}/{batch}.nc" for name, case in bases.items() for batch in batches(case)]
 

@@ -102,7 +102,7 @@ def _complaint(error):
     return [path], f"{name} is {value:.60}; allowed: {allowed(rule)}{_unit(rule)} ({_gist(path)}){hint}"
 
 
-# ---- the rule of a setting, its part of the JSON schema
+# ---- the rule of a setting, which is the part of the JSON schema that describes the setting
 
 
 @cache

@@ -44,7 +44,7 @@ class Combination(Section):
 
 
 class Discs(Section):
-    """Discs of self-affine surfaces, by boundary elements, in real units."""
+    """Self-affine discs with lengths in metres, indented by boundary elements."""
 
     hurst: HURST_EXPONENTS = meaning(
         "Hurst exponents H of the discs", also="each also in `lines.hurst`, since λ(H) needs both"
@@ -83,7 +83,7 @@ FOUR_ELEMENTS = "at least four elements"
 
 
 class Surface(Section):
-    """Properties of the surfaces that the paper leaves open; defaults of every ensemble."""
+    """Properties of surfaces that the paper does not state; default values for all ensembles."""
 
     period: PERIOD = meaning(
         "period of the square that a disc is cut from; 1: the disc spans the period, 2: it is a part of a surface of "
@@ -144,7 +144,7 @@ class Variants(Section):
 
 
 class Indentation(Section):
-    """The elastic loading path of the discs."""
+    """Loading path of the discs in elastic contact."""
 
     tolerance: real(1e-8, 0.1) = meaning(
         "relative accuracy of depth, force and stiffness of each level; and of the interpolation between levels"
@@ -157,7 +157,7 @@ class Indentation(Section):
 
 
 class Lines(Section):
-    """Self-affine lines (h = L = 1 m), by the method of dimensionality reduction."""
+    """Self-affine lines (h = L = 1 m) for the method of dimensionality reduction."""
 
     hurst: HURST_EXPONENTS = meaning("Hurst exponents of the lines", also="with all of `discs.hurst`")
     points: whole(256, 2**26) = meaning(
@@ -169,7 +169,7 @@ class Lines(Section):
 
 
 class Ensemble(Section):
-    """Common abscissae of all curves."""
+    """Abscissae X common to all curves."""
 
     x_low: X = meaning("lowest abscissa X = F/(4GhL) = Ft/(4ηhL)")
     x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
@@ -349,7 +349,7 @@ class MediumCase(Section):
 
 
 class Media(Section):
-    """Other media than the paper's, into which the discs of the first combination penetrate."""
+    """Media other than the paper's, into which the discs of the first combination penetrate."""
 
     force: FORCE = meaning("constant force F, from time 0 on")
     times: Times
@@ -473,7 +473,7 @@ class LineGrid(Section):
 
 
 class Control(Section):
-    """Discs with a roll-off, which have no power law."""
+    """Control discs with a roll-off, whose curves follow no power law."""
 
     hurst: HURST = meaning(
         "Hurst exponent of the control, discs of the same sizes with a roll-off; they have no power law"

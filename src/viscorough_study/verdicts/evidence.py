@@ -14,7 +14,8 @@ from viscorough_study.fits.conventions import FITTED, as_text, select, source_va
 from viscorough_study.fits.intervals import NO_INTERVAL, equivalence, interval
 from viscorough_study.fits.power_law import find_region
 
-# Verdicts on claims, from best to worst. A case cannot have the verdict "reproduced in part" (verdicts.claims.overall).
+# Verdicts on claims, from best to worst. Only a claim can be reproduced in part, if some of its cases hold and others
+# fail (verdicts.claims.overall); a single case has one of the other verdicts.
 VERDICTS = (
     "reproduced",
     "reproduced under a stated convention",

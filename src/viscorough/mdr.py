@@ -96,12 +96,12 @@ def reduce_heights(
     until_force: float | None = None,
     length_unit: str = "1",
 ) -> LoadingCurve:
-    """Compute the loading curve of a line as in `reduce`. The heights may be in any order: springs are independent.
+    """Compute the loading curve of a line, like `reduce`. The heights may be in any order: springs are independent.
 
     heights : heights in single or double precision, shape (points,) [length]
     spacing : distance between neighbouring points [length]
     until_fraction, until_force : arguments of `reduce`
-    length_unit : unit of heights and spacing, as in Indenter
+    length_unit : unit of heights and spacing; see Indenter
 
     Raises the same errors as `reduce`, and ValueError for heights that are not finite.
     """

@@ -68,7 +68,7 @@ _MOST_AHEAD = 2
 
 @dataclass(frozen=True)
 class Level:
-    """Quantities of a contact that a loading curve stores; fields as in state.ContactState, in reduced units."""
+    """Quantities of a contact that a loading curve stores; see state.ContactState; in reduced units."""
 
     depth: float
     pressure_sum: float

@@ -22,10 +22,10 @@ class Scan(NamedTuple):
 
     heights : shape (rows, columns), where x runs along a row and y from row to row, or (points,) for a line; nan or
         masked at points that were not measured
-    unit : unit of the heights, as in the file; "1" if the file states none
+    unit : unit of the heights, as the file spells it; "1" if the file states none
     spacing : (dx, dy), distances between neighbouring columns and rows, with nan for a direction that is not stated;
         None if no direction is stated
-    spacing_unit : unit of the spacing, or of positions x and y, as in the file; "1" if the file states none
+    spacing_unit : unit of the spacing, or of positions x and y, as the file spells it; "1" if the file states none
     corners : (left, bottom, right, top), x and y of the outermost points in a format without units that may hold
         longitudes and latitudes; nan if the file does not state the corners, None for other formats
     """

@@ -231,7 +231,7 @@ def _receding_from(medium: Medium, load: Load) -> float:
 def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any, times: Any) -> tuple[Load, Integers]:
     """Return the load in consistent units, with samples added at the output times, and the indices of these samples.
 
-    The load ends at the first sample after the last output time. Arguments are those of `kinetics`.
+    The load ends at the first sample after the last output time. `kinetics` explains the arguments.
     """
     unit = curve.length_unit
     if isinstance(force, Load) and depth is None and force.by_depth:

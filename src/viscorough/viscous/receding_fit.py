@@ -56,7 +56,7 @@ def fit_receding_depth(
 ) -> RecordFit:
     """Fit a medium to the measured depth of a contact that recedes.
 
-    The arguments are those of creep_fit.fit_growing_depth.
+    creep_fit.fit_growing_depth explains the arguments.
 
     Raises ValueError unless at least five rows precede the first decrease of the force, and if the contact grows beyond
     the last level of the curve in the medium that these rows show.
@@ -130,7 +130,7 @@ def _prony(amounts: Array, times: Array, last: float) -> Prony:
 class _RecedingRecord:
     """A record of a receding contact, and the least-squares fit of the amounts J₀, φ and J_j to its depth.
 
-    load, place, depth : as in creep_fit.fit_growing_depth
+    load, place, depth : see creep_fit.fit_growing_depth
     times : retardation times θ_j, shape (elements,)
     signed : change of the measured depth by a unit of offset and of drift, if they are fitted, shape (rows, 0 to 2)
     """

@@ -179,7 +179,7 @@ def _below_all(depth, force):
     count = 0
     for i in range(depth.size):
         if i > 0 and depth[i] <= depth[corners[count - 1]]:
-            continue  # the depth equals that of the point before within rounding
+            continue  # the depth equals the depth of the point before within rounding
         while count > 1:
             a, b = corners[count - 2], corners[count - 1]
             before = (force[b] - force[a]) / (depth[b] - depth[a])

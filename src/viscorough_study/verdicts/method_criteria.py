@@ -85,9 +85,3 @@ def contact_problems(evidence, tolerance):
             continue
         met = ((values >= HUNDREDS) & (values <= tolerance)).all()
         yield exact(name, np.median(values), np.nan, met, values)
-
-
-def _rough_discs(evidence):
-    """Return the rows of the table of methods for rough discs with the paper's number of elements across."""
-    methods, across = evidence.tables["methods"], evidence.paper_value("boundary_elements", "elements_across")
-    return methods[methods["hurst"].notna() & (methods["elements"] == across)]

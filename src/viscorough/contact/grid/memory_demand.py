@@ -104,7 +104,7 @@ def _operator_bytes(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], 
         buffers += min(threads, -(-rows // 16)) * 2 * along_rows * (BLOCK // columns + 16)
     for bytes_of_number in bytes_of_numbers:
         # An operator stores the load and the deflection, which are padded on small grids only, the transformed rows,
-        # and the spectrum in blocks of columns. The width is that of the load and of the deflection.
+        # and the spectrum in blocks of columns. Load and deflection have this width.
         width = along_rows if rows * columns <= BLOCK else columns
         operators += bytes_of_number * (rows * (2 * width + along_rows) + 1.2 * spectrum + buffers)
     return operators

@@ -160,7 +160,8 @@ def _draw_solvers(axes, methods, velocity, other_solvers):
             ha="right",
             va="center",
         )
-    axes.set_xlim(right=2.5 * rough["processor_s"].max())
+    times = rough["processor_s"]
+    axes.set_xlim(times.min() / 4, 2.5 * times.max())
     _draw_others(axes, rough, other_solvers)
 
 

@@ -13,6 +13,7 @@ from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.figures.collapse import SHIFT
 from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
+from viscorough_study.figures.speed import SOLVERS
 from viscorough_study.figures.style import SMALL
 from viscorough_study.fits.conventions import fits
 from viscorough_study.robustness.failure_map import VERDICTS
@@ -138,6 +139,18 @@ def test_other_solvers_have_their_published_times_at_the_error_of_the_same_resid
     squares = [line.get_xydata()[0] for line in drawn["speed"].axes[3].lines if line.get_marker() == "s"]
     expected = [(min(found) * rough["processor_s"].item(), rough["error"].item()) for found in ratios.values()]
     close(sorted(map(tuple, squares)), sorted(expected))
+
+
+def test_label_of_the_fastest_solver_lies_within_its_axes():
+    """The times of the drawn solvers differ little, and another method is slow: their points are at the left."""
+    surfaces, means, methods, others = tables.FROM_TABLES["speed"]
+    is_drawn = methods["method"].isin(list(SOLVERS))
+    own, slow = methods["method"] == "path, at the depths", methods["processor_s"].max()
+    methods = methods.assign(processor_s=np.select([own, is_drawn], [slow / 1000, slow / 300], slow))
+    figure = plot("speed", surfaces, means, methods, others)
+    figure.canvas.draw()
+    (label,) = [text for text in figure.axes[3].texts if text.get_text() == "viscorough"]
+    assert label.get_window_extent().x0 >= figure.axes[3].get_window_extent().x0
 
 
 def test_bars_of_failures_are_shares_that_add_up_to_all_cases(drawn):

@@ -27,10 +27,7 @@ SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).pare
 
 
 def complete(given, files, options):
-    """Return all settings and the cases of measured surfaces; end the run with one line for a wrong setting.
-
-    given, files, options : arguments of `complete_settings`
-    """
+    """Return all settings and the cases of scans, from what `complete_settings` takes; end the run if one is wrong."""
     try:
         defaults = PROJECT / "config" / "config.yaml"
         completed, sources = complete_settings(defaults, given, files, options)
@@ -60,11 +57,7 @@ def paper(name):
 
 
 def text_digests(paths):
-    """Return digests of the contents of text files, for params.
-
-    These files belong to the project, not to the run. They are no inputs of rules, because their paths depend on the
-    location of the project.
-    """
+    """Return digests of text files, for params. As inputs of rules, their paths would depend on the project's place."""
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in paths]
 
 
@@ -72,10 +65,7 @@ def text_digests(paths):
 
 
 def batch_ensembles(table, case, batch):
-    """Return the parts of ensembles in a batch of a case; end the run with one line if there is no such batch.
-
-    table : {case: its description}; see `cases.batch_ensembles`
-    """
+    """Return the ensembles in a batch of a case (see `cases.batch_ensembles`); end the run if there is no such batch."""
     if batch not in (existing := cases.batches(table[case])):
         end_run(f"batch {batch} of {case} is not one of the settings; allowed: {', '.join(existing)}")
     return cases.batch_ensembles(table[case], batch)
@@ -96,10 +86,7 @@ def indentation_memory(wildcards):
 
 
 def chapter(name):
-    """Return a function that returns the category of a result in the report.
-
-    Snakemake calls the function only when it makes a report; the function then checks that all results are current.
-    """
+    """Return a function for the category of a result, called for a report only; it requires current results."""
 
     def category(wildcards):
         require_current()
@@ -137,10 +124,7 @@ def own_rules():
 
 
 def benchmark_files(counted):
-    """Return {rule: benchmark files of its jobs}, for the jobs that the settings need.
-
-    counted : list of the rules
-    """
+    """Return {rule: benchmark files of its jobs} of the rules `counted`, for the jobs that the settings need."""
     jobs, files = cases.pool_jobs(CASES), {}
     for member in counted:
         if pattern := member.benchmark:
@@ -150,7 +134,7 @@ def benchmark_files(counted):
 
 
 def add_digests(rules):
-    """Give every rule with a script an unnamed parameter: the digest of the source code that the script uses.
+    """Give every rule with a script an unnamed parameter, the digest of the source code that the script uses.
 
     The digest replaces Snakemake's trigger `code`, which profiles/default switches off. That trigger sees changes of a
     script but not of the modules that it imports, and it reruns a job when only comments have changed.

@@ -65,7 +65,7 @@ def text_digests(paths):
 
 
 def batch_ensembles(table, case, batch):
-    """Return the ensembles in a batch of a case (see `cases.batch_ensembles`); end the run if there is no such batch."""
+    """Return the ensembles in a batch of a case, see `cases.batch_ensembles`; end the run if there is no such batch."""
     if batch not in (existing := cases.batches(table[case])):
         end_run(f"batch {batch} of {case} is not one of the settings; allowed: {', '.join(existing)}")
     return cases.batch_ensembles(table[case], batch)

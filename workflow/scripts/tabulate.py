@@ -12,10 +12,7 @@ from viscorough_study.run.tables import read_table, recorded, write_table
 
 
 def read_input(path):
-    """Return the data in a file: the table of a CSV file, or the dataset of a NetCDF file.
-
-    For a list of NetCDF files, return an iterator over their contents (`netcdf.Content`).
-    """
+    """Return the table of a CSV file or the dataset of a NetCDF file; for a list of NetCDF files, their contents."""
     if not isinstance(path, str):
         return map(netcdf.read, path)
     return read_table(path) if path.endswith(".csv") else read_dataset(path)
@@ -24,11 +21,9 @@ def read_input(path):
 def main(files, csv, nc, *, functions, tables, arguments):
     """Write the tables of one function.
 
-    files : {argument of the function: path, or list of paths, of its data}; arguments : further arguments of the
-        function
+    files, arguments : {argument of the function: path, or list of paths, of its data}, and its further arguments
     functions : {"tabulate": dotted name of the function, table: dotted name of its columns}
-    tables : {table: its entry in workflow/results.yaml, with label and dimension; `timed` means that the machine is
-        recorded}
+    tables : {table: its entry in workflow/results.yaml}; if an entry is `timed`, the machine is recorded
     csv, nc : lists of the files to write, one for each table
     """
     inputs = {name: read_input(path) for name, path in files.items()}

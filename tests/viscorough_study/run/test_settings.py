@@ -26,7 +26,7 @@ WRONG = [
     ({"discs": {"realizations": True}}, "discs.realizations is True; allowed: integer, 2 to"),
     ({"discs": {"hurst": [0.4, 1.2]}}, "discs.hurst[1] is 1.2; allowed: 0 to 1, at most 4 decimals (Hurst"),
     ({"discs": {"hurst": []}}, "discs.hurst is []; allowed: 1 to 101 numbers, each 0 to 1"),
-    ({"discs": None}, "discs is empty; allowed: a mapping (Discs of"),
+    ({"discs": None}, "discs is empty; allowed: a mapping (Self-affine discs"),
     ({"indentation": {"tolerance": "1e-3"}}, "write numbers as 1.0e-3, with a point"),
     ({"indentation": {"until_x": float("nan")}}, "indentation.until_x is nan; allowed: 1e-14 to 10000 ("),
     ({"indentation": {"until_x": 1e-9}}, "ensemble.x_low and indentation.until_x: 1e-09 and 1e-09 are too close"),

@@ -30,8 +30,8 @@ POINTS = 4_000_000  # points of a line
 # {function: name of the part of the computation that it does}
 PARTS_OF_CURVE = {
     "viscorough.contact.halfspace.operator.Convolution.apply": "operator",
-    "viscorough.contact.preconditioner.multilevel.Preconditioner.prepare": "preconditioner",
-    "viscorough.contact.preconditioner.multilevel.Preconditioner.apply": "preconditioner",
+    "viscorough.contact.preconditioner.Preconditioner.prepare": "preconditioner",
+    "viscorough.contact.preconditioner.Preconditioner.apply": "preconditioner",
     "viscorough.contact.dense.solve": "dense",
     "viscorough.contact.dense.follow_events": "dense",
     "viscorough.contact.grid.solver.GridSolver.__init__": "setup",

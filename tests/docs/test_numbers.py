@@ -13,7 +13,7 @@ from measuring import fit_cost
 from support.documentation import ROOT, read
 from support.study import CLAIMS, SHOWN
 from support.workflow import merged, read_settings
-from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE
+from viscorough.contact.preconditioner import LEAST_EIGENVALUE
 from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.law.calibrated_law import penetration_law
 from viscorough.reference import exponent_beta

@@ -16,8 +16,9 @@ import numpy as np
 
 from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Array
+from viscorough.contact.border import BORDER
 from viscorough.contact.halfspace.operator import Halfspace
-from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
+from viscorough.contact.preconditioner import Preconditioner
 from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
 
 # Smallest residual to which the linear problems are solved: ratio of the norms of residual and right-hand side.
@@ -89,12 +90,12 @@ def joined_surface(
     from scipy.sparse.linalg import LinearOperator, cg  # this import takes long
 
     rows, columns = elements.shape
-    height, width = rows + 2 * REACH, columns + 2 * REACH
+    height, width = rows + 2 * BORDER, columns + 2 * BORDER
     halfspace = Halfspace(rows, columns, aspect=elements.aspect, padding=padding, threads=threads)
     preconditioner = Preconditioner(height, width, aspect=elements.aspect, threads=threads)
     on_map, stride = halfspace.load.ravel(), halfspace.load.shape[1]
     slot = elements.row.astype(np.int64) * stride + elements.column
-    place = (elements.row.astype(np.int64) + REACH) * width + elements.column + REACH
+    place = (elements.row.astype(np.int64) + BORDER) * width + elements.column + BORDER
     inside, field = np.zeros(height * width, dtype=bool), np.zeros(height * width, dtype=np.float32)
     inside[place] = True
     preconditioner.prepare(inside, place.size)

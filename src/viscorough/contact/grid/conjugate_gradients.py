@@ -23,7 +23,7 @@ from viscorough.contact.grid.loops import GridLoops, joined
 from viscorough.contact.halfspace.operator import Convolution
 from viscorough.contact.halfspace.tiles import TiledHalfspace
 from viscorough.contact.parallel import BLOCK, run_blocks
-from viscorough.contact.preconditioner.multilevel import Preconditioner
+from viscorough.contact.preconditioner import Preconditioner
 from viscorough.contact.state import ContactSet
 
 # Largest magnitude of the conjugacy factor (`Direction.conjugacy_factor`) after a release step: a safeguard in case the
@@ -194,6 +194,7 @@ class ConjugateGradients:
     halfspace : half-space operator; its load array holds the current direction, so only one search can use it at a time
     preconditioner : Preconditioner M
     contact_set : ContactSet to start with
+    stencil : shares of its load that a removed element passes to its neighbours, from `load_redistribution_stencil`
     loops : GridLoops that run the loops over the contact set
     """
 
@@ -202,9 +203,11 @@ class ConjugateGradients:
         halfspace: Convolution | TiledHalfspace,
         preconditioner: Preconditioner,
         contact_set: ContactSet,
+        stencil: Array,
         loops: GridLoops,
     ) -> None:
         self._halfspace, self._preconditioner, self._loops = halfspace, preconditioner, loops
+        self._stencil = stencil
         self._values = halfspace.load.ravel()  # a view of the operator's load array, which holds the direction
         loops.fill(self._values, 0)
         self._last: Direction | None = None
@@ -239,5 +242,5 @@ class ConjugateGradients:
         factor = self._last.conjugacy_factor(residual) if self._last else 0.0
         fixed = self._values, residual.preconditioned, factor
         self._loops.each(kernels.update_search_direction, fixed, self._set.places, self._set.slots)
-        self._last = Direction(self._halfspace, residual, self._preconditioner.stencil, self._loops)
+        self._last = Direction(self._halfspace, residual, self._stencil, self._loops)
         return self._last

@@ -12,7 +12,7 @@ place only if the docstring says so.
 import numpy as np
 
 from viscorough.basics.compilation import njit
-from viscorough.contact.preconditioner.multilevel import REACH
+from viscorough.contact.border import BORDER
 
 # Smallest divisor, to avoid a division by zero.
 _TINY = 1e-30
@@ -153,7 +153,7 @@ def update_gap(length, deflection, gap):
     """
     rows, columns = deflection.shape
     for i in range(rows):
-        start = (i + REACH) * (columns + 2 * REACH) + REACH
+        start = (i + BORDER) * (columns + 2 * BORDER) + BORDER
         for j in range(columns):
             gap[start + j] += length * deflection[i, j]
 

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from viscorough.basics.types import Array, Integers, Mask
+from viscorough.contact.border import BORDER
 from viscorough.contact.grid import kernels
 from viscorough.contact.parallel import BLOCK, run_blocks
-from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import GridFields
 
 
@@ -99,7 +99,7 @@ class GridLoops:
             places: Integers = np.flatnonzero(inside[i:j]).astype(whole_number)
             places += i
             row: Integers = places // width
-            return places, (row - REACH) * stride + (places - row * width - REACH)
+            return places, (row - BORDER) * stride + (places - row * width - BORDER)
 
         places, slots = zip(*self.over(inside, in_block), strict=True)
         return joined(places), joined(slots)
@@ -134,7 +134,7 @@ class GridLoops:
         gap : e − g or e_q, flat field
         """
         rows, columns = deflection.shape
-        width = gap.size // (rows + 2 * REACH)
+        width = gap.size // (rows + 2 * BORDER)
 
         def update(i: int, j: int) -> None:
             kernels.update_gap(length, deflection[i:j], gap[i * width :])

@@ -4,9 +4,10 @@ import numpy as np
 
 from viscorough.basics import memory
 from viscorough.basics.types import Array
+from viscorough.contact.border import BORDER
 from viscorough.contact.halfspace.operator import convolution_lengths
 from viscorough.contact.parallel import BLOCK
-from viscorough.contact.preconditioner.multilevel import REACH
+from viscorough.contact.preconditioner import BYTES_PER_PLACE
 from viscorough.contact.state import Elements
 
 # Bytes per element for its rank, its place and its initial gap, and for temporary arrays.
@@ -20,13 +21,12 @@ _CONTACT_FIELDS = 16
 _CONTACT_FIELDS_IF_EXACT = 24
 # Number of other flat fields: the fields of the grid solver, and temporary fields.
 _OTHER_FIELDS = 4
-# Bytes of other arrays per place of the grid: 12 for contact sets, and 25 for the preconditioner, which has fourteen
-# entries per place.
-_PER_PLACE = 12 + 25
+# Bytes of other arrays per place of the grid: contact sets and the preconditioner.
+_PER_PLACE = 12 + BYTES_PER_PLACE
 # Bytes per element in the linear problems of complete contact: vectors of the iteration, and two indices.
 _PER_JOINED_ELEMENT = 104
 # Bytes per place of the grid in the linear problems of complete contact: contact set, residual and preconditioner.
-_PER_JOINED_PLACE = 50
+_PER_JOINED_PLACE = 25 + BYTES_PER_PLACE
 # Number of double-precision arrays with the size of the spectrum of the influence coefficients. The spectrum is kept,
 # and the set-up of the operator needs a second array.
 _SPECTRA = 2
@@ -75,7 +75,7 @@ def require_for_box(heights: Array, box: tuple[int, ...], *, exact: bool, thread
 def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
     """Raise MemoryError unless the linear problems of complete contact fit into the available memory."""
     rows, columns = elements.shape
-    flat = (rows + 2 * REACH) * (columns + 2 * REACH)
+    flat = (rows + 2 * BORDER) * (columns + 2 * BORDER)
     needed = _PER_JOINED_ELEMENT * elements.count + _PER_JOINED_PLACE * flat + _CONSTANT
     needed += _operator_bytes(rows, columns, (8,), threads)
     memory.require(needed, f"complete contact of a map of {elements.shape} heights")
@@ -83,7 +83,7 @@ def require_for_complete_contact(elements: Elements, threads: int = 1) -> None:
 
 def _grid_bytes(rows: int, columns: int, *, exact: bool, threads: int) -> float:
     """Return the number of bytes of a grid solver, including its operators and the contacts on its grid."""
-    flat = (int(rows) + 2 * REACH) * (int(columns) + 2 * REACH)
+    flat = (int(rows) + 2 * BORDER) * (int(columns) + 2 * BORDER)
     fields = 8 * (_OTHER_FIELDS + _CONTACT_FIELDS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _CONTACT_FIELDS)
     operators = _operator_bytes(rows, columns, (4, 8) if exact else (4,), threads)
     return 8 * int(rows) * int(columns) + operators + (fields + _PER_PLACE) * flat + _CONSTANT

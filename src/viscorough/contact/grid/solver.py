@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.basics.types import Array, Integers, Mask
+from viscorough.contact.border import BORDER
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import field_to_fill
 from viscorough.contact.grid.pressure_iteration import PressureIteration, TrialContact
@@ -25,7 +26,6 @@ from viscorough.contact.grid.tangent_start import initial_tangent
 from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.halfspace.tiles import are_few, is_suitable, tiles_with
 from viscorough.contact.options import LATE, SolverOptions
-from viscorough.contact.preconditioner.multilevel import REACH
 from viscorough.contact.state import (
     BoundedField,
     ContactSet,
@@ -91,14 +91,14 @@ class GridSolver:
         elements : Elements; they begin with the elements of the last call
         """
         (top, left, rows, columns), row, column = self._oriented(elements, reach)
-        field, width = self.initial_gap, columns + 2 * REACH
+        field, width = self.initial_gap, columns + 2 * BORDER
         outside = field[0]
         place: Integers = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
 
         def store(i: int, j: int) -> None:
             in_rows, in_columns = row[i:j].astype(place.dtype) - top, column[i:j] - left
             inside = (in_rows >= 0) & (in_rows < rows) & (in_columns >= 0) & (in_columns < columns)
-            place[i:j] = inside * ((in_rows + REACH) * width + in_columns + REACH)
+            place[i:j] = inside * ((in_rows + BORDER) * width + in_columns + BORDER)
             field[place[i:j]] = elements.initial_gap[i:j]
 
         self._loops.over(row, store)

@@ -5,7 +5,7 @@ import numpy as np
 from viscorough.basics.types import Array
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.workspace import GridWorkspace
-from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE
+from viscorough.contact.preconditioner import LEAST_EIGENVALUE
 from viscorough.contact.state import BoundedField, ContactSet
 
 # Largest relative error of q in the energy norm; its square is the relative error of the stiffness.

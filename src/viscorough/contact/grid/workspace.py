@@ -19,13 +19,15 @@ from numpy.typing import DTypeLike, NDArray
 from viscorough.basics.argument_names import argument
 from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Array, Mask
+from viscorough.contact.border import BORDER
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
+from viscorough.contact.grid.load_redistribution import load_redistribution_stencil
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.halfspace.operator import Convolution, spectrum_of_grid
 from viscorough.contact.halfspace.tiles import TiledHalfspace
 from viscorough.contact.options import SolverOptions
-from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
+from viscorough.contact.preconditioner import Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
 
 # Initial gap at places without an element: a number far above the largest depth, so that these places never touch.
@@ -84,12 +86,13 @@ class GridWorkspace:
         # A step rounds e − g, which is at most the depth, and the pressure, whose deflection is at most the depth, too.
         # The option operator_rounding = 0 means that all rounding errors are ignored.
         self.field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self.precision).eps
-        self.width = columns + 2 * REACH
-        self.inner = slice(REACH * self.width, -REACH * self.width)
-        self.initial_gap = np.empty((rows + 2 * REACH) * self.width, dtype=self.precision)
+        self.width = columns + 2 * BORDER
+        self.inner = slice(BORDER * self.width, -BORDER * self.width)
+        self.initial_gap = np.empty((rows + 2 * BORDER) * self.width, dtype=self.precision)
         self.loops.fill(self.initial_gap, _OUTSIDE)
         self.residual = np.zeros(self.initial_gap.size, dtype=np.float32)
-        self._preconditioner = Preconditioner(rows + 2 * REACH, self.width, aspect=aspect, threads=threads)
+        self._stencil = load_redistribution_stencil(aspect)
+        self._preconditioner = Preconditioner(rows + 2 * BORDER, self.width, aspect=aspect, threads=threads)
 
     @property
     def operator_applications(self) -> int:
@@ -102,7 +105,7 @@ class GridWorkspace:
 
     def conjugate_gradients(self, contact_set: ContactSet) -> ConjugateGradients:
         """Begin conjugate gradients on a contact set; they are invalid once the operator is applied to another load."""
-        return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self.loops)
+        return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._stencil, self.loops)
 
     def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
         """Return a flat field of zeros; the first loop that writes to the field allocates the memory on its threads."""
@@ -110,7 +113,7 @@ class GridWorkspace:
 
     def interior(self, field: Array) -> Array:
         """Return a view of a flat field without its border, as an array in rows and columns."""
-        return field.reshape(-1, self.width)[REACH:-REACH, REACH:-REACH]
+        return field.reshape(-1, self.width)[BORDER:-BORDER, BORDER:-BORDER]
 
     def gap_change(self, pressure: Array, depth: float) -> BoundedField:
         """Return e − g = K P − u for a pressure P and a depth u, as a BoundedField.
@@ -129,7 +132,7 @@ class GridWorkspace:
 
         change : BoundedField of e − g; the values are changed in place except in the border, and the bound is renewed
         """
-        load = self._exact.load[:, : self.width - 2 * REACH]
+        load = self._exact.load[:, : self.width - 2 * BORDER]
         self.loops.shifted(self.interior(pressure), 0, load)
         deflection = self._exact.apply()[:, : load.shape[1]]
         self.loops.shifted(deflection, depth, self.interior(change.values))

@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from viscorough.contact.border import BORDER
 from viscorough.contact.halfspace.influence import influence_coefficient
 
-# Largest distance from an element to a neighbour, in rows or columns. Flat fields have a border of this width.
-REACH = 2
-# Positions (row, column) of the neighbours relative to the element.
-BEFORE = [(r, c) for r in range(-REACH, 1) for c in range(-REACH, REACH + 1) if (r, c) < (0, 0)]
+# Positions (row, column) of the neighbours relative to the element; none is farther away than the border is wide.
+BEFORE = [(r, c) for r in range(-BORDER, 1) for c in range(-BORDER, BORDER + 1) if (r, c) < (0, 0)]
 NEIGHBOURS = len(BEFORE)
 # In single precision the entries of G are stored as whole numbers up to this number. The sum of the thirteen entries of
 # a row must fit into a byte, too, although rounding can increase the sum by half a unit per entry.

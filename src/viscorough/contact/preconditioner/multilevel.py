@@ -31,17 +31,20 @@ import numpy as np
 
 from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array, Integers, Mask
+from viscorough.contact.border import BORDER
 from viscorough.contact.halfspace.growing_cholesky import solve_factored
 from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.parallel import run_blocks
-from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH
+from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS
 from viscorough.contact.preconditioner.sparse_factor import SparseFactor
 
 # Lower bound of the eigenvalues of M K, with the preconditioner M and the influence matrix K
 # (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35
+# Bytes of the arrays of the preconditioner per place of the grid; the sparse factor has fourteen entries per place.
+BYTES_PER_PLACE = 25
 # Number of elements along each side of the square that contains the neighbours of an element.
-_ACROSS = 2 * REACH + 1
+_ACROSS = 2 * BORDER + 1
 # Relative positions (row, column) of the neighbours of a block, which are the four nearest blocks before the block.
 _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
 # The number of iterations depends only weakly on _SIDE, _RATIO and _DENSE.
@@ -63,27 +66,13 @@ _TINY = np.finfo(float).tiny
 _OWN = 1.0
 
 
-@lru_cache(maxsize=4)
-def load_redistribution_stencil(aspect: float) -> Array:
-    """Return the shares of its load that an element passes to its eight neighbours when it leaves the contact.
-
-    The shares follow from eliminating the element from the influence matrix of the 5 × 5 elements around it. The
-    element itself, at the centre of the stencil, has the share −1. Shape (3, 3).
-
-    aspect : dy/dx of the elements
-    """
-    row, column = np.divmod(np.arange(25.0), 5)
-    inverse = np.linalg.inv(influence_coefficient(row[:, None] - row, column[:, None] - column, aspect))
-    return -inverse[12].reshape(5, 5)[1:-1, 1:-1] / inverse[12, 12]
-
-
 @njit(inner=True)
 def _rows(field, place, width):
     """Return three views of a flat field, which begin at the leftmost neighbours of a place.
 
     The first view begins two rows before the place, the second view one row before, and the third in the same row.
     """
-    return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
+    return field[place - 2 * width - BORDER :], field[place - width - BORDER :], field[place - BORDER :]
 
 
 @njit
@@ -172,7 +161,7 @@ def _prolong(places, rows, width, weights, blocks, values, loads, work):
             far[s] += row[s] * value
         for s in range(_ACROSS):
             near[s] += row[_ACROSS + s] * value
-        for s in range(REACH + 1):
+        for s in range(BORDER + 1):
             own[s] += row[2 * _ACROSS + s] * value
     for t in range(places.size):
         values[t] = work[places[t]]
@@ -186,8 +175,6 @@ class Preconditioner:
     aspect : dy/dx of the elements
     precision : floating-point type of M; see SparseFactor
     threads : number of threads
-
-    stencil : array of shares from `load_redistribution_stencil`
     """
 
     def __init__(
@@ -199,10 +186,9 @@ class Preconditioner:
         precision: type[np.floating[Any]] = np.float32,
         threads: int = 1,
     ) -> None:
-        self.stencil = load_redistribution_stencil(aspect)
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks are about as long as wide
         self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
-        blocks = [n + 2 * REACH for n in self._factor.squares.shape]
+        blocks = [n + 2 * BORDER for n in self._factor.squares.shape]
         self._coarser = _coarse_level(sides, aspect, blocks[0], blocks[1], threads)
         self._changed, self._scale = 0, np.zeros(blocks)
         self._squares, self._loads = np.zeros((2, *blocks))
@@ -213,13 +199,13 @@ class Preconditioner:
         r and M r are flat fields in the precision of the preconditioner. Their values outside the contact set have no
         meaning. The next call overwrites the returned array.
         """
-        loads, interior = self._loads, self._loads[REACH:-REACH, REACH:-REACH]
+        loads, interior = self._loads, self._loads[BORDER:-BORDER, BORDER:-BORDER]
         interior[:] = self._factor.restrict(residual)
         loads *= self._scale
         places, corrected = self._coarser.places, np.zeros(loads.size)
         corrected[places] = loads.ravel()[places] - self._coarser.apply(loads.ravel())
         corrected = corrected.reshape(loads.shape) * self._scale
-        return self._factor.prolong(corrected[REACH:-REACH, REACH:-REACH])
+        return self._factor.prolong(corrected[BORDER:-BORDER, BORDER:-BORDER])
 
     def prepare(self, inside: Mask, count: int) -> None:
         """Prepare the preconditioner for a contact set.
@@ -231,7 +217,7 @@ class Preconditioner:
         if not changed:
             return
         squares = self._squares
-        squares[REACH:-REACH, REACH:-REACH] = self._factor.squares
+        squares[BORDER:-BORDER, BORDER:-BORDER] = self._factor.squares
         self._scale = (squares > 0) / np.sqrt(np.maximum(squares, _TINY))  # zero for blocks without contact
         self._changed += changed
         if self._changed > _OUTDATED * count:
@@ -260,8 +246,8 @@ class _ManyBlocks:
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
         # For every block, the index of the block of the next grid level that contains it, in flat fields with borders.
-        blocks = [-(-(n - 2 * REACH) // _RATIO) + 2 * REACH for n in (height, width)]
-        row, column = ((np.arange(n) - REACH) // _RATIO + REACH for n in (height, width))
+        blocks = [-(-(n - 2 * BORDER) // _RATIO) + 2 * BORDER for n in (height, width)]
+        row, column = ((np.arange(n) - BORDER) // _RATIO + BORDER for n in (height, width))
         self._blocks = (row[:, None] * blocks[1] + column).ravel().astype(np.int32)
         self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, blocks[0], blocks[1], threads)
 
@@ -325,7 +311,7 @@ def _coarse_level(
     height, width : rows and columns of blocks, border included
     threads : number of threads
     """
-    few = max(height, width) - 2 * REACH <= _DENSE
+    few = max(height, width) - 2 * BORDER <= _DENSE
     grid = sides, aspect, height, width
     return _FewBlocks(*grid) if few else _ManyBlocks(*grid, threads)
 

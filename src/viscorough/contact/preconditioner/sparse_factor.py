@@ -23,8 +23,9 @@ import numpy as np
 
 from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array, Integers, Mask
+from viscorough.contact.border import BORDER
 from viscorough.contact.parallel import BLOCK, run_blocks
-from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH, factor_entries
+from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, factor_entries
 
 # This number of blocks side by side is processed together if any of the blocks has elements in contact. Together the
 # blocks are wide enough for the registers of the processor.
@@ -80,17 +81,17 @@ def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
     inside, patterns, factor : see `_renew`
     entries : entries of G by neighbour and pattern
     """
-    width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
-    for row in range(first_row * side + REACH, min(last_row * side, factor.shape[0] - 2 * REACH) + REACH):
-        at = row * width + REACH
+    width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
+    for row in range(first_row * side + BORDER, min(last_row * side, factor.shape[0] - 2 * BORDER) + BORDER):
+        at = row * width + BORDER
         row_patterns, members = patterns[at : at + columns], inside[at : at + columns]
-        far, near, same = inside[at - 2 * width - REACH :], inside[at - width - REACH :], inside[at - REACH :]
+        far, near, same = inside[at - 2 * width - BORDER :], inside[at - width - BORDER :], inside[at - BORDER :]
         for j in range(columns):
             pattern = far[j] | far[j + 1] << 1 | far[j + 2] << 2 | far[j + 3] << 3 | far[j + 4] << 4
             pattern |= near[j] << 5 | near[j + 1] << 6 | near[j + 2] << 7 | near[j + 3] << 8 | near[j + 4] << 9
             row_patterns[j] = pattern | same[j] << 10 | same[j + 1] << 11
         for s in range(factor.shape[1]):
-            neighbour_entries, out = entries[s], factor[row, s, REACH : REACH + columns]
+            neighbour_entries, out = entries[s], factor[row, s, BORDER : BORDER + columns]
             for j in range(columns):
                 out[j] = neighbour_entries[row_patterns[j]] * members[j]
 
@@ -136,11 +137,11 @@ def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
     for block_row in range(first_row, last_row):
         total = np.full(factor.shape[2], unit - unit)  # zeros in the precision of the unit
         for row in range(block_row * sides[0], min((block_row + 1) * sides[0], height)):
-            sums = factor[row + REACH, -1]
+            sums = factor[row + BORDER, -1]
             for j in range(sums.size):
                 value = unit * sums[j]
                 total[j] += value * value
-        _add_up(total[REACH:-REACH], sides[1], squares[block_row], 0, squares.shape[1])
+        _add_up(total[BORDER:-BORDER], sides[1], squares[block_row], 0, squares.shape[1])
 
 
 @njit(inner=True, fastmath=True)
@@ -171,7 +172,7 @@ def _multiply_row(factor, unit, residual, row, first, values):
     a, b, c, d, e = rows[0][first:], rows[1][first:], rows[2][first:], rows[3][first:], rows[4][first:]
     f, g, h, k, m = rows[5][first:], rows[6][first:], rows[7][first:], rows[8][first:], rows[9][first:]
     n, p, own = rows[10][first:], rows[11][first:], rows[12][first:]
-    x, y, z = residual[at - 2 * width - REACH :], residual[at - width - REACH :], residual[at - REACH :]
+    x, y, z = residual[at - 2 * width - BORDER :], residual[at - width - BORDER :], residual[at - BORDER :]
     for j in range(values.size):
         value = a[j] * x[j] + b[j] * x[j + 1] + c[j] * x[j + 2] + d[j] * x[j + 3] + e[j] * x[j + 4]
         value += f[j] * y[j] + g[j] * y[j + 1] + h[j] * y[j + 2] + k[j] * y[j + 3] + m[j] * y[j + 4]
@@ -182,12 +183,12 @@ def _multiply_row(factor, unit, residual, row, first, values):
 @njit(inner=True, fastmath=True)
 def _multiply_row_transposed(factor, unit, residual, row, first, values):
     """Compute values = Gᵀ r for consecutive elements in a row of the grid; see `_multiply_row` for the arguments."""
-    width, left = factor.shape[2], first - REACH
+    width, left = factor.shape[2], first - BORDER
     at, two, one, rows = row * width + first, factor[row + 2], factor[row + 1], factor[row]
     a, b, c, d, e = two[4][left:], two[3][left:], two[2][left:], two[1][left:], two[0][left:]
     f, g, h, k, m = one[9][left:], one[8][left:], one[7][left:], one[6][left:], one[5][left:]
     own, n, p = rows[12][first:], rows[11][first:], rows[10][first:]
-    x, y, z = residual[at + 2 * width - REACH :], residual[at + width - REACH :], residual[at:]
+    x, y, z = residual[at + 2 * width - BORDER :], residual[at + width - BORDER :], residual[at:]
     for j in range(values.size):
         value = a[j] * x[j] + b[j + 1] * x[j + 1] + c[j + 2] * x[j + 2] + d[j + 3] * x[j + 3] + e[j + 4] * x[j + 4]
         value += f[j] * y[j] + g[j + 1] * y[j + 1] + h[j + 2] * y[j + 2] + k[j + 3] * y[j + 3] + m[j + 4] * y[j + 4]
@@ -206,16 +207,16 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
     values : flat field
     loads : by rows and columns of blocks
     """
-    width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
+    width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
     for block_row in range(first_row, last_row):
         total = np.zeros(columns, values.dtype)
         first, last = _next_run(active[block_row], 0)
         while first < last:
             start, stop = first * sides[1], min(last * sides[1], columns)
             part = total[start:stop]
-            for row in range(REACH + block_row * sides[0], REACH + min((block_row + 1) * sides[0], height)):
-                out, sums = values[row * width + REACH + start :][: stop - start], factor[row, -1][REACH + start :]
-                _multiply_row(factor, unit, residual, row, REACH + start, out)
+            for row in range(BORDER + block_row * sides[0], BORDER + min((block_row + 1) * sides[0], height)):
+                out, sums = values[row * width + BORDER + start :][: stop - start], factor[row, -1][BORDER + start :]
+                _multiply_row(factor, unit, residual, row, BORDER + start, out)
                 for j in range(part.size):
                     part[j] += unit * sums[j] * out[j]
             _add_up(total, sides[1], loads[block_row], first, last)
@@ -225,7 +226,7 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
 @njit(fastmath=True)
 def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values):
     """Subtract W loads from `values` for some rows of blocks, with W not normalised; see `_restrict`."""
-    width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
+    width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
     spread = np.empty(columns, values.dtype)
     for block_row in range(first_row, last_row):
         first, last = _next_run(active[block_row], 0)
@@ -234,8 +235,8 @@ def _correct(first_row, last_row, factor, unit, loads, height, sides, active, va
             for block in range(first, last):
                 spread[block * sides[1] : (block + 1) * sides[1]] = loads[block_row, block]
             part = spread[start:stop]
-            for row in range(REACH + block_row * sides[0], REACH + min((block_row + 1) * sides[0], height)):
-                out, sums = values[row * width + REACH + start :][: stop - start], factor[row, -1][REACH + start :]
+            for row in range(BORDER + block_row * sides[0], BORDER + min((block_row + 1) * sides[0], height)):
+                out, sums = values[row * width + BORDER + start :][: stop - start], factor[row, -1][BORDER + start :]
                 for j in range(part.size):
                     out[j] -= unit * sums[j] * part[j]
             first, last = _next_run(active[block_row], last)
@@ -248,10 +249,10 @@ def _prolong(first_row, last_row, factor, unit, values, height, sides, active, r
     for block_row in range(first_row, last_row):
         first, last = _next_run(active[block_row], 0)
         while first < last:
-            start, stop = first * sides[1], min(last * sides[1], width - 2 * REACH)
-            for row in range(REACH + block_row * sides[0], REACH + min((block_row + 1) * sides[0], height)):
-                out = result[row * width + REACH + start :][: stop - start]
-                _multiply_row_transposed(factor, unit, values, row, REACH + start, out)
+            start, stop = first * sides[1], min(last * sides[1], width - 2 * BORDER)
+            for row in range(BORDER + block_row * sides[0], BORDER + min((block_row + 1) * sides[0], height)):
+                out = result[row * width + BORDER + start :][: stop - start]
+                _multiply_row_transposed(factor, unit, values, row, BORDER + start, out)
             first, last = _next_run(active[block_row], last)
 
 
@@ -276,7 +277,7 @@ class SparseFactor:
         precision: Any,
         threads: int = 1,
     ) -> None:
-        self._height, self._sides = height - 2 * REACH, sides
+        self._height, self._sides = height - 2 * BORDER, sides
         self._threads, self._rows_at_once = threads, -(-BLOCK // (sides[0] * width))
         self._entries, self._unit = factor_entries(aspect, precision)
         self._rows_of_pattern = np.ascontiguousarray(self._entries.T)
@@ -285,7 +286,7 @@ class SparseFactor:
         self._patterns = np.zeros(height * width, dtype=np.uint16)
         self._factor = np.zeros((height, NEIGHBOURS + 2, width), dtype=self._entries.dtype)
         self._values, self._result = np.zeros((2, height * width), dtype=precision)
-        blocks = [-(-(n - 2 * REACH) // side) for n, side in zip((height, width), sides, strict=True)]
+        blocks = [-(-(n - 2 * BORDER) // side) for n, side in zip((height, width), sides, strict=True)]
         self.squares, self._loads = np.zeros((2, *blocks))
 
     def update(self, inside: Mask) -> int:
@@ -311,9 +312,9 @@ class SparseFactor:
         changed : places of the elements that joined or left
         """
         width, side = self._factor.shape[2], self._sides[0]
-        start, stop = ((row * side + REACH) * width for row in (first_row, last_row))
+        start, stop = ((row * side + BORDER) * width for row in (first_row, last_row))
         # A row of G depends on elements up to two rows of the grid before its own element.
-        first, last = np.searchsorted(changed, (start - REACH * (width + 1), stop))
+        first, last = np.searchsorted(changed, (start - BORDER * (width + 1), stop))
         if first == last:
             return
         if (last - first) * _COST_OF_CHANGE > stop - start:

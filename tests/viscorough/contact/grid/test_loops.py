@@ -6,23 +6,23 @@ import numpy as np
 import pytest
 
 from viscorough import SolverOptions, contact_at, indent, self_affine_disc
+from viscorough.contact.border import BORDER
 from viscorough.contact.grid import conjugate_gradients, kernels, loops
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.parallel import BLOCK, run_blocks
-from viscorough.contact.preconditioner.multilevel import REACH
 
 
 @pytest.mark.parametrize("share", [0.02, 0.6])
 @pytest.mark.parametrize("columns", [1, 60])
-@pytest.mark.parametrize("further_columns", [-2 * REACH, 16])  # of the load array, which may have no border
+@pytest.mark.parametrize("further_columns", [-2 * BORDER, 16])  # of the load array, which may have no border
 def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share, further_columns):
-    width, stride = columns + 2 * REACH, columns + 2 * REACH + further_columns
+    width, stride = columns + 2 * BORDER, columns + 2 * BORDER + further_columns
     rows = 2 * BLOCK // width + 5
-    inside = np.pad(np.random.default_rng(2).random((rows, columns)) < share, REACH).ravel()
+    inside = np.pad(np.random.default_rng(2).random((rows, columns)) < share, BORDER).ravel()
     places, slots = GridLoops(3).contact_places(inside, width, stride)
     expected = np.flatnonzero(inside)
     np.testing.assert_array_equal(places, expected)
-    np.testing.assert_array_equal(slots, (expected // width - REACH) * stride + expected % width - REACH)
+    np.testing.assert_array_equal(slots, (expected // width - BORDER) * stride + expected % width - BORDER)
 
 
 def test_indices_beyond_32_bits_are_64_bits_wide():

@@ -5,12 +5,8 @@ import pytest
 import scipy.linalg
 
 from support.influence import influence_matrix
-from viscorough.contact.preconditioner.multilevel import (
-    LEAST_EIGENVALUE,
-    REACH,
-    Preconditioner,
-    load_redistribution_stencil,
-)
+from viscorough.contact.border import BORDER
+from viscorough.contact.preconditioner import LEAST_EIGENVALUE, Preconditioner
 from viscorough.contact.preconditioner.sparse_factor import SparseFactor
 
 WIDTH = 20
@@ -88,7 +84,7 @@ CASES += [(*case, np.float32) for case in ROUNDED_TO_BYTES]
 
 @pytest.mark.parametrize(("name", "aspect", "precision"), CASES)
 def test_preconditioner_is_symmetric_and_close_to_the_inverse(name, aspect, precision):
-    inside = np.pad(dict(sets())[name], REACH)
+    inside = np.pad(dict(sets())[name], BORDER)
     assert_close_to_the_inverse(inside, 1.4 if aspect in (1, 2) else 1.6, aspect, precision)
 
 
@@ -100,8 +96,8 @@ def test_preconditioner_follows_the_set_on_any_number_of_threads(precision):
     renewed.
     """
     row, random = np.arange(600)[:, None], np.random.default_rng(9).random((600, 600))
-    former = np.pad(random < 0.6, REACH)
-    inside = former ^ np.pad((random < 0.001) | (row < 250) & (random > 0.8), REACH)
+    former = np.pad(random < 0.6, BORDER)
+    inside = former ^ np.pad((random < 0.001) | (row < 250) & (random > 0.8), BORDER)
     on_set, residual = inside.ravel(), np.random.default_rng(4).random(inside.size).astype(precision)
     followed, renewed = (SparseFactor(*inside.shape, (8, 8), 1.0, precision, threads) for threads in (3, 1))
     followed.update(former.ravel())
@@ -122,7 +118,7 @@ def test_preconditioner_follows_the_set_on_any_number_of_threads(precision):
 
 def test_coarse_levels_follow_a_set_that_moves_to_other_blocks():
     left = np.zeros((68, 68), dtype=bool)
-    left[REACH:-REACH, REACH : REACH + 30] = True
+    left[BORDER:-BORDER, BORDER : BORDER + 30] = True
     right = left[:, ::-1]
     followed, new = (approximate_inverse(right, before=before)[1] for before in ([left], []))
     np.testing.assert_array_equal(followed, new)
@@ -131,24 +127,8 @@ def test_coarse_levels_follow_a_set_that_moves_to_other_blocks():
 @pytest.mark.parametrize("name", ["square", "scattered"])
 def test_coarse_levels_of_a_similar_set_are_kept(name):
     """A small share of the elements may join or leave before the coarse levels are prepared again."""
-    inside = np.pad(dict(sets())[name], REACH)
+    inside = np.pad(dict(sets())[name], BORDER)
     members, former = np.flatnonzero(inside), inside.copy()
     left = np.random.default_rng(6).choice(members, int(0.019 * members.size), replace=False)
     former.ravel()[left] = False
     assert_close_to_the_inverse(inside, precision=np.float32, before=[former])
-
-
-@pytest.mark.parametrize("aspect", [1.0, 3.0])
-def test_load_redistribution_stencil_eliminates_an_element(aspect):
-    row, column = np.divmod(np.arange(25), 5)
-    inverse = np.linalg.inv(influence(row * WIDTH + column, aspect=aspect))
-    others = np.arange(25) != 12
-    # Without the element the others solve a smaller system. The change is the load that they take over from it.
-    matrix = influence(row * WIDTH + column, aspect=aspect)
-    deflection = np.random.default_rng(2).random(25)
-    load = inverse @ deflection
-    change = np.linalg.solve(matrix[np.ix_(others, others)], deflection[others]) - load[others]
-    near = np.isin(np.flatnonzero(others), [6, 7, 8, 11, 13, 16, 17, 18])
-    np.testing.assert_allclose(
-        change[near], load[12] * load_redistribution_stencil(aspect).ravel()[[0, 1, 2, 3, 5, 6, 7, 8]], rtol=1e-9
-    )

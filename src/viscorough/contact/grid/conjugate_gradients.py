@@ -2,13 +2,14 @@
 
 The contact set may change between the steps. An iteration has three parts:
 
-1. `ConjugateGradients.precondition` computes the preconditioned residual z = M e from the gap e.
+1. `ConjugateGradients.precondition` computes the preconditioned residual z = M e from the gap e, with the
+   preconditioner M.
 2. `ConjugateGradients.next_direction` computes the search direction d from z.
-3. `Direction.step` takes the step along d that minimises the energy. Or `Direction.step_and_release` takes a release
-   step: a step of given length, after which elements under tension leave the contact set.
+3. `Direction.step` takes the step along d that minimises the energy. Alternatively, `Direction.step_and_release` takes
+   a release step: a step of given length, after which elements under tension leave the contact set.
 
 Symbols are defined in contact.state. The formulas of this module are for the pressure P and the gap e. For a tangent,
-read q for P and e_q for e.
+replace P by q and e by e_q.
 """
 
 from collections.abc import Callable
@@ -26,13 +27,13 @@ from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner import Preconditioner
 from viscorough.contact.state import ContactSet
 
-# Largest magnitude of the conjugacy factor (`Direction.conjugacy_factor`) after a release step: a safeguard in case the
-# step has removed many elements from the contact set.
+# Largest magnitude of the conjugacy factor (`Direction.conjugacy_factor`) after a step that has removed elements from
+# the contact set. The limit is a safeguard in case many elements were removed.
 _LARGEST_SHARE = 1.0
 
 
 class PreconditionedResidual:
-    """The gap e on a contact set, and the preconditioned residual z = M e with the Preconditioner M.
+    """Gap e on a contact set, and the preconditioned residual z = M e with the preconditioner M.
 
     gap : e (or the tangent gap e_q) on the contact set, flat field that the next iteration overwrites
     preconditioned : z on the contact set, flat field that the next iteration overwrites
@@ -44,15 +45,15 @@ class PreconditionedResidual:
         self.gap, self.preconditioned, self.contact_set, self._loops = gap, preconditioned, contact_set, loops
 
     def total_preconditioned(self) -> float:
-        """Return Σz, the sum of the preconditioned residual over the contact set."""
+        """Return the sum of the preconditioned residual z over the contact set."""
         return self._loops.total(self.preconditioned, self.contact_set.places)
 
     def energy(self) -> float:
-        """Return zᵀe = eᵀ M e, the square of the norm of the residual with the preconditioner M."""
+        """Return zᵀe = eᵀ M e, which estimates the squared error of the pressure in the energy norm, eᵀ K⁻¹ e."""
         return self._loops.inner_product(self.preconditioned, self.gap, self.contact_set.places)
 
     def shift(self, depth_step: float, response: Array) -> None:
-        """Subtract Δu from e and Δu M 1 from z on the contact set, in place, because the depth has grown by Δu.
+        """Update e and z in place after the depth has grown by Δu: subtract Δu from e, and Δu M 1 from z.
 
         depth_step : Δu
         response : M 1 on the contact set, from `ConjugateGradients.uniform_response`
@@ -62,13 +63,13 @@ class PreconditionedResidual:
 
 
 class Direction:
-    """A search direction d on a contact set. Take one step along d, by `step` or by `step_and_release`.
+    """Search direction d on a contact set, along which one step is taken by `step` or by `step_and_release`.
 
-    d is stored in the load array of the half-space operator, so that the operator gives K d without a copy. The next
-    direction overwrites d.
+    d is stored in the load array of the half-space operator, so the operator can compute K d without a copy of d. The
+    next direction overwrites d.
 
     halfspace : half-space operator whose load array contains d
-    residual : PreconditionedResidual that d was computed from
+    residual : PreconditionedResidual from which d was computed
     stencil : shares of its load that a removed element passes to its neighbours, from `load_redistribution_stencil`
     loops : GridLoops that run the loops over the contact set
 
@@ -84,16 +85,16 @@ class Direction:
     ) -> None:
         self._halfspace, self._values, self._residual = halfspace, halfspace.load.ravel(), residual
         self._stencil, self._loops = stencil, loops
-        self._deflection: Array | None = None  # K d, flattened, once `_deflect` has computed it
+        self._deflection: Array | None = None  # flattened K d; None until `_deflect` computes it
         self._limit = np.inf
         self.released: Integers = np.empty(0, dtype=int)
 
     def conjugacy_factor(self, residual: PreconditionedResidual) -> float:
-        """Return the factor β for the next direction β d − z, such that it is conjugate to this direction d.
+        """Return the factor β that makes the next search direction β d − z conjugate to this direction d.
 
         β = (z·Kd − d·e)/(d·Kd), with e and z after the step along d. The term d·e is zero after a step that minimises
         the energy along d. After a release step the term corrects β, on the assumption that the next step has length 1.
-        β is 0 if no K d was computed.
+        β is 0 if K d was not computed. After a release step, β is limited to ±_LARGEST_SHARE.
 
         residual : PreconditionedResidual (e and z) after the step along d
         """
@@ -121,7 +122,10 @@ class Direction:
         return any(self._over_set(kernels.update_pressure, length, self._values, pressure))
 
     def unloaded_under_tension(self, pressure: Array) -> Integers:
-        """Return the places of elements without pressure that any step along d would put under tension."""
+        """Return the indices of elements without pressure that any step along d would put under tension.
+
+        The indices refer to flat fields.
+        """
         return joined(self._over_set(kernels.unloaded_under_tension, self._values, pressure))
 
     def causes_tension(self, length: float, pressure: Array) -> bool:
@@ -132,10 +136,10 @@ class Direction:
         """Take a step of given length along d, then remove elements under tension from the contact set.
 
         Pressure and contact set are changed in place. Neighbours of a removed element take over parts of its load (see
-        `kernels.release`). The array of d becomes the total change of pressure. The gap is not changed: call
+        `kernels.release`). The array that held d then holds the total change of pressure. The gap is not changed: call
         `update_gap`, or recompute the gap from the pressure.
 
-        length : multiple of d that is added to the pressure
+        length : factor of d in the change of pressure
         pressure : P, flat field
         width : length of a row of flat fields
         """
@@ -146,9 +150,10 @@ class Direction:
             return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
 
         released = joined(self._loops.over(places, step))
-        # An element that leaves changes the loads of its neighbours, so neighbours must leave one after the other. The
-        # rows of the grid are divided into bands of at least two rows, and within a band all elements leave one after
-        # the other. Every second band can be processed at the same time: no element has neighbours in two such bands.
+        # An element that leaves changes the loads of its neighbours, so two threads must not release elements close to
+        # each other. Divide the rows of the grid into bands of at least two rows. A single thread processes a band. All
+        # even bands are processed at the same time, then all odd bands: no element has neighbours in two even bands or
+        # in two odd bands.
         band = max(BLOCK // width, 2) * width
         bands = np.split(released, np.searchsorted(places[released], np.arange(band, pressure.size, band)))
 
@@ -161,7 +166,7 @@ class Direction:
         self.released, self._limit = slots[released], _LARGEST_SHARE
 
     def update_gap(self, gap: Array) -> None:
-        """Add the deflection K d to e − g in place; call this method after `step_and_release`.
+        """Add the deflection by the step to e − g, in place; call this method after `step_and_release`.
 
         gap : e − g, flat field
         """
@@ -174,7 +179,7 @@ class Direction:
         return deflection[:, : self._halfspace.shape[1]]
 
     def _sums(self, residual: PreconditionedResidual) -> Array:
-        """Return z·Kd, d·e and d·Kd, summed over the contact set; `residual` provides e, z and the contact set."""
+        """Return the inner products z·Kd, d·e and d·Kd over the contact set; `residual` contains e and z."""
         fields = self._values, self._deflection, residual.preconditioned, residual.gap
         members = residual.contact_set
         return sum(self._loops.each(kernels.direction_sums, fields, members.places, members.slots))
@@ -189,7 +194,9 @@ class Direction:
 
 
 class ConjugateGradients:
-    """Conjugate gradients for K x = b on a contact set, with x = P and b − K x = −e, or with x = q and b − K x = −e_q.
+    """Conjugate gradients for the pressure P with the residual e, or for the tangent q with the residual e_q.
+
+    The equations on the contact set are e = K P − (u − g) = 0 and e_q = K q − 1 = 0.
 
     halfspace : half-space operator; its load array holds the current direction, so only one search can use it at a time
     preconditioner : Preconditioner M
@@ -208,22 +215,27 @@ class ConjugateGradients:
     ) -> None:
         self._halfspace, self._preconditioner, self._loops = halfspace, preconditioner, loops
         self._stencil = stencil
-        self._values = halfspace.load.ravel()  # a view of the operator's load array, which holds the direction
+        self._values = halfspace.load.ravel()  # view of the operator's load array, which holds the search direction
         loops.fill(self._values, 0)
         self._last: Direction | None = None
         self.change_set(contact_set)
 
     def change_set(self, contact_set: ContactSet) -> None:
-        """Continue on another contact set; the last direction is zero on elements that have joined or left."""
+        """Continue on another contact set.
+
+        The last direction is set to zero on removed elements. It is already zero on new elements.
+        """
         if self._last:
             self._values[self._last.released] = 0
         self._set = contact_set
         self._preconditioner.prepare(contact_set.inside, contact_set.places.size)
 
     def uniform_response(self, ones: Array) -> Array:
-        """Return M 1 ≈ K⁻¹ 1, an approximation of the tangent, in the order of the places of the contact set.
+        """Return M 1 ≈ K⁻¹ 1, the product of the preconditioner M with a vector of ones; it approximates the tangent q.
 
         ones : flat field of ones
+
+        Returns an array with an entry for every element of the contact set.
         """
         return self._preconditioner.apply(ones)[self._set.places]
 
@@ -235,7 +247,7 @@ class ConjugateGradients:
         return PreconditionedResidual(gap, self._preconditioner.apply(gap), self._set, self._loops)
 
     def next_direction(self, residual: PreconditionedResidual) -> Direction:
-        """Compute the next search direction d from a residual, conjugate to the last direction.
+        """Compute the next search direction, conjugate to the last direction, from a residual.
 
         The last direction is overwritten.
         """

@@ -1,9 +1,9 @@
 """Adjust the depth of a contact to a given force while its pressures are iterated.
 
-With the preconditioner M ≈ K⁻¹ a step of length 1 leads to the pressures P − M e. A change Δu of the depth adds Δu M 1
-to these pressures. Before every step Δu is chosen so that the pressures after the step sum to the force. The residual
-and the depth then converge together, and a contact at a given force takes few more iterations than a contact at a given
-depth. Symbols are defined in contact.state.
+With the preconditioner M ≈ K⁻¹, a step of length 1 changes the pressures to P − M e. If the depth also grows by Δu, the
+product Δu M 1, with a vector 1 of ones, is added to these pressures. Before every step Δu is chosen so that the
+pressures after the step sum to the force. The residual and the depth then converge together, and a contact at a given
+force takes few more iterations than a contact at a given depth. Symbols are defined in contact.state.
 """
 
 import numpy as np
@@ -15,10 +15,11 @@ from viscorough.contact.state import BoundedField, TargetForce
 
 # Largest factor by which the depth grows or shrinks in one iteration.
 _LARGEST_RATIO = 2.0
-# The force counts as met if the error of the depth is at most this share of the largest allowed residual. The remaining
-# difference is corrected along the tangent.
+# A given force counts as met if the depth is wrong by at most this share of the largest allowed residual. The remaining
+# error is corrected along the tangent.
 _ACCURACY = 0.2
-# Stiffness Σq of a single square element, which is used until `prepare` is called: no contact has a smaller Σq.
+# Stiffness Σq of a contact of a single square element. This smallest possible value is used until `prepare` computes an
+# estimate for the contact set.
 _LEAST_STIFFNESS = 0.28
 
 
@@ -36,7 +37,7 @@ class DepthAdjustment:
         self._stiffness = _LEAST_STIFFNESS
 
     def prepare(self, search: ConjugateGradients, places: Integers) -> None:
-        """Compute M 1 and its sum for a new contact set.
+        """Estimate the tangent q and the stiffness Σq for a new contact set, with the preconditioner.
 
         search : ConjugateGradients on the new contact set
         places : indices of the elements of the contact set in flat fields
@@ -45,7 +46,7 @@ class DepthAdjustment:
         self._stiffness = float(self._response.sum(dtype=float))
 
     def is_met(self, pressure: Array, places: Integers, depth: float, limit: float) -> bool:
-        """Return True if the pressures sum to the force, or if they sum to less at the largest allowed depth.
+        """Return True if the given force is met, or if it is not reached even at the largest allowed depth.
 
         pressure : P, flat field
         places : indices of the elements in contact in flat fields

@@ -22,6 +22,7 @@ _TINY = 1e-30
 def inner_product(left, right, slots):
     """Return Σ left·right over the contact set, in double precision.
 
+    left, right : two arrays
     slots : indices of the elements of the contact set in both arrays
     """
     total = 0.0
@@ -66,11 +67,13 @@ def gather_on_set(field, gathered, places):
 
 @njit
 def shift_on_set(depth_step, gap, preconditioned, places, response):
-    """Subtract Δu from the gap e, and Δu M 1 from z = M e, at `places`, in place.
+    """Update the gap e and the preconditioned residual z = M e at `places` after the depth has grown by Δu, in place.
+
+    Δu is subtracted from e, and Δu M 1 from z. M 1 is the product of the preconditioner M with a vector of ones.
 
     depth_step : Δu
     gap, preconditioned : e and z, flat fields
-    response : M 1 at `places`, with the preconditioner M
+    response : M 1 at `places`
     """
     for t in range(places.size):
         gap[places[t]] -= depth_step
@@ -81,12 +84,15 @@ def shift_on_set(depth_step, gap, preconditioned, places, response):
 def energies(
     depths, pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap, places
 ):  # fmt: skip
-    """Return the inner products of three loads with the deflections by the same loads, and the sum of each load.
+    """Return the inner products of three loads with the three deflections by these loads, and the sum of each load.
 
-    The loads are the pressure P, the pressure of the last contact, and the tangent q of the last contact. All sums are
-    over the elements at `places`. The deflections are K P = (e − g) + u and K q = e_q + 1.
+    The loads are the pressure P of a contact, and the pressure P' and the tangent q' of the last contact before it. The
+    deflections are K P = (e − g) + u, K P' = (e' − g) + u' and K q' = e_q' + 1. All sums are over the elements at
+    `places`.
 
-    depths : u of the contact, and u of the last contact
+    depths : depths u and u' of the two contacts
+    pressure, gap_change : P and e − g, flat fields
+    last_pressure, last_gap_change, last_tangent, last_tangent_gap : P', e' − g, q' and e_q', flat fields
 
     Returns the products of load i and deflection j, shape (3, 3), and the sums of the loads, shape (3,).
     """
@@ -107,14 +113,17 @@ def energies(
 def predict(
     depth_step, early_step, predicted, predicted_change, inside, pressure, tangent, gap_change, tangent_gap, initial_gap
 ):  # fmt: skip
-    """Predict pressure, gap and contact set after a step of the depth, along the tangent.
+    """Predict pressure, gap and contact set after the depth has grown by Δu, by extrapolation along the tangent.
 
-    Stores P + Δu q in `predicted`, e − g + Δu e_q in `predicted_change`, and the first guess of the contact set in
-    `inside`: all elements with a predicted pressure, and elements that touch within `early_step`. Elements whose
-    predicted pressure is negative (tension) are in this set, too; they leave it during the iteration.
+    The contact set is only a first guess: all elements with a predicted pressure, and all elements that touch within a
+    shorter step of the depth. Elements with a negative predicted pressure (tension) are included; they leave the
+    contact set during the iteration.
 
     depth_step : Δu
-    early_step : shorter step of the depth, which excludes elements that touch late
+    early_step : the shorter step, which excludes elements that touch late in the step Δu
+    predicted, predicted_change : P + Δu q and e − g + Δu e_q are stored here, flat fields
+    inside : set to True for the elements of the predicted contact set, to False for others, flat field
+    pressure, tangent, gap_change, tangent_gap, initial_gap : P, q, e − g, e_q and g before the step, flat fields
     """
     for i in range(pressure.size):
         predicted[i] = pressure[i] + depth_step * tangent[i]
@@ -128,11 +137,16 @@ def combine(
     weights, shift, tangent, tangent_gap,
     pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap,
 ):  # fmt: skip
-    """Combine two pressures and a tangent to a new tangent q; store q in `tangent`, and e_q = K q − 1 in `tangent_gap`.
+    """Compute a linear combination of two pressures and a tangent as a new tangent q = a P + b P' + c q'.
 
-    weights : weights of the pressure, of the pressure of the last contact, and of the tangent of the last contact
-    shift : constant part of e_q. It follows from the deflections K P = (e − g) + u by the pressures, and K q = e_q + 1
-        by the tangent of the last contact
+    P is the pressure of a contact at the depth u. P' and q' are the pressure and the tangent of the last contact before
+    it, at the depth u'.
+
+    weights : a, b and c
+    shift : a u + b u' + c − 1, the constant part of e_q = K q − 1, since K P = (e − g) + u and K q' = e_q' + 1
+    tangent, tangent_gap : q and e_q are stored here, flat fields
+    pressure, gap_change : P and e − g, flat fields
+    last_pressure, last_gap_change, last_tangent, last_tangent_gap : P', e' − g, q' and e_q', flat fields
     """
     pressure_weight, last_pressure_weight, tangent_weight = weights
     for i in range(pressure.size):
@@ -145,7 +159,7 @@ def combine(
 
 @njit(fastmath=True)
 def update_gap(length, deflection, gap):
-    """Add length · deflection to a flat field at all elements of the grid, in place.
+    """Add length · deflection to the flat field `gap` at all elements of the grid, in place.
 
     length : length of a step along the search direction d
     deflection : K d, in rows and columns
@@ -160,7 +174,11 @@ def update_gap(length, deflection, gap):
 
 @njit(fastmath=True)
 def update_pressure(length, direction, pressure, places, slots):
-    """Add length · direction to the pressure on the contact set, in place; return True if any pressure is negative."""
+    """Add length · direction to `pressure` on the contact set, in place; return True if any pressure becomes negative.
+
+    direction : search direction, laid out like the load array of the operator
+    pressure : flat field
+    """
     lowest = 0.0
     for t in range(places.size):
         i = places[t]
@@ -199,10 +217,14 @@ def direction_sums(direction, deflection, preconditioned, gap, places, slots):
 
 @njit
 def unloaded_under_tension(direction, pressure, places, slots):
-    """Return the places of elements without pressure that any step along the direction would put under tension."""
+    """Return the indices of elements without pressure that any step along the direction would put under tension.
+
+    The indices refer to flat fields.
+    """
     found, count = np.empty(places.size, places.dtype), 0
     for t in range(places.size):
-        # Every place is stored, and overwritten by the next place unless `count` grows: faster than a branch.
+        # Write every place to the array, but count it only if the step puts the element under tension. The next place
+        # overwrites a place that is not counted. This is faster than an if statement.
         found[count] = places[t]
         count += (pressure[places[t]] == 0) & (direction[slots[t]] < 0)
     return found[:count]
@@ -222,11 +244,13 @@ def step_causes_tension(length, direction, pressure, places, slots):
 def step_and_find_tension(length, direction, pressure, inside, places, slots, first):
     """Add length · direction to the pressure, and mark elements under tension as outside the contact set, in place.
 
-    The direction becomes the change of pressure, length · direction.
+    The array `direction` is overwritten with the change of pressure, length · direction.
 
-    first : position of places[0] among all places of the contact set
+    inside : True for elements in contact, flat field; set to False for elements under tension
+    places, slots : indices of some elements of the contact set
+    first : position of the first of these elements in the list of all elements of the contact set
 
-    Returns the positions of the elements under tension among all places of the contact set.
+    Returns the positions of the elements under tension in the list of all elements of the contact set.
     """
     released, count = np.empty(places.size, np.int64), 0
     for t in range(places.size):
@@ -234,7 +258,8 @@ def step_and_find_tension(length, direction, pressure, inside, places, slots, fi
         direction[slots[t]] = change
         pressure[i] += change
         inside[i] = pressure[i] >= 0
-        # Every position is stored, and overwritten by the next position unless `count` grows: faster than a branch.
+        # Write every position to the array, but count it only if the element is released. The next position overwrites
+        # a position that is not counted. This is faster than an if statement.
         released[count] = first + t
         count += not inside[i]
     return released[:count]
@@ -244,12 +269,12 @@ def step_and_find_tension(length, direction, pressure, inside, places, slots, fi
 def release(direction, pressure, inside, places, slots, released, stencil, width, stride):
     """Set the pressure of elements under tension to zero, and change the pressure of their neighbours, in place.
 
-    The pressure of a neighbour changes as it does when the element under tension is eliminated from the influence
-    matrix, which saves iterations. No neighbour loses more than half of its pressure. All changes are also added to the
-    direction, so that it becomes the total change of pressure in the step.
+    The pressure of a neighbour changes as if the element under tension were eliminated from the influence matrix. This
+    saves iterations. No neighbour loses more than half of its pressure. All changes are also added to `direction`,
+    which thereby becomes the total change of pressure in the step.
 
     inside : True for elements in contact, flat field; already False for elements under tension
-    released : indices of the elements under tension in `places` and `slots`
+    released : positions of the elements under tension in `places` and in `slots`
     stencil : shares of its load that an element passes to its neighbours, from `load_redistribution_stencil`
     width : length of a row of flat fields
     stride : length of a row of the operator's load array
@@ -286,7 +311,7 @@ def add_penetrating_elements(limit, gap_change, initial_gap, inside):
 
 @njit
 def has_open_gap(limit, gap_change, initial_gap, places):
-    """Return True if the gap at any of the places is larger than `limit`; the search begins at the last place."""
+    """Return True if the gap e at any of the `places` exceeds `limit`; the places are searched from last to first."""
     for t in range(places.size - 1, -1, -1):
         i = places[t]
         if gap_change[i] + initial_gap[i] > limit:
@@ -296,16 +321,17 @@ def has_open_gap(limit, gap_change, initial_gap, places):
 
 @njit
 def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, pressure, tangent):
-    """Return weighted sums over the elements that join the contact in a step Δu of the depth.
+    """Return weighted sums over the elements that join the contact while the depth grows by Δu.
 
-    An element touches the surface after a share t of the step: t = max(−e/e_q, Δu − P/q)/Δu, limited to 0 to 1. Here e
-    and e_q are the gap and the tangent gap before the step, P and q the pressure and the tangent after the step.
+    For each element, let t be the share of the step Δu after which the element touches the surface. The estimate is
+    t = max(−e/e_q, Δu − P/q)/Δu, clipped to the range from 0 to 1. Here e and e_q = de/du are the gap and the tangent
+    gap before the step, P and q = dP/du the pressure and the tangent after the step.
 
     gap_change, initial_gap, tangent_gap : e − g, g and e_q before the step, flat fields
     width : Δu
-    share : shares s of the step, shape (n,)
-    places : indices in the flat fields of the elements that join
-    pressure, tangent : P and q after the step of the elements that join
+    share : shares s of the step, from 0 to 1, shape (n,)
+    places : indices in the flat fields of the elements that join the contact
+    pressure, tangent : P and q of the same elements after the step
 
     Returns Σe_q², Σe_q² (1 − t) and, for every s, Σe_q² max(s − t, 0); shape (2 + n,).
     """

@@ -12,10 +12,11 @@ from viscorough.contact.halfspace.influence import influence_coefficient
 def load_redistribution_stencil(aspect: float) -> Array:
     """Return the shares of its load that an element passes to its eight neighbours when it leaves the contact.
 
-    The shares follow from eliminating the element from the influence matrix of the 5 × 5 elements around it. The
-    element itself, at the centre of the stencil, has the share −1. Shape (3, 3).
+    The shares result from eliminating the element from the influence matrix of the 5 × 5 elements around it.
 
     aspect : dy/dx of the elements
+
+    Returns an array of shape (3, 3). At its centre is −1, because the element loses its whole load.
     """
     row, column = np.divmod(np.arange(25.0), 5)
     inverse = np.linalg.inv(influence_coefficient(row[:, None] - row, column[:, None] - column, aspect))

@@ -14,11 +14,11 @@ from viscorough.contact.state import GridFields
 
 
 def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:
-    """Return a flat field whose first and last border rows are zero; the other entries are not initialised.
+    """Return a flat field whose border rows at both ends are zero; the other entries are not initialised.
 
-    A loop on several threads fills the other entries, and so allocates their memory on its threads.
+    Fill the other entries in a loop on several threads. These threads then allocate the memory of the field.
 
-    inner : slice of the field between the first and the last border rows
+    inner : slice of the field that leaves out the border rows at both ends
     """
     field = np.empty(size, dtype)
     field[: inner.start] = field[inner.stop :] = 0
@@ -26,7 +26,7 @@ def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:
 
 
 def joined(parts: Sequence[Integers]) -> Integers:
-    """Concatenate the arrays that a loop has returned for its blocks."""
+    """Concatenate the arrays that a loop has returned, one for each block."""
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
@@ -39,7 +39,8 @@ class GridLoops:
     def each(self, kernel: Callable[..., Any], fixed: Sequence[Any], *arrays: Any) -> list[Any]:
         """Divide arrays of equal length into blocks, and call kernel(*fixed, *parts) for every block.
 
-        parts : the entries of the block, from each of the arrays
+        kernel : function to call; `parts` are the slices of all arrays that belong to the block
+        fixed : arguments that are the same for all blocks
 
         Returns the results of all calls, in the order of the blocks.
         """
@@ -59,14 +60,14 @@ class GridLoops:
         """Compute the gap e at `places` and store it in the flat field `gap`; return the largest |e|."""
         return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
 
-    # A loop over all ranked elements, or over flat fields if two contacts are on the same grid.
+    # Comparison of two contacts: a loop over flat fields if both are on the same grid, else over all ranked elements.
 
     def new_places(self, after: GridFields, before: GridFields) -> tuple[Integers, Integers]:
-        """Return the places of the elements that are in contact in `after` but not in `before`.
+        """Find the elements that are in contact in `after` but not in `before`, which may be on different grids.
 
         Returns two arrays of equal length: indices of these elements in the flat fields of `after`, and in the flat
-        fields of `before`. The grids may differ. An element that `before` has no place for gets the index 0 in the
-        second array; the place 0 is outside the grid.
+        fields of `before`. An element that does not exist in the fields of `before` gets the index 0 in the second
+        array; index 0 belongs to the border of the grid.
         """
         if after.initial_gap is before.initial_gap:
             places = self.difference(after.inside, before.inside)
@@ -74,7 +75,7 @@ class GridLoops:
 
         def new(i: int, j: int) -> Integers:
             is_new = after.inside[after.place[i:j]]
-            place = before.place[i:j]  # shorter than is_new if `before` has fewer ranked elements
+            place = before.place[i:j]  # shorter than `is_new` if fewer elements are ranked in `before`
             is_new[: place.size] &= ~before.inside[place]
             return i + np.flatnonzero(is_new)
 
@@ -86,8 +87,8 @@ class GridLoops:
     def contact_places(self, inside: Mask, width: int, stride: int) -> tuple[Integers, Integers]:
         """Return the indices of the elements in contact, in flat fields and in the flattened load array.
 
-        The indices are uint32, or int64 for large arrays. Loops are faster with unsigned indices, because a negative
-        index would have to be counted from the end of an array.
+        The indices are uint32, or int64 for large arrays. Unsigned indices make loops faster, because they need no
+        check for negative values, which count from the end of an array.
 
         inside : True for elements in contact, flat field
         width : length of a row of flat fields
@@ -105,7 +106,10 @@ class GridLoops:
         return joined(places), joined(slots)
 
     def difference(self, inside: Mask, other: Mask) -> Integers:
-        """Return the places of the elements that are in contact in `inside` but not in `other`, two flat fields."""
+        """Return the indices in flat fields of the elements that are in contact in `inside` but not in `other`.
+
+        inside, other : True for elements in contact, flat fields
+        """
         return joined(self.over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
 
     def largest_overlap(self, gap_change: Array, initial_gap: Array) -> float:
@@ -117,7 +121,7 @@ class GridLoops:
         return min(self.over(field, lambda i, j: field[i:j].min()))
 
     def fill(self, field: Array, value: float) -> None:
-        """Set a field to a value everywhere, in place."""
+        """Set all entries of a field to a value, in place."""
         self.over(field, lambda i, j: field[i:j].fill(value))
 
     def shifted(self, field: Array, shift: float, out: Array) -> None:
@@ -127,7 +131,7 @@ class GridLoops:
         run_blocks(lambda i, j: np.subtract(field[i:j], number, out=out[i:j]), rows, self.threads, -(-BLOCK // columns))
 
     def update_gap(self, length: float | np.floating[Any], deflection: Array, gap: Array) -> None:
-        """Add length · deflection to a flat field at all elements of the grid, in place.
+        """Add length · deflection to the flat field `gap` at all elements of the grid, in place.
 
         length : length of a step along the search direction d
         deflection : K d, in rows and columns

@@ -10,32 +10,33 @@ from viscorough.contact.parallel import BLOCK
 from viscorough.contact.preconditioner import BYTES_PER_PLACE
 from viscorough.contact.state import Elements
 
-# Bytes per element for its rank, its place and its initial gap, and for temporary arrays.
+# Number of bytes per element for its rank, position and initial gap, and for temporary arrays.
 _PER_ELEMENT = 60
-# Bytes per height of a map for temporary arrays, while the elements of the map are found.
+# Number of bytes per point of a map of heights, for temporary arrays that exist while the elements are found.
 _PER_HEIGHT = 10
-# Number of flat fields that a loading path holds for its contacts: four contacts with four fields each.
+# Number of flat fields in memory for the contacts of a loading path: four contacts with four fields each.
 _CONTACT_FIELDS = 16
-# Number of flat fields that a loading path holds for its contacts at small tolerances. The path then holds six contacts
-# with four fields each, since more contacts are solved ahead.
+# Number of flat fields in memory for the contacts of a loading path if the tolerance is so small that gaps need double
+# precision: six contacts with four fields each, since more contacts are then solved ahead.
 _CONTACT_FIELDS_IF_EXACT = 24
-# Number of other flat fields: the fields of the grid solver, and temporary fields.
+# Number of flat fields in memory in addition to the fields of contacts: those of the grid solver, and temporary fields.
 _OTHER_FIELDS = 4
-# Bytes of other arrays per place of the grid: contact sets and the preconditioner.
+# Number of bytes per entry of a flat field for other arrays: contact sets and the preconditioner.
 _PER_PLACE = 12 + BYTES_PER_PLACE
-# Bytes per element in the linear problems of complete contact: vectors of the iteration, and two indices.
+# Number of bytes per element for the linear problems of complete contact: vectors of the iteration, and two indices.
 _PER_JOINED_ELEMENT = 104
-# Bytes per place of the grid in the linear problems of complete contact: contact set, residual and preconditioner.
+# Number of bytes per entry of a flat field for the linear problems of complete contact: contact set, residual and
+# preconditioner.
 _PER_JOINED_PLACE = 25 + BYTES_PER_PLACE
-# Number of double-precision arrays with the size of the spectrum of the influence coefficients. The spectrum is kept,
-# and the set-up of the operator needs a second array.
+# Number of double-precision arrays as large as the spectrum of the influence coefficients: the spectrum, and a second
+# array while the operator is set up.
 _SPECTRA = 2
-# Each thread needs two blocks of columns for convolutions (module column_fft). The rows of the two blocks together have
-# this number of entries.
+# Each thread needs two blocks of columns for convolutions (module column_fft). This is the number of array entries in a
+# row of the first block and a row of the second block together.
 _NUMBERS_PER_ROW = 2 * 152
 # Number of columns in a block of columns (module column_fft).
 _COLUMNS_PER_BLOCK = 64
-# Bytes for a map of any size: tables, and dense solutions of hundreds of elements.
+# Number of bytes that are needed for a map of any size: for tables, and for dense solutions of hundreds of elements.
 _CONSTANT = 6e6
 
 
@@ -49,9 +50,8 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
     threads : number of threads; each has its own buffers
 
     The estimate is proportional to the number of points of the padded grid around all elements, including its border,
-    because the arrays of the contact have this size. For narrow strips, these points are several times as many as the
-    elements. The estimate is up to twice as large as the memory that is used
-    (tests/viscorough/basics/test_memory.py).
+    because the arrays of the contact have this size. A narrow strip has several times fewer elements than such points.
+    The estimate is up to twice as large as the memory that is used (tests/viscorough/basics/test_memory.py).
     """
     inside = np.isfinite(heights)
     rows, columns = (int(np.ptp(np.flatnonzero(inside.any(axis=axis)))) + 1 for axis in (1, 0))
@@ -65,7 +65,7 @@ def require_for_box(heights: Array, box: tuple[int, ...], *, exact: bool, thread
 
     The arrays of the elements are not counted, since they exist already.
 
-    heights : map of heights, of which the message of the error gives the shape
+    heights : map of heights; the message of the error states its shape
     box : (first row, first column, rows, columns)
     exact, threads : see `require_for_contact`
     """
@@ -92,7 +92,7 @@ def _grid_bytes(rows: int, columns: int, *, exact: bool, threads: int) -> float:
 def _operator_bytes(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], threads: int) -> float:
     """Return the number of bytes of the half-space operators on a grid, and of the spectrum that they share.
 
-    bytes_of_numbers : bytes of a number in the precision of each operator; 4 for single, 8 for double precision
+    bytes_of_numbers : for each operator, the bytes of a number in its precision: 4 for single, 8 for double precision
     """
     rows, columns = sorted((int(rows), int(columns)))
     along_columns, along_rows = convolution_lengths(rows, columns)
@@ -103,8 +103,8 @@ def _operator_bytes(rows: int, columns: int, bytes_of_numbers: tuple[int, ...], 
         # Each thread has two blocks of rows. The number of rows in a block is a multiple of 16.
         buffers += min(threads, -(-rows // 16)) * 2 * along_rows * (BLOCK // columns + 16)
     for bytes_of_number in bytes_of_numbers:
-        # An operator stores the load and the deflection, which are padded on small grids only, the transformed rows,
-        # and the spectrum in blocks of columns. Load and deflection have this width.
+        # An operator stores the load, the deflection, the transformed rows, and the spectrum in blocks of columns. Load
+        # and deflection have rows of this width, because they are padded on small grids only.
         width = along_rows if rows * columns <= BLOCK else columns
         operators += bytes_of_number * (rows * (2 * width + along_rows) + 1.2 * spectrum + buffers)
     return operators

@@ -1,8 +1,8 @@
 """Iterate for the pressure of a contact on a grid by preconditioned conjugate gradients on a shrinking contact set.
 
-Elements under tension leave the set, and elements that overlap the surface join it. The operator gives the deflection
-K d by a search direction d on the whole grid, so the gap is known everywhere at no further cost. There are two kinds of
-step:
+Elements under tension leave the set, and elements that overlap the surface join it. The half-space operator computes
+the deflection K d by a search direction d on the whole grid, so the gap is known everywhere at no further cost. There
+are two kinds of step:
 
 1. Release step: the length of the step along d is fixed in advance, and elements that the step puts under tension
    leave the set. The operator is then applied once, to the whole change of pressure by the step and by the removal of
@@ -10,10 +10,9 @@ step:
 2. Conjugate step: the step has the length that minimises the energy along d, and no element leaves. This is a step of
    the method of conjugate gradients.
 
-A release step is taken if it would put any element under tension, otherwise a conjugate step. After steps of either
-kind, the next direction is conjugate to the last change of pressure. If the bound on the rounding error
-nears the tolerance, the gap is recomputed from the pressure. If possible this happens in a release step, which applies
-the operator anyway.
+A release step is taken if it would put any element under tension, otherwise a conjugate step. After both kinds of step,
+the next direction is conjugate to the last change of pressure. If the bound on the rounding error nears the tolerance,
+the gap is recomputed from the pressure. If possible, a release step does this, because it applies the operator anyway.
 
 Symbols are defined in contact.state. M is the preconditioner.
 """
@@ -26,27 +25,28 @@ from viscorough.contact.grid.depth_adjustment import DepthAdjustment
 from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.state import BoundedField, ContactSet, TargetForce
 
-# Before the first step, elements without pressure that this step would put under tension are removed from the contact
-# set if they are more than this share of the set. The preconditioned residual of a far too large set is of little use.
+# Elements without pressure that the first step would put under tension do not belong in the contact set. If they are
+# more than this share of the set, they are removed before the step, because the preconditioned residual on a far too
+# large set gives a poor search direction.
 _EXCLUDED = 0.05
-# A release step recomputes the gap if the bound on the rounding error of the gap exceeds this share of the largest
-# allowed residual, and if a step adds less than this share to the bound. Recomputing then takes the place of the
-# operator application of the step.
+# Share of the largest allowed residual. If the bound on the rounding error of the gap exceeds this share, and further
+# steps add less than this share, the gap is recomputed from the pressure in a release step. The step then needs no
+# other application of the operator.
 _INEXACT = 0.25
-# Length of all release steps of a contact except the first, which has length 1. It is about the inverse of the mean
-# eigenvalue of M K, with the preconditioner M. In the first step the contact set is too large, so the residual
-# overestimates the change of pressure.
+# Length of the second and all later release steps of a contact. It is about the inverse of the mean eigenvalue of M K,
+# with the preconditioner M. The first release step has length 1, because the contact set is still too large, so the
+# residual overestimates the change of pressure.
 _LATER_STEPS = 1.1
 # The length of release steps is halved each time this number of release steps has been taken. After the first halving,
-# conjugate gradients also start anew after every release step. This is a safeguard against cycles if the preconditioner
-# is poor.
+# conjugate gradients also start anew after every release step. This is a safeguard against endless cycles with a poor
+# preconditioner.
 _HALVE_STEP_EVERY = 20
 # The iteration aims at this share of the tolerance, so that residual and rounding error together stay within the
 # tolerance.
 _SEARCH_SHARE = 0.999
-# If fewer elements than this are in contact, the largest allowed residual is reduced in proportion to their number. An
-# element whose overlap is below the tolerance would be left out, although it carries a large part of the force of so
-# small a contact.
+# If fewer elements than this are in contact, the largest allowed residual is reduced in proportion to their number.
+# Otherwise an element could be left out because its overlap is below the tolerance, although it carries a large part of
+# the force of such a small contact.
 _FEW = 100
 # Smallest ratio of the residual to the depth that single precision can reach.
 _LEAST_RESIDUAL = 1e-5
@@ -54,7 +54,7 @@ _LEAST_RESIDUAL = 1e-5
 
 @dataclass
 class TrialContact:
-    """First guess of a contact; PressureIteration changes the guess, its arrays in place, until it is the solution.
+    """First guess of a contact, which PressureIteration changes in place until it is the solution.
 
     pressure : P, flat field
     change : BoundedField of e − g
@@ -69,11 +69,13 @@ class TrialContact:
 
 
 class PressureIteration:
-    """Iteration for one contact with P ≥ 0, until |e| in contact and the overlap elsewhere are below a limit.
+    """Iteration for the pressures P ≥ 0 of one contact.
+
+    It ends when the residual |e| in contact, and the overlap of indenter and surface elsewhere, are below a limit.
 
     grid : GridWorkspace; no other iteration may use it at the same time
     trial : TrialContact, the first guess, which becomes the solution
-    target : TargetForce to which the depth is adjusted during the iteration; None: the depth is kept
+    target : TargetForce; the depth is adjusted to this force during the iteration. None: the depth is kept
     """
 
     def __init__(self, grid: GridWorkspace, trial: TrialContact, target: TargetForce | None = None) -> None:
@@ -84,8 +86,8 @@ class PressureIteration:
         self._set_changed = False  # True if `trial.inside` has changed since `_contact_set` was made
         self._has_tension = grid.loops.lowest(trial.pressure) < 0
         self._releases = 0  # number of release steps so far
-        # `_measure` sets these numbers at the start of every iteration: the largest allowed |e|, the largest |e| on the
-        # contact set, and the |e| below which the iteration may end.
+        # `_measure` sets these three numbers at the start of every iteration: the largest allowed |e|, the largest |e|
+        # on the contact set, and the value of |e| below which the iteration may end.
         self._limit = self._largest = self._close_enough = 0.0
 
     def solve(self) -> ContactSet:
@@ -114,19 +116,19 @@ class PressureIteration:
         raise self._grid.not_converged(self._contact_set, self._largest, self._limit)
 
     def _measure(self) -> None:
-        """Compute the largest residual |e| on the current contact set, and the limits for it."""
+        """Compute the largest residual |e| on the current contact set, and the limits that it must not exceed."""
         grid, trial = self._grid, self._trial
         if self._set_changed:
             self._contact_set = grid.contact_set(trial.inside)
         self._limit = self._largest_residual()
         places = self._contact_set.places
         self._largest = grid.loops.largest_gap(trial.change.values, grid.initial_gap, grid.residual, places)
-        # Residual and rounding error together must not exceed the limit. If the rounding error is more than half of the
-        # limit, the gap is recomputed as soon as the residual is no larger than the rounding error.
+        # Residual and rounding error together must not exceed the limit. If the rounding error exceeds half of the
+        # limit, `_try_to_finish` recomputes the gap when the residual has fallen to the rounding error.
         self._close_enough = max(self._limit - trial.change.rounding, trial.change.rounding)
 
     def _largest_residual(self) -> float:
-        """Return the largest |e| in contact, and the largest overlap elsewhere, that the solution may have."""
+        """Return the limit for |e| in contact, and for the overlap of indenter and surface elsewhere."""
         tolerance, share = self._grid.tolerance, min(self._contact_set.places.size / _FEW, 1.0)
         return _SEARCH_SHARE * max(share * tolerance, min(tolerance, _LEAST_RESIDUAL)) * self._trial.depth
 
@@ -138,9 +140,10 @@ class PressureIteration:
         return not self._adjustment or self._adjustment.is_met(trial.pressure, places, trial.depth, self._limit)
 
     def _try_to_finish(self) -> bool:
-        """Return True if no element joins the contact set and the gap is accurate; otherwise improve set or gap.
+        """Return True if the contact set is complete and the gap is accurate; otherwise improve set or gap.
 
-        The set is improved by adding overlapping elements, the gap by recomputing it from the pressure.
+        If elements outside the set overlap the surface, add them to the set. If the rounding error of the gap is too
+        large, recompute the gap from the pressure.
         """
         trial = self._trial
         self._set_changed = False
@@ -151,7 +154,8 @@ class PressureIteration:
             return True
         self._grid.recompute_gap(trial.pressure, trial.depth, trial.change)
         self._grid.add_penetrating_elements(trial.change, trial.inside, self._limit)
-        # The recomputation may have used the load array that held the search direction, so a new search must begin.
+        # The recomputation may have overwritten the search direction, which is kept in the load array of the operator.
+        # So conjugate gradients must begin anew.
         self._set_changed, self._search = True, None
         return False
 
@@ -172,7 +176,7 @@ class PressureIteration:
         return self._search.next_direction(residual)
 
     def _exclude_unloaded(self, direction: Direction) -> bool:
-        """If a step would put many unloaded elements under tension, remove these elements from the contact set.
+        """Remove elements without pressure from the contact set if a step would put many of them under tension.
 
         Returns True if elements were removed.
         """
@@ -184,7 +188,7 @@ class PressureIteration:
         return True
 
     def _can_recompute(self) -> bool:
-        """Return True if the rounding error of the gap is too large, and recomputing the gap is worthwhile.
+        """Return True if the rounding error of the gap is too large, and recomputing the gap is worthwhile now.
 
         It is worthwhile if later steps add so little rounding error that the gap need not be recomputed again.
         """
@@ -197,7 +201,10 @@ class PressureIteration:
         return self._grid.step_rounding * self._largest + self._grid.field_rounding * self._trial.depth
 
     def _take_release_step(self, direction: Direction, length: float, recomputes: bool) -> None:
-        """Take a step of given length, remove elements under tension, and update the gap (or recompute the gap)."""
+        """Take a step of given length, remove elements under tension, and update the gap.
+
+        recomputes : True if the gap is recomputed from the pressure; False if the deflection by the step is added to it
+        """
         trial = self._trial
         direction.step_and_release(length, trial.pressure, self._grid.width)
         self._releases += 1

@@ -2,10 +2,10 @@
 
 A solution has three steps:
 
-1. Predict the pressure P + Δu q from the tangent q at the smaller depth. The first contact set consists of the elements
-   in contact at the smaller depth, and of the elements that overlap the surface after the prediction. Elements that
-   would touch late in the step are left out, because the growing contact bends the surface away from them further than
-   predicted. (With the late elements, the first set would contain all elements of the solution, for the same reason.)
+1. Predict the pressure P + Δu q from the tangent q at the smaller depth. Guess the contact set: all elements in contact
+   at the smaller depth, and all elements that are predicted to touch early in the step. Elements that are predicted to
+   touch late are left out, because the growing contact bends the surface away from them further than predicted. (With
+   the late elements, the guess would contain all elements of the solution, and further elements.)
 2. Solve for the pressure (module pressure_iteration).
 3. Solve for the tangent (module tangent_iteration), with a first guess from the module tangent_start.
 
@@ -37,25 +37,25 @@ from viscorough.contact.state import (
     TargetForce,
 )
 
-# A box is transposed if the ratio of its rows to its columns exceeds this number: the operator works on blocks of
-# columns, and the few columns of such a box would not fill a block.
+# If the ratio of rows to columns of a box exceeds this number, rows and columns are exchanged. The operator works on
+# blocks of columns, and the few columns of such a box would not fill a block.
 _TALL = 4
 
 
 class GridSolver:
-    """Solver for the contact of elements in a box of the grid, starting from a contact at a smaller depth.
+    """Solver for the contact of the elements in a box of the grid, starting from a contact at a smaller depth.
 
-    box : (first row, first column, rows, columns)
+    box : rectangle of the grid, (first row, first column, rows, columns)
     elements : state.Elements in any order; the rank of an element is its position in the arrays of `elements`
     tolerance : largest allowed |e| in contact, and overlap elsewhere, relative to the depth
     options : SolverOptions
     threads : number of threads
-    reach : the first `reach` elements can touch; by default all elements in the box can
+    reach : only the first `reach` elements can touch; by default all elements in the box can
 
     box : the argument of the same name
-    is_restricted : True if the operator is restricted to tiles that contain elements, because these tiles are a small
-        part of the box
-    place : index in flat fields of every element, in the order of ranks; 0 for elements outside the box
+    is_restricted : True if the operator computes deflections only in tiles that contain elements, because these tiles
+        are a small part of the box
+    place : for every element, in the order of ranks, its index in flat fields; 0 for elements outside the box
     initial_gap : initial gap g, flat field
     """
 
@@ -80,15 +80,16 @@ class GridSolver:
         self._loops, self._units = self._workspace.loops, elements.units
         self.initial_gap = self._workspace.initial_gap
         # A restricted operator computes deflections only in tiles with elements that can touch, so only these elements
-        # get places.
+        # get an index in flat fields.
         self.place_elements(elements, reach if self.is_restricted else None)
 
     def place_elements(self, elements: Elements, reach: int | None = None) -> None:
-        """Assign places in flat fields to the first `reach` elements (default: to all), and store their initial gaps.
+        """Compute the indices in flat fields of the first `reach` elements, and store their initial gaps.
 
-        An element outside the box gets the place 0; the initial gap stored at this place is not changed.
+        An element outside the box gets the index 0; the initial gap stored at this index is not changed.
 
-        elements : Elements; they begin with the elements of the last call
+        elements : Elements; since the last call, elements may only have been appended
+        reach : number of elements; by default all
         """
         (top, left, rows, columns), row, column = self._oriented(elements, reach)
         field, width = self.initial_gap, columns + 2 * BORDER
@@ -108,7 +109,7 @@ class GridSolver:
     def _oriented(self, elements: Elements, reach: int | None) -> tuple[tuple[int, ...], Integers, Integers]:
         """Return the box, and the rows and columns of the first `reach` elements.
 
-        Rows and columns are exchanged if the grid is transposed.
+        Rows and columns are exchanged if the solver works on a transposed box.
         """
         box, row, column = self.box, elements.row[:reach], elements.column[:reach]
         return ((*box[1::-1], *box[:1:-1]), column, row) if self._is_transposed else (box, row, column)
@@ -146,7 +147,7 @@ class GridSolver:
     def solve(self, start: GridContact | MemberLoads, depth: float, target: TargetForce | None = None) -> GridContact:
         """Solve the contact at a reduced depth.
 
-        start : contact on this grid at a smaller depth, or loads as a first guess
+        start : contact on this grid at a smaller depth, or MemberLoads of a similar contact as a first guess
         depth : reduced depth u
         target : if given, the contact is solved at this TargetForce, and `depth` is only a first guess
 
@@ -161,7 +162,7 @@ class GridSolver:
         return self._contact(trial.depth, GridFields(*solution, self.initial_gap, self.place), contact_set)
 
     def _predicted(self, contact: GridContact, depth: float) -> TrialContact:
-        """Predict the pressure, e − g and the contact set at a depth, from a contact at a smaller depth."""
+        """Predict pressure, gap and contact set at a depth, by extrapolation from a contact at a smaller depth."""
         before, depth_step = contact.fields, depth - contact.reduced_depth
         inner, precision = self._workspace.inner, self._workspace.precision
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
@@ -174,7 +175,10 @@ class GridSolver:
         return TrialContact(pressure, BoundedField(change, rounding), inside, depth)
 
     def _guessed(self, loads: MemberLoads, depth: float) -> TrialContact:
-        """Build a first guess of the contact at a depth from the pressures of similar loads; no fields are needed."""
+        """Build a first guess of the contact at a depth from the pressures of a similar contact.
+
+        loads : MemberLoads of the similar contact, which need not be on this grid
+        """
         grid = self._workspace
         pressure, inside, place = grid.zeros(), grid.zeros(bool), self.place[loads.members]
         pressure[place] = loads.pressure
@@ -186,9 +190,9 @@ class GridSolver:
     def settled(self, contact: GridContact, depth: float, pressure_sum: float) -> GridContact:
         """Extrapolate the contact along its tangent to a nearby depth, and rescale its pressures to the given sum.
 
-        Adding c q to the pressures adds c to the gap in contact, because K q = 1. So the residual grows by at most the
-        sum of two terms: the mean, with weights q, of the gap that remains in contact, and the difference between the
-        depth of `contact` and the new depth. The gap is recomputed from the new pressures.
+        The extrapolation adds c q to the pressures, with a number c. This adds c to the gap in contact, since K q = 1.
+        The residual grows at most by the difference between the two depths, plus the mean of the remaining gap in
+        contact, weighted with q. The gap is recomputed from the new pressures.
 
         contact : solved contact on this grid
         depth : new reduced depth
@@ -217,13 +221,13 @@ class GridSolver:
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
         contact_set = self._workspace.contact_set(inside)
-        # The caller passes the same array e_q for one set after another, so no bound on its rounding error is known.
+        # The caller uses the same array of e_q for different contact sets, so no bound on its rounding error is known.
         solve_tangent(self._workspace, contact_set, tangent, BoundedField(tangent_gap, np.inf))
         places = contact_set.places
         return self._loops.total(tangent, places) - self._loops.inner_product(tangent, tangent_gap, places)
 
     def _contact(self, depth: float, fields: GridFields, contact_set: ContactSet) -> GridContact:
-        """Build a GridContact from solved fields at a reduced depth; compute its sums ΣP and Σq and its residual."""
+        """Build a GridContact from solved fields at a reduced depth, with the sums ΣP and Σq and the residual."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
         inner, residual = self._workspace.inner, self._workspace.residual
         largest = self._loops.largest_gap(change.values, self.initial_gap, residual, places)

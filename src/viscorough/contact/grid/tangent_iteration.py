@@ -8,11 +8,12 @@ from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE
 from viscorough.contact.state import BoundedField, ContactSet
 
-# Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
+# Largest relative error of the tangent q in the energy norm. The square of this error is the relative error of the
+# stiffness.
 _TANGENT_TOLERANCE = 1e-2
-# Largest accepted rounding error of e_q = K q − 1, relative to the tolerance of the contact. The stiffness depends on
-# the mean of e_q over the contact set, not on the largest e_q, and therefore stays within the tolerance
-# (tests/viscorough/contact/test_loading_path.py).
+# Largest accepted rounding error of e_q = K q − 1, as a multiple of the tolerance of the contact. The error of the
+# stiffness nevertheless stays within the tolerance, because it depends on the mean of e_q over the contact set, not on
+# the largest e_q (tests/viscorough/contact/test_loading_path.py).
 _TANGENT_ROUNDING = 5.0
 
 

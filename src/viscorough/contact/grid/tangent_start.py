@@ -1,9 +1,9 @@
 """Compute a first guess of the tangent of a new contact from fields that are already known.
 
-A step leads from the last contact to the new contact. The pressure of the last contact, the tangent of the last
-contact, and the pressure of the new contact have been computed with their deflections. The tangent q of the new contact
-is almost a linear combination of these three fields. The first guess is the combination that is closest to q in the
-energy norm.
+A step of the depth leads from the last contact to the new contact. Three fields and their deflections have been
+computed: the pressure and the tangent of the last contact, and the pressure of the new contact. The tangent q of the
+new contact is almost a linear combination of these three fields. The first guess is the combination that is closest to
+q in the energy norm.
 """
 
 import numpy as np
@@ -14,8 +14,8 @@ from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.pressure_iteration import TrialContact
 from viscorough.contact.state import BoundedField, ContactSet, GridContact
 
-# Eigenvalues of the energy matrix of the three fields that are below this share of the largest eigenvalue are rounding
-# errors and count as zero.
+# The energy matrix contains the inner products of the three fields with their deflections. Its eigenvalues below this
+# share of the largest eigenvalue are rounding errors and count as zero.
 _DEPENDENT = 1e-10
 
 
@@ -27,7 +27,7 @@ def initial_tangent(
     trial : the new contact, whose pressure is solved
     last : GridContact before the step; None if the new contact was solved from loads only
     contact_set : ContactSet of the new contact
-    inner : slice of flat fields between the first and the last border rows
+    inner : slice of flat fields that leaves out the border rows at both ends
     loops : GridLoops that run the loops over the grid
     """
     pressure, change, depth = trial.pressure, trial.change, trial.depth
@@ -38,15 +38,15 @@ def initial_tangent(
         last_fields = before.pressure, before.gap_change.values, before.tangent, before.tangent_gap.values
         computed = pressure, change.values, *last_fields
         last_rounding, tangent_rounding = before.gap_change.rounding, before.tangent_gap.rounding
-    # Elements can leave the contact within the tolerance. The fields of the last contact then load elements outside the
-    # new contact set, so these fields cannot be part of q.
+    # q must be zero outside the new contact set. If an element has left the contact, which is possible within the
+    # tolerance, the fields of the last contact are not zero on it. Then use only the pressure of the new contact.
     only_now = last is None or loops.difference(last.fields.inside, contact_set.inside).size > 0
     combined = slice(1) if only_now else slice(3)
     parts = loops.each(kernels.energies, ((depth, last_depth), *computed), contact_set.places)
     energy, sums = (sum(part) for part in zip(*parts, strict=True))
     energy, sums = energy[combined, combined], sums[combined]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
-    # Solve in the sense of least squares, since the fields may be multiples of each other.
+    # Compute a least-squares solution, since the three fields may be linearly dependent.
     eigenvalues, vectors = np.linalg.eigh(scale[:, None] * energy * scale)
     independent = eigenvalues > _DEPENDENT * eigenvalues[-1]
     vectors = vectors[:, independent]
@@ -56,8 +56,8 @@ def initial_tangent(
     tangent, tangent_gap = (field_to_fill(pressure.size, pressure.dtype, inner) for _ in range(2))
     fields = (field[inner] for field in (tangent, tangent_gap, *computed))
     loops.each(kernels.combine, (weights, a * depth + b * last_depth + c - 1), *fields)
-    # Bound the rounding error of the combined e_q. Unless the new gap was recomputed, its error contains the errors of
-    # the last gap and of the last tangent gap, which partly cancel in the combination.
+    # Bound the rounding error of the combined e_q. If the new gap was predicted and not recomputed, its error contains
+    # the errors of the last gap and of the last tangent gap, which partly cancel in the combination.
     depth_step = depth - last_depth
     added = change.rounding - last_rounding - depth_step * tangent_rounding
     if added >= 0:

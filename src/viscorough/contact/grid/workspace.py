@@ -30,7 +30,7 @@ from viscorough.contact.options import SolverOptions
 from viscorough.contact.preconditioner import Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
 
-# Initial gap at places without an element: a number far above the largest depth, so that these places never touch.
+# Initial gap at points of the grid without an element: a number far above the largest depth, so that they never touch.
 _OUTSIDE = 1e30
 
 
@@ -42,13 +42,14 @@ class GridWorkspace:
     options : SolverOptions
     aspect : dy/dx of the elements
     threads : number of threads
-    tiles : True for tiles with elements that can touch (see `halfspace.tiles.tiles_with`), to which the operator is
-        restricted; None: the operator is not restricted
+    tiles : True for tiles with elements that can touch (see `halfspace.tiles.tiles_with`). The operator then computes
+        deflections only in these tiles. None: it computes deflections on the whole grid
 
     tolerance, options : the arguments of the same names
     loops : GridLoops that run the loops over the grid
     width : length of a row of flat fields
-    inner : slice of flat fields between the first and the last border rows; for a strip, most rows are border rows
+    inner : slice of flat fields that leaves out the border rows at both ends. This saves work on a narrow strip, where
+        most rows are border rows
     initial_gap : initial gap g, flat field; the grid solver sets the values at places with elements
     residual : e or e_q on the contact set, flat field that every iteration overwrites
     precision : floating-point type of all flat fields except `residual`
@@ -83,8 +84,9 @@ class GridWorkspace:
             for halfspace in (self._halfspace, self._exact)
         )
         self.precision = self._exact.load.dtype.type
-        # A step rounds e − g, which is at most the depth, and the pressure, whose deflection is at most the depth, too.
-        # The option operator_rounding = 0 means that all rounding errors are ignored.
+        # A step of the iteration rounds e − g and the pressure. Both errors are relative to the depth, because neither
+        # e − g nor the deflection by the pressure exceeds the depth. If the option operator_rounding is 0, all rounding
+        # errors are ignored.
         self.field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self.precision).eps
         self.width = columns + 2 * BORDER
         self.inner = slice(BORDER * self.width, -BORDER * self.width)
@@ -104,11 +106,17 @@ class GridWorkspace:
         return ContactSet(inside, *self.loops.contact_places(inside, self.width, self._halfspace.load.shape[1]))
 
     def conjugate_gradients(self, contact_set: ContactSet) -> ConjugateGradients:
-        """Begin conjugate gradients on a contact set; they are invalid once the operator is applied to another load."""
+        """Begin conjugate gradients on a contact set.
+
+        The returned object becomes invalid when the half-space operator is applied to another load.
+        """
         return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._stencil, self.loops)
 
     def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
-        """Return a flat field of zeros; the first loop that writes to the field allocates the memory on its threads."""
+        """Return a flat field of zeros.
+
+        Its memory is allocated later, by the threads of the first loop that writes to the field.
+        """
         return np.zeros(self.initial_gap.size, dtype or self.precision)
 
     def interior(self, field: Array) -> Array:
@@ -130,7 +138,7 @@ class GridWorkspace:
     def recompute_gap(self, pressure: Array, depth: float, change: BoundedField) -> None:
         """Recompute e − g = K P − u from a pressure P and a depth u, in double precision if the tolerance needs it.
 
-        change : BoundedField of e − g; the values are changed in place except in the border, and the bound is renewed
+        change : BoundedField of e − g; its values are changed in place, except in the border, and its bound is renewed
         """
         load = self._exact.load[:, : self.width - 2 * BORDER]
         self.loops.shifted(self.interior(pressure), 0, load)
@@ -148,7 +156,7 @@ class GridWorkspace:
         return sum(self.loops.each(kernels.add_penetrating_elements, (limit,), *fields))
 
     def not_converged(self, contact_set: ContactSet, residual: float, limit: float) -> ConvergenceError:
-        """Return the error for an iteration whose residual has not fallen below its limit."""
+        """Return the ConvergenceError of an iteration whose residual has not fallen below its limit."""
         return ConvergenceError(
             f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
             f"{limit:.1e} in {self.options.max_iterations} steps; choose a larger {argument('tolerance')}"

@@ -1,7 +1,7 @@
 """Convolve the columns of a grid with an even kernel, by Fourier transforms of many columns side by side.
 
-The transforms are implemented here because a convolution needs less than a library's transforms provide: rows without
-data are neither stored nor copied, and frequencies need not be sorted.
+The transforms are implemented here, because a library does more than a convolution needs: rows of zeros need not be
+stored or copied, and frequencies need not be sorted.
 
 Columns are processed in blocks. A row of a block contains first the real parts of all its columns, and then the
 imaginary parts. So every operation acts on as many columns at once as a register of the processor holds.
@@ -17,28 +17,27 @@ from viscorough.contact.parallel import BLOCK, Buffer, aligned_zeros, run_blocks
 
 # Number of columns in a block, which must fit into the cache of the processor.
 _BLOCK = 64
-# The last block may have up to this number of additional columns, so that no very small block is left.
+# The last block may have up to this number of columns more than the other blocks. This avoids a very small last block.
 _REST = 8
-# The distances _PARTS and _ROW must not be powers of two: numbers whose distance in memory is a multiple of a large
-# power of two compete for the same cache lines. The distances are constants so that the compiler can see which numbers
-# do not overlap in memory.
-# Distance in memory from the real part to the imaginary part of a number.
+# Distance in memory from the real part to the imaginary part of a number, in array entries. It must not be a power of
+# two: numbers whose distance in memory is a multiple of a large power of two compete for the same cache lines. The
+# distance is a constant so that the compiler can see which numbers do not overlap in memory.
 _PARTS = _BLOCK + _REST
-# Distance in memory from a row of a block to the next row.
+# Distance in memory from a row of a block to the next row, in array entries; not a power of two, as for _PARTS.
 _ROW = 2 * _PARTS + 8
-# Largest radix of a stage; the length of a transform is the product of the radices (3, 4 or 8) of its stages.
+# Largest radix of a stage. The length of a transform is the product of the radices of its stages: 3, 4 or 8.
 _LARGEST_RADIX = 8
 
 
 def good_length(least: int) -> int:
-    """Return the smallest length of a transform that is at least `least`; lengths are 2^a 3^b with a ≥ 2."""
+    """Return the smallest length of a transform that is at least `least`: a number 2^a 3^b with a ≥ 2."""
     most = int(np.ceil(np.log2(max(least, 4))))
     lengths = [2**a * 3**b for a in range(2, most + 1) for b in range(most)]
     return min(length for length in lengths if length >= least)
 
 
 def _radices(length: int) -> list[int]:
-    """Return radices 3, 4 and 8 whose product is the length, in increasing order, so that the last one is 4 or 8."""
+    """Return radices 3, 4 and 8 in increasing order, whose product is the length; the last radix is 4 or 8."""
     twos = (length & -length).bit_length() - 1
     threes = round(np.log(length >> twos) / np.log(3))
     fours = -twos % 3
@@ -47,16 +46,18 @@ def _radices(length: int) -> list[int]:
 
 @njit(inner=True)
 def _at(x, row, j):
-    """Return the complex number in column j of a row of the block x."""
+    """Return the complex number in a row and in column j of the block x of columns."""
     return complex(x[row, j], x[row, _PARTS + j])
 
 
 @njit(inner=True)
 def _put(y, group, j, value):
-    """Store a complex number in a group of adjacent rows of y.
+    """Store a complex number in the block y of columns, whose adjacent rows are joined to groups.
 
+    y : block of columns, reshaped so that y[group] contains the rows of a group one after the other
     group : index of the group
-    j : column, if the number belongs in the first row of the group; _ROW + column for the second row, and so on
+    j : position of the real part in the group: the column in the first row, _ROW + column in the second row, and so on
+    value : complex number
     """
     y[group, j] = value.real
     y[group, _PARTS + j] = value.imag
@@ -64,7 +65,7 @@ def _put(y, group, j, value):
 
 @njit(inner=True)
 def _put_exchanged(y, group, j, value, factor):
-    """Store a complex number times a real factor, with real and imaginary parts exchanged; see `_put`."""
+    """Store a complex number times a real factor, like `_put`, but with real and imaginary parts exchanged."""
     y[group, j] = value.imag * factor
     y[group, _PARTS + j] = value.real * factor
 
@@ -77,14 +78,14 @@ def _times_minus_i(z):
 
 @njit(inner=True)
 def _transform_of_four(a, b, c, d):
-    """Return the discrete Fourier transform of four complex numbers."""
+    """Return the four numbers of the discrete Fourier transform of four complex numbers."""
     even, odd, even_rotated, odd_rotated = a + c, b + d, a - c, _times_minus_i(b - d)
     return even + odd, even_rotated + odd_rotated, even - odd, even_rotated - odd_rotated
 
 
 @njit(inner=True, fastmath=True)
 def _transform_of_eight(z0, z1, z2, z3, z4, z5, z6, z7, root):
-    """Return the discrete Fourier transform of eight complex numbers.
+    """Return the eight numbers of the discrete Fourier transform of eight complex numbers.
 
     root : √½ in the precision of the numbers
     """
@@ -157,11 +158,16 @@ def _stage_of_eight(x, source, y, before, factors, width):
 
 @njit(inner=True, fastmath=True)
 def _last_stage_of_four(x, source, y, spectrum, frequency, width):
-    """Run the last stage of a transform if its radix is four, and multiply the result by the spectrum.
+    """Run the last stage of a transform, of radix four; multiply the result by the spectrum.
 
-    The last stage needs no twiddle factors. It also exchanges real and imaginary parts.
+    The last stage needs no twiddle factors. It also exchanges real and imaginary parts, so that a second transform
+    is an inverse transform.
 
-    frequency : frequency of every row of the result
+    x, y : blocks of columns; the stage reads from x and writes to y
+    source : row of x for every row that the stage reads
+    spectrum : spectrum of the kernel by frequency and column
+    frequency : frequency of every row of y
+    width : number of columns
     """
     quarter = source.size // 4
     out = y.reshape(quarter, 4 * _ROW)
@@ -179,7 +185,7 @@ def _last_stage_of_four(x, source, y, spectrum, frequency, width):
 
 @njit(inner=True, fastmath=True)
 def _last_stage_of_eight(x, source, y, spectrum, frequency, width):
-    """Run the last stage of a transform if its radix is eight; see `_last_stage_of_four`."""
+    """Run the last stage of a transform, of radix eight, and multiply by the spectrum like `_last_stage_of_four`."""
     eighth = source.size // 8
     out = y.reshape(eighth, 8 * _ROW)
     root = x.dtype.type(np.sqrt(0.5))
@@ -205,7 +211,7 @@ def _last_stage_of_eight(x, source, y, spectrum, frequency, width):
 
 @njit(inner=True)
 def _load(data, first, x, width):
-    """Copy `width` columns of the data, from column `first` on, to the block x; set the row after the data to zero."""
+    """Copy `width` columns of the data, from column `first` on, to the block x, and append a row of zeros."""
     for i in range(data.shape[0]):
         row = data[i][first:]
         for j in range(width):
@@ -218,7 +224,7 @@ def _load(data, first, x, width):
 def _store(x, place, data, first, width):
     """Copy the block x to `width` columns of the data, from column `first` on, and exchange real and imaginary parts.
 
-    place : row of the block for every row of the data
+    place : for every row of the data, the row of the block that is copied to it
     """
     for i in range(data.shape[0]):
         row, at = data[i][first:], place[i]
@@ -228,27 +234,28 @@ def _store(x, place, data, first, width):
 
 @njit
 def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, padded, place, same, x, y):
-    """Convolve blocks of columns in place.
+    """Convolve blocks of columns with the kernels of the columns, in place.
 
-    A block is transformed twice. The last stage of the first transform multiplies the block by the spectrum and
+    A block is transformed twice. The last stage of the first transform multiplies the block by the spectrum. It also
     exchanges real and imaginary parts, so that the second transform is an inverse transform.
 
-    A transform of length n has a stage for each of its radices r. The stage reads rows that are n/r apart, and writes r
-    adjacent rows. The first row holds the frequencies that are 0 modulo r, the second row the frequencies that are 1
-    modulo r, and so on (decimation in frequency with constant geometry; Pease 1968).
+    A transform of length n has a stage for each of its radices r. The stage reads r rows at a distance of n/r rows, and
+    writes r adjacent rows. The first of these rows holds the frequencies that are 0 modulo r, the second row the
+    frequencies that are 1 modulo r, and so on (decimation in frequency with constant geometry; Pease 1968).
 
     start, stop : index of the first block, and index after the last block
     data : complex numbers, shape (rows, columns)
     edges : first column of every block, followed by the total number of columns
-    spectra : spectrum by block, frequency and column
-    frequency : frequency of every row after the last stage
-    stages : for every stage its radix, the product of the radices of all earlier stages, and the index in `factors` of
-        the first row for the stage
-    factors : twiddle factors, with a row for every group of rows. The number of groups in a stage is n divided by the
-        product of the radices up to and including the stage
-    padded : rows that the first stage of the first transform reads; for all rows beyond the data, this is the row of
-        zeros that follows the data
-    place : row of every frequency after the last stage, which the first stage of the second transform reads
+    spectra : spectra of the kernels, by block, frequency and column
+    frequency : frequency in every row of a block after the last stage
+    stages : three numbers for every stage: its radix, the product of the radices of all earlier stages, and the index
+        in `factors` of the first row for the stage
+    factors : twiddle factors, a row for every group of rows with the same factors. A stage has m groups, where m is n
+        divided by the product of all radices up to the radix of the stage
+    padded : rows of a block that the first stage of the first transform reads: the rows with data, and for all further
+        rows the row of zeros that follows the data
+    place : row of a block that contains each frequency after the last stage, in the order of frequencies; the first
+        stage of the second transform reads these rows
     same : 0, 1, 2, …, the rows that all other stages read
     x, y : two blocks; a stage reads from one block and writes to the other
     """
@@ -278,7 +285,7 @@ def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, pad
 class ColumnConvolution:
     """Convolution of every column of a grid with an even kernel, which may differ from column to column.
 
-    rows : number of rows with data
+    rows : number of rows of the grid, without padding
     spectrum : real Fourier transform of the kernel of each column, divided by the length of the transform. The length
         is a `good_length` larger than `rows`; the frequencies are 0 to length/2, shape (length/2 + 1, columns)
     precision : floating-point type of the computation
@@ -292,7 +299,7 @@ class ColumnConvolution:
         for radix in _radices(length):
             groups = rest // radix
             stages.append((radix, before, first))
-            # The factors of all stages are stored in one array, whose rows are long enough for the largest radix.
+            # The twiddle factors of all stages are stored in one array. A row is long enough for the largest radix.
             factors.append(np.exp(-2j * np.pi / rest * np.outer(np.arange(groups), np.arange(_LARGEST_RADIX))))
             frequency = np.add.outer(frequency, length // rest * np.arange(radix)).ravel()
             before, first, rest = before * radix, first + groups, groups
@@ -320,9 +327,10 @@ class ColumnConvolution:
 
 
 class LibraryConvolution:
-    """Convolution like ColumnConvolution, with the Fourier transforms of ducc0, which need no compilation.
+    """Convolution like ColumnConvolution, by the Fourier transforms of the library ducc0, which need no compilation.
 
-    The half-space operator takes 1.3 to 2.3 times as long with this class (`columns` in `make bench`).
+    With this class, the half-space operator takes 1.3 to 2.3 times as long as with ColumnConvolution (measured by
+    `columns` in `make bench`).
     """
 
     def __init__(self, rows: int, spectrum: Array, precision: DTypeLike, threads: int = 1) -> None:

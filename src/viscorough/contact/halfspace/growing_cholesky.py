@@ -1,9 +1,9 @@
 """Update the Cholesky factor L of the influence matrix of a contact set that grows element by element.
 
-Two methods that follow contact events use this module: the dense elastic path (contact.dense), and the direct
-integration of the viscous problem (viscous.integration.events). The integration serves as a check of the elastic path.
-The two methods share only the influence coefficients and this linear algebra, which is tested against a full
-factorisation. The functions have many arguments because compiled code takes plain arrays only.
+Two methods use this module, because both add one element after another to the contact: the dense elastic solver
+(contact.dense), and the direct integration of the viscous problem (viscous.integration.events). The integration serves
+as a check of the elastic solver. The two methods share only the influence coefficients and this linear algebra, which
+is tested against a full factorisation. The functions have many arguments because compiled code takes plain arrays only.
 """
 
 import numpy as np
@@ -47,7 +47,8 @@ def solve_flat_punch(factor, count, forward, tangent):
 
     The solution is q = L⁻ᵀ (L⁻¹·1), with the Cholesky factor L in `factor` and L⁻¹·1 in `forward`.
     """
-    # A copy of slices takes a second longer to compile, because of its error message for slices of different sizes.
+    # Copy in a loop. An assignment of slices would take a second longer to compile, because numba adds an error message
+    # for slices of different sizes.
     for i in range(count):
         tangent[i] = forward[i]
     total = 0.0

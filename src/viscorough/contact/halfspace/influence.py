@@ -6,7 +6,8 @@ from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array, Integers
 
 # Beyond this distance the series (`_mean_inverse_distance`) is more accurate than the difference of logarithms
-# (`_closed_form`). The unit is the longer side of an element, or of the parts into which a long element is divided.
+# (`_closed_form`). The unit of the distance is the longer side of an element. A long element is divided into parts; the
+# unit is then the longer side of a part.
 _FAR = 30
 
 
@@ -14,7 +15,8 @@ def influence_coefficient(row: Array | Integers, column: Array | Integers, aspec
     """Return the influence coefficient K, the dimensionless deflection at a distance from an element under pressure.
 
     An element has sides dx along the rows and dy along the columns, and d = √(dx dy). A uniform pressure p on the
-    element deflects the surface by w = p d/(πE*) K = p d/(4πG) K (Love 1929).
+    element deflects the surface by w = p d/(πE*) K (Love 1929). For an incompressible half-space with the shear modulus
+    G, this is w = p d/(4πG) K.
 
     Near the element K is computed in closed form, as the sum of ±(a ln(b + ρ) + b ln(a + ρ)) over the four corners of
     the element. Here a and b are the signed distances to a corner along the two sides, and ρ = √(a² + b²). Far from the
@@ -43,7 +45,8 @@ def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
     Returns K [1] of shape (m, n), see `influence_coefficient`.
     """
     height, width = np.sqrt(aspect), np.sqrt(1 / aspect)
-    # For large distances, a long rectangle is divided into parts that are at most twice as long as wide.
+    # At large distances, the deflection by a long element is computed as a sum over parts of the element, which are at
+    # most twice as long as wide.
     parts = np.ceil(max(aspect / 2, 1.0)), np.ceil(max(1 / aspect / 2, 1.0))
     return _fill_table(abs(row) * height, abs(column) * width, height / parts[0], width / parts[1], *parts)
 
@@ -53,8 +56,8 @@ def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
     """Return ∫∫ dA/r over a rectangle of area 1, for all pairs of distances x ≥ 0 and y ≥ 0 from its centre.
 
     Here r is the distance between a point of the rectangle and the point (x, y). First the series is computed for all
-    pairs, then values near the rectangle are replaced by the closed form. The loop of the series has no branch, so it
-    acts on as many numbers at once as a register of the processor holds.
+    pairs. Then values near the rectangle are replaced by the closed form. The inner loop of the series contains no
+    condition, so the compiler can process several numbers at once.
 
     part_length, part_width : sides along x and y of the equal parts into which the rectangle is divided for the series
     parts_x, parts_y : number of parts along x and y
@@ -79,7 +82,7 @@ def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
 def _closed_form(x, y, length, width):
     """Return ∫∫ dA/r over a rectangle by differences of logarithms.
 
-    Here r is the distance between a point of the rectangle and the point (x, y), relative to the centre of the
+    Here r is the distance between a point of the rectangle and the point (x, y). The origin is the centre of the
     rectangle.
     """
     total = 0.0
@@ -87,8 +90,8 @@ def _closed_form(x, y, length, width):
         for sign_y in (-1, 1):
             a, b = x + 0.5 * sign_x * length, y + 0.5 * sign_y * width
             rho = np.sqrt(a * a + b * b)
-            # For b < 0, b + ρ loses digits, so ln(b + ρ) is computed as ln(a²/(ρ − b)). The terms with ln(a²) cancel in
-            # the sum if b < 0 at both corners with the same a.
+            # For b < 0, the sum b + ρ loses digits, so ln(b + ρ) is computed as ln(a²/(ρ − b)). If b < 0 at both
+            # corners with the same a, the terms with ln(a²) cancel in the sum over the corners.
             log_b = np.log(b + rho) if b > 0 else 2 * np.log(abs(a)) - np.log(rho - b)
             log_a = np.log(a + rho) if a > 0 else 2 * np.log(abs(b)) - np.log(rho - a)
             total += sign_x * sign_y * (a * log_b + b * log_a)
@@ -99,12 +102,12 @@ def _closed_form(x, y, length, width):
 def _mean_inverse_distance(x, y, length, width):
     """Return the mean of 1/r over a distant rectangle, by a moment expansion to fourth order.
 
-    Here r is the distance between a point of the rectangle and the point (x, y), relative to the centre of the
-    rectangle. The result is nan at the centre.
+    Here r is the distance between a point of the rectangle and the point (x, y). The origin is the centre of the
+    rectangle, and the result is nan there.
     """
     x2, y2 = x * x, y * y
-    # 1/r², with the distance r of the point (x, y) from the centre. There is no other division, since divisions would
-    # take most of the time.
+    # Compute 1/r², with the distance r of the point (x, y) from the centre. The formulas below only multiply by powers
+    # of 1/r, since further divisions would take most of the time.
     inverse2 = 1 / (x2 + y2)
     inverse = np.sqrt(inverse2)
     inverse5 = inverse2 * inverse2 * inverse

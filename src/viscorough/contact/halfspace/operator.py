@@ -12,29 +12,29 @@ from viscorough.contact.halfspace.column_fft import ColumnConvolution, LibraryCo
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, Buffer, run_blocks
 
-# Number of unused entries at the end of every row. Without them, rows whose distance in memory is a power of two would
-# compete for the same cache lines.
+# Number of unused entries at the end of every row. Without them, the distance between rows in memory could be a power
+# of two. Such rows would compete for the same cache lines.
 _ROW_PADDING = 16
-# The spectrum of a grid is kept in memory if the grid has at most this number of elements. It then serves other grids
-# with transforms of the same lengths: the boxes of an ensemble of indenters need few different lengths.
+# If a grid has at most this number of elements, the spectrum of its influence coefficients is kept in memory. Other
+# grids whose transforms have the same lengths use it again. The indenters of an ensemble need few different lengths.
 _KEPT = 1 << 20
-# The number of rows in a block is a multiple of this number, because ducc0 transforms this number of rows at once.
+# The number of rows in a block is a multiple of this number, since ducc0 transforms this number of rows at a time.
 _ROWS_AT_ONCE = 16
-# The columns of grids with fewer elements are convolved by LibraryConvolution. There ColumnConvolution would save a
-# millisecond per loading curve, 2 % of the time of the curve, but take seconds to compile.
+# Grids with fewer elements use LibraryConvolution for their columns. ColumnConvolution would save a millisecond per
+# loading curve, 2 % of the time of the curve, but would take seconds to compile.
 _COMPILED_FROM = 5000
 
 
 def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
     """Return the lengths of the periodic convolution along the columns and along the rows of a grid.
 
-    For a grid of a single row, the length along the columns is 1.
+    The lengths include the padding with zeros. For a grid of a single row, the length along the columns is 1.
     """
     return good_length(2 * (rows - 1)) if rows > 1 else 1, 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
 
 
 def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: bool = True, threads: int = 1) -> Array:
-    """Return the spectrum of the influence coefficients of a grid, in double precision.
+    """Return the real spectrum of the influence coefficients of a grid, in double precision.
 
     The arguments are explained at `Halfspace`.
     """
@@ -48,8 +48,8 @@ def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspe
     """Return the real spectrum of the influence coefficients K on a periodic grid, divided by the product of `lengths`.
 
     lengths : rows and columns of the periodic grid
-    period : None with padding. Without padding, the rows and columns after which loads repeat; distances are then
-        measured to the nearest repetition
+    period : None if the grid is padded. Otherwise the loads repeat after period[0] rows and period[1] columns, and
+        distances are measured to the nearest repetition of a load
     """
 
     def kernel(row: Array, column: Array) -> Array:
@@ -70,7 +70,9 @@ def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array]
     gives all frequencies.
 
     lengths : rows and columns of the periodic grid, even numbers; 1 for a single row
-    kernel : function that returns the kernel at all pairs of distances in rows and columns
+    kernel : function kernel(row, column) of two arrays of distances, which returns the kernel at all pairs of them
+
+    Returns an array by frequency along the columns and along the rows, from 0 to half the lengths.
     """
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
     spectrum = np.empty((row.size, column.size))
@@ -95,21 +97,22 @@ def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array]
 class Convolution:
     """Convolution w_i = Σ_j K(i − j) P_j on a grid, with an even kernel K given by its spectrum.
 
-    The grid is padded to 2(n − 1) points along an axis of n elements, and the convolution is periodic. Because K is
-    even, the padded grid holds every distance up to n − 1 once, no load acts across the period, and the spectrum of K
-    is real. The rows that the padding adds have no loads, and their deflections are not needed. So their transforms
-    along the rows are skipped (a quarter of the work of the padded transform), and these rows are stored only while the
-    columns are convolved.
+    The convolution is periodic on a padded grid, which has at least 2(n − 1) points along an axis of n elements. This
+    suffices because K is even: the padded grid contains all distances up to n − 1, and no load acts across the period.
+    The spectrum of K is real.
+
+    The rows that the padding adds have no loads, and their deflections are not needed. Transforms along these rows are
+    skipped, which saves a quarter of the work. These rows are stored only while the columns are convolved.
 
     shape : rows and columns of the grid
     spectrum : spectrum of K from `spectrum_of_grid` or `spectrum_of_kernel`, for the lengths of `convolution_lengths`
     precision : floating-point type of the computation
     threads : number of threads
-    once : True if the convolution is applied only once; it then takes less time without compiled code
+    once : True if the convolution is applied only once; LibraryConvolution is then used, since it needs no compilation
 
     load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero on elements without pressure
         and in the columns beyond the grid
-    count : number of applications so far
+    count : number of calls of `apply` so far
     accuracy : bound on the error that is not due to rounding, relative to the largest deflection
 
     `apply()` returns w in an array with the layout of `load`, which the next call overwrites. Columns of this array
@@ -130,10 +133,10 @@ class Convolution:
         rows, columns = self.shape = shape
         self._threads = threads
         self._length = length = convolution_lengths(rows, columns)[1]
-        # The rows of a large grid are transformed block by block, and only the rows of the current block are padded.
+        # The rows of a large grid are transformed block by block, and only the rows of one block at a time are padded.
         self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
         self._is_one = self._block >= rows
-        # Two blocks of rows: one for padded rows before the transform, and one for rows after the inverse transform.
+        # The buffer holds two blocks of rows: padded rows before the transform, and rows after the inverse transform.
         self._buffer = Buffer((2, 0 if self._is_one else self._block, length + _ROW_PADDING), precision)
         convolution = LibraryConvolution if once or rows * columns < _COMPILED_FROM else ColumnConvolution
         self._convolution = convolution(rows, spectrum, precision, threads) if rows > 1 else None
@@ -152,14 +155,14 @@ class Convolution:
         run_blocks(self._transform, *blocks)
         if self._convolution:
             self._convolution.apply(self._transformed)
-        else:  # a single row has nothing to convolve along its columns
+        else:  # a grid of a single row needs no convolution along its columns
             self._transformed *= self._spectrum
         run_blocks(self._transform_back, *blocks)
         self.count += 1
         return self._deflection
 
     def _transform(self, start: int, stop: int) -> None:
-        """Compute the Fourier transforms of the rows of `load` from `start` to `stop`, padded with zeros."""
+        """Pad the rows of `load` from `start` to before `stop` with zeros, and compute their Fourier transforms."""
         rows, columns = self.load[start:stop], self.shape[1]
         if not self._is_one:
             padded = self._buffer.array[0, : stop - start]
@@ -168,9 +171,10 @@ class Convolution:
         ducc0.fft.r2c(rows[:, : self._length], axes=[1], out=self._transformed[start:stop])
 
     def _transform_back(self, start: int, stop: int) -> None:
-        """Compute the deflection in the rows from `start` to `stop` by inverse Fourier transforms.
+        """Compute the deflection in the rows from `start` to before `stop` by inverse Fourier transforms.
 
-        The transforms need no factor, because the spectrum contains it. Their input is overwritten.
+        The results are not divided by the length, because the spectrum contains this factor. The input of the inverse
+        transforms is overwritten.
         """
         rows, columns = self._deflection[start:stop], self.shape[1]
         out = rows if self._is_one else self._buffer.array[1, : stop - start]
@@ -189,7 +193,7 @@ class Halfspace(Convolution):
     rows, columns : size of the grid
     precision : floating-point type of the computation
     aspect : dy/dx of the elements
-    padding : True if the grid is padded; if not, periodic images of the grid act on it
+    padding : True if the grid is padded with zeros; False if loads repeat periodically with the size of the grid
     threads : number of threads
     """
 

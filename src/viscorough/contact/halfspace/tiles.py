@@ -4,7 +4,7 @@ The influence coefficients K are split like the potential in Ewald's sum for poi
 S(r) ≈ erf(r/σ)/r is the smooth deflection at a distance r from a load that is spread over a Gaussian of width σ.
 
 K − S has a short range. For every tile, the convolution with K − S takes one small Fourier transform, which stays in
-the cache of the processor. S is so smooth that a coarse grid suffices for the convolution with S: windowed sinc
+the cache of the processor. S is so smooth that a coarse grid suffices for the convolution with S. Windowed sinc
 functions distribute the loads to the points of the coarse grid, and interpolate the deflections between the points.
 """
 
@@ -28,13 +28,14 @@ SIDE = 120
 _STRIDE = 4
 # The load of an element is distributed to this number of points of the coarse grid, along rows and along columns.
 _POINTS = 14
-# Shape parameter β of the Kaiser window, by which the sinc functions are multiplied.
+# Shape parameter β of the Kaiser window. For the interpolation, sinc functions are multiplied by this window.
 _WINDOW = 16.5
-# Ratio of the width σ of the Gaussian to the distance between two points of the coarse grid.
+# Width σ of the Gaussian in the smooth kernel S ≈ erf(r/σ)/r, divided by the distance between two coarse points.
 _SMOOTHING = 4.5
-# Ratio of a distance r to σ above which the short-range part K − S of the influence coefficients is taken as zero.
+# The short-range part K − S of the influence coefficients is taken as zero where r/σ, with the distance r, exceeds this
+# number.
 _RANGE = 3.8
-# Ratio of a distance r to σ above which erf(r/σ) equals 1 within rounding.
+# For r/σ above this number, erf(r/σ) equals 1 within rounding.
 _FLAT = 7.0
 # Bound on the error of a deflection, relative to the largest deflection
 # (tests/viscorough/contact/halfspace/test_tiles.py).
@@ -71,7 +72,7 @@ def tiles_with(row: Integers, column: Integers, shape: tuple[int, int]) -> Mask:
 
 
 def are_few(tiles: Mask, options: SolverOptions = DEFAULT) -> bool:
-    """Return True if so few tiles contain elements that transforms of tiles take less time than of the whole grid.
+    """Return True if so few tiles contain elements that tiles take less time than a transform of the whole grid.
 
     tiles : True for tiles that contain elements
     """
@@ -176,10 +177,10 @@ class TiledHalfspace:
         self.count += 1
 
     def _add_near_field(self, tile: Integers, field: Array) -> None:
-        """Add the near field, which is the convolution of the load with K − S, to a field in one tile."""
+        """Add the near field (the convolution of the load with the short-range part K − S) to a field in one tile."""
         target = field[_part(tile)]
-        # The patch holds the tile and all loads within the range of K − S, the kernel less its smooth part. The
-        # Fourier transform repeats the patch periodically, but the repeated loads are too far away to act on the tile.
+        # The patch holds the tile and all loads that act on it through K − S. The Fourier transform repeats the patch
+        # periodically, but the repeated loads are too far away to act on the tile.
         first = SIDE * tile - self._reach
         taken = [slice(max(i, 0), i + SIDE + 2 * n) for i, n in zip(first, self._reach, strict=True)]
         load = self.load[*taken]
@@ -195,9 +196,10 @@ class TiledHalfspace:
 
 
 def _interpolation_weights() -> Array:
-    """Return the weights of the coarse points around an element, for each of its positions between two points.
+    """Return the weights of the nearest coarse points in the interpolation to an element.
 
-    Returns an array of shape (_STRIDE, _POINTS).
+    Returns an array of shape (_STRIDE, _POINTS). Along an axis, an element can have _STRIDE positions between two
+    coarse points. Row i contains the weights for position i.
     """
     from scipy.special import i0  # this import takes long
 
@@ -209,13 +211,13 @@ def _interpolation_weights() -> Array:
 def _short_range(
     sides: tuple[float, float], sigma: float, precision: DTypeLike
 ) -> tuple[tuple[int, ...], tuple[int, ...], Array]:
-    """Return the data for the convolution with K − S in a tile.
-
-    Returns the range of K − S in rows and columns, the lengths of the Fourier transform for a tile in rows and columns,
-    and the transform of K − S.
+    """Prepare the convolution with the short-range part K − S in a tile.
 
     sides : dy/d and dx/d of the elements, with d = √(dx dy)
     sigma : σ/d
+
+    Returns the range of K − S in rows and columns, the lengths of the Fourier transform for a tile along the columns
+    and along the rows, and the Fourier transform of K − S.
     """
     reach = tuple(int(np.ceil(_RANGE * sigma / side)) for side in sides)
     lengths = tuple(2 * ducc0.fft.good_size(-(-(SIDE + 2 * n) // 2), True) for n in reach)
@@ -229,21 +231,30 @@ def _short_range(
 
 
 def _part(tile: Integers) -> tuple[slice, ...]:
-    """Return slices of the rows and columns of a tile."""
+    """Return the slices that select the rows and the columns of a tile.
+
+    tile : row and column of the tile among the tiles
+    """
     return tuple(slice(first, first + SIDE) for first in (SIDE * tile).tolist())
 
 
 def _coarse_part(tile: Integers) -> tuple[slice, ...]:
-    """Return slices of the rows and columns of the coarse points to which the loads of a tile are distributed."""
+    """Return the slices that select the rows and the columns of the coarse points for the loads of a tile.
+
+    The loads of the tile are distributed to these points, and its deflections are interpolated between them.
+
+    tile : row and column of the tile among the tiles
+    """
     return tuple(slice(part.start // _STRIDE, part.stop // _STRIDE + _POINTS - 1) for part in _part(tile))
 
 
 @njit(fastmath=True)
 def _smooth_kernel(row, column, side_y, side_x, sigma):
-    """Return S at all pairs of distances in rows and columns.
+    """Return the smooth kernel S at all pairs of a distance in rows and a distance in columns.
 
     S is the mean of erf(r/σ)/r over an element, computed with two Gauss points along each side.
 
+    row, column : distances in rows and in columns
     side_y, side_x : dy/d and dx/d of the elements, with d = √(dx dy)
     sigma : σ/d
     """
@@ -268,7 +279,7 @@ def _smooth_kernel(row, column, side_y, side_x, sigma):
 def _distribute(load, weights):
     """Distribute the loads of a tile to the points of the coarse grid, first along rows, then along columns.
 
-    load : loads of the elements of the tile
+    load : loads of the elements of the tile, in rows and columns
     weights : array from `_interpolation_weights`
 
     Returns the loads of the coarse points.

@@ -4,13 +4,14 @@ The preconditioner M is a factorized sparse approximate inverse (FSAI) with a mu
 
 The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. The neighbours of an
 element are the twelve nearest elements before the element, in the order of rows and columns. Row i of G has an entry
-for element i, and an entry for each neighbour that is in contact. The row is exact if no other earlier elements are in
-contact (Kolotilina and Yeremin 1993). The module sparse_factor describes how G is stored.
+for element i, and an entry for each neighbour that is in contact. If no other elements before element i are in contact,
+the row is exact (Kolotilina and Yeremin 1993). The module sparse_factor describes how G is stored.
 
-The remainder G K Gᵀ − 1 is smooth, since it is the deflection by distant loads. The coarse correction represents the
-remainder on the next grid level, whose elements are blocks of elements. Within a block the remainder acts along a
-single vector: the row sums of G. Let W be the matrix whose columns are these vectors, one for each block, normalised to
-unit length. Let a be the diagonal matrix of the lengths before normalisation. Then
+The remainder G K Gᵀ − 1 is smooth, since it comes from the deflection by distant loads. The coarse correction
+approximates the remainder on a coarser grid, the next grid level, whose elements are blocks of elements. In each block
+the approximation uses a single vector, which contains the row sums of G for the elements of the block. Let W be the
+matrix whose columns are these vectors, normalised to unit length. Let a be the diagonal matrix of the lengths of the
+vectors before normalisation. Then
 
     G K Gᵀ ≈ 1 + W (a K a) Wᵀ,     M = Gᵀ (1 − W (1 − (1 + a K a)⁻¹) Wᵀ) G ≈ K⁻¹
 
@@ -41,51 +42,57 @@ from viscorough.contact.preconditioner.sparse_factor import SparseFactor
 # Lower bound of the eigenvalues of M K, with the preconditioner M and the influence matrix K
 # (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35
-# Bytes of the arrays of the preconditioner per place of the grid; the sparse factor has fourteen entries per place.
+# Bytes of the arrays of the preconditioner per entry of a flat field. The sparse factor alone has fourteen one-byte
+# entries.
 BYTES_PER_PLACE = 25
-# Number of elements along each side of the square that contains the neighbours of an element.
+# Number of elements along each side of the square around an element that contains all its neighbours.
 _ACROSS = 2 * BORDER + 1
-# Relative positions (row, column) of the neighbours of a block, which are the four nearest blocks before the block.
+# Positions (row, column), relative to a block, of its neighbours: the four nearest blocks that come before the block.
 _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
-# The number of iterations depends only weakly on _SIDE, _RATIO and _DENSE.
-# Number of elements along each side of a block of the coarse correction, if the elements are square.
+# Number of elements along each side of a block of the coarse correction, if the elements are square. The number of
+# iterations depends only weakly on _SIDE, and on the next two constants _RATIO and _DENSE.
 _SIDE = 8
-# Number of blocks along each side of a block of the next grid level.
+# A block of the next coarser grid level contains this number of blocks along each side.
 _RATIO = 4
-# A grid level with at most this number of blocks along each side is inverted as a dense matrix.
+# If a grid level has at most this number of blocks along each side, its matrix is inverted exactly (see `_FewBlocks`).
 _DENSE = 9
-# The coarse levels are prepared again when the number of elements that have joined or left exceeds this share of the
-# number of elements in contact.
+# When elements join or leave the contact set, the coarse grid levels of the preconditioner are not updated at once, but
+# when the number of these elements exceeds this share of the number of elements in contact.
 _OUTDATED = 0.02
-# Number of blocks for which a thread computes rows of G at a time.
+# Largest number of blocks in one call of `_factorise` on a thread.
 _FACTORISED_AT_ONCE = 1 << 13
 # Smallest divisor, to avoid a division by zero for blocks without contact.
 _TINY = np.finfo(float).tiny
 # Influence coefficient of a block on itself, times the side of the block. The mean deflection of a uniformly loaded
-# square would give 2.97, but G already accounts for near neighbours.
+# square would give 2.97. The value is smaller because the sparse factor already accounts for near neighbours.
 _OWN = 1.0
 
 
 @njit(inner=True)
 def _rows(field, place, width):
-    """Return three views of a flat field, which begin at the leftmost neighbours of a place.
+    """Return three views of a flat field, for access to the neighbours of the element with index `place`.
 
-    The first view begins two rows before the place, the second view one row before, and the third in the same row.
+    The views begin two rows before the element, one row before the element, and in the row of the element. Each view
+    begins at the leftmost neighbour in its row.
+
+    width : length of a row of flat fields
     """
     return field[place - 2 * width - BORDER :], field[place - width - BORDER :], field[place - BORDER :]
 
 
 @njit
 def _factorise(amplitude, places, before, slots, kernel, rows, weights):
-    """Compute the sparse factor G of the matrix 1 + a K a of some blocks; store the rows of G, and the product G a.
+    """Compute the sparse factor G of the matrix 1 + a K a on a coarse grid level, for some of its blocks.
 
-    amplitude : a, flat field of blocks
-    places : indices of the blocks in flat fields
-    before : indices of the neighbours in flat fields, relative to the index of the block
-    slots : indices of the neighbours, and last of the block itself, in a row of G
-    kernel : K between the neighbours and the block, which comes last
+    K contains the influence coefficients between blocks, and a is a diagonal matrix (see the module's docstring).
+
+    amplitude : diagonal of a, flat field of blocks
+    places : indices in flat fields of the blocks for which rows of G are computed
+    before : indices in flat fields of the neighbours of a block, relative to the index of the block
+    slots : positions of the neighbours in a row of G, and last the position of the block itself
+    kernel : matrix K of the neighbours and of the block itself, which comes last
     rows : the rows of G are stored here; zero on entry
-    weights : G a is stored here
+    weights : the row sums of G a are stored here
     """
     own = before.size
     matrix, present, near = np.empty((own + 1, own + 1)), np.empty(own + 1, np.int64), np.empty(own + 1)
@@ -116,8 +123,9 @@ def _factorise(amplitude, places, before, slots, kernel, rows, weights):
 def _normalise(weights, blocks, squares):
     """Scale the vector of weights in every block to unit length, in place; store the squares of the former lengths.
 
-    blocks : block of the next grid level that each weight belongs to
-    squares : squares of the former lengths, by block
+    weights : weights of all blocks, in one array
+    blocks : for each weight, the index of its block on the next coarser grid level
+    squares : the squares of the former lengths are stored here, by block
     """
     squares[:] = 0
     for t in range(weights.size):
@@ -128,13 +136,15 @@ def _normalise(weights, blocks, squares):
 
 @njit(fastmath=True)
 def _restrict(residual, places, rows, width, weights, blocks, values, loads):
-    """Store G r in `values`, and Wᵀ G r in `loads`, for a residual r.
+    """Store G r in `values`, and Wᵀ G r in `loads`, for a residual r on a coarse grid level.
+
+    G is the sparse factor of this level. W has a column for each block of the next coarser level.
 
     residual : r, flat field
     places : indices in flat fields of the blocks that the rows of G belong to
     rows : rows of G
     width : length of a row of flat fields
-    weights, blocks : entries of W, and for each entry its column, which is a block of the next grid level
+    weights, blocks : the nonzero entry in each row of W, and its column: the index of a block of the coarser level
     """
     loads[:] = 0
     for t in range(places.size):
@@ -149,9 +159,9 @@ def _restrict(residual, places, rows, width, weights, blocks, values, loads):
 
 @njit(fastmath=True)
 def _prolong(places, rows, width, weights, blocks, values, loads, work):
-    """Replace `values` by Gᵀ (values − W loads); see `_restrict` for the arguments.
+    """Replace `values` by Gᵀ (values − W loads); see `_restrict` for G, W and the arguments.
 
-    work : flat field, zero on entry and on return
+    work : scratch array, flat field, zero on entry and on return
     """
     for t in range(places.size):
         row = rows[t]
@@ -169,9 +179,9 @@ def _prolong(places, rows, width, weights, blocks, values, loads, work):
 
 
 class Preconditioner:
-    """The preconditioner M ≈ K⁻¹, which is prepared for one contact set after another on the same grid.
+    """Preconditioner M ≈ K⁻¹ of the influence matrix K; `prepare` adapts M to another contact set on the same grid.
 
-    height, width : rows and columns of flat fields, border included
+    height, width : rows and columns of the grid, border included
     aspect : dy/dx of the elements
     precision : floating-point type of M; see SparseFactor
     threads : number of threads
@@ -194,7 +204,7 @@ class Preconditioner:
         self._squares, self._loads = np.zeros((2, *blocks))
 
     def apply(self, residual: Array) -> Array:
-        """Return M r for a residual r.
+        """Return the product M r of the preconditioner M with a residual r.
 
         r and M r are flat fields in the precision of the preconditioner. Their values outside the contact set have no
         meaning. The next call overwrites the returned array.
@@ -227,15 +237,14 @@ class Preconditioner:
 
 
 class _ManyBlocks:
-    """Approximate inverse of 1 + a K a (see the module's docstring) on a grid level with many blocks.
-
-    Before a call of `prepare`, store the squares of a in the flat field `squares`.
+    """Approximate inverse of the matrix 1 + a K a (see the module's docstring) on a grid level with many blocks.
 
     sides : rows and columns of elements in a block
     aspect : dy/dx of the elements
     height, width : rows and columns of blocks, border included
     threads : number of threads
 
+    squares : squares of the diagonal entries of a, flat field of blocks; write them here before a call of `prepare`
     places : indices in flat fields of the blocks with elements in contact
     """
 
@@ -245,7 +254,8 @@ class _ManyBlocks:
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        # For every block, the index of the block of the next grid level that contains it, in flat fields with borders.
+        # Map each block to the block of the next coarser grid level that contains it: `_blocks` holds the indices of
+        # the coarser blocks in flat fields.
         blocks = [-(-(n - 2 * BORDER) // _RATIO) + 2 * BORDER for n in (height, width)]
         row, column = ((np.arange(n) - BORDER) // _RATIO + BORDER for n in (height, width))
         self._blocks = (row[:, None] * blocks[1] + column).ravel().astype(np.int32)
@@ -266,7 +276,7 @@ class _ManyBlocks:
         self._values, self._loads = np.empty(places.size), np.empty_like(self._coarser.squares)
 
     def apply(self, residual: Array) -> Array:
-        """Return the product of the approximate inverse and a residual, at the blocks `places`.
+        """Multiply a residual by the approximate inverse; return the product at the blocks `places`.
 
         The next call overwrites the returned array.
 
@@ -279,16 +289,19 @@ class _ManyBlocks:
 
 
 class _FewBlocks:
-    """Inverse of 1 + a K a on a grid level with few blocks, by a dense Cholesky factor; used like _ManyBlocks."""
+    """Exact inverse of the matrix 1 + a K a (see the module's docstring) on a grid level with few blocks.
+
+    The class is used like _ManyBlocks. It computes a dense Cholesky factor.
+    """
 
     def __init__(self, sides: tuple[int, int], aspect: float, height: int, width: int) -> None:
         self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
         self._kernel = _dense_coupling(sides, aspect, height, width)
-        self._coupling: Array = np.empty((0, 0))  # K between the blocks `places`
+        self._coupling: Array = np.empty((0, 0))  # influence coefficients between the blocks `places`
 
     def prepare(self) -> None:
         places = np.flatnonzero(self.squares)
-        if not np.array_equal(places, self.places):  # this is rare, since usually all blocks have contact already
+        if not np.array_equal(places, self.places):  # rarely the case, since usually all blocks have contact already
             self.places, self._coupling = places, self._kernel[np.ix_(places, places)]
         amplitude = np.sqrt(self.squares[places])
         matrix = self._coupling * amplitude * amplitude[:, None]
@@ -304,7 +317,7 @@ class _FewBlocks:
 def _coarse_level(
     sides: tuple[int, int], aspect: float, height: int, width: int, threads: int
 ) -> _ManyBlocks | _FewBlocks:
-    """Return a _FewBlocks or a _ManyBlocks, depending on the number of blocks.
+    """Return the solver for a coarse grid level: a _FewBlocks or a _ManyBlocks, depending on the number of blocks.
 
     sides : rows and columns of elements in a block
     aspect : dy/dx of the elements
@@ -326,10 +339,10 @@ def _dense_coupling(sides: tuple[int, int], aspect: float, height: int, width: i
 
 
 def _coupling(sides: tuple[int, int], aspect: float, row: Integers, column: Integers) -> Array:
-    """Return the influence coefficients K between all pairs of blocks.
+    """Return the matrix of the influence coefficients K between all pairs of blocks.
 
-    K approximates the mean deflection of a block by a unit load that is spread over another block. The influence of a
-    block on itself is set by _OWN.
+    K is approximately the mean deflection of a block by a unit load that is spread over another block. The constant
+    _OWN sets the influence of a block on itself.
 
     sides : rows and columns of elements in a block
     aspect : dy/dx of the elements

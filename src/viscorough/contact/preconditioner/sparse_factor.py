@@ -27,25 +27,28 @@ from viscorough.contact.border import BORDER
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, factor_entries
 
-# This number of blocks side by side is processed together if any of the blocks has elements in contact. Together the
-# blocks are wide enough for the registers of the processor.
+# Loops process this number of adjacent blocks at a time, and skip them only if no block has elements in contact. A row
+# of elements in these blocks is long enough to fill the registers of the processor.
 _TOGETHER = 4
-# Renewing the rows of G around an element that joins or leaves the contact set takes as much time as renewing the rows
-# of this number of elements when all rows of G are renewed.
+# An element that joins or leaves the contact set changes the rows of G for its neighbourhood. Renewing these rows takes
+# as much time as renewing this number of rows in a loop over all rows of G.
 _COST_OF_CHANGE = 20
-# Bit of a contact pattern (see `factor_entries`) that marks a row of G for renewal.
+# Additional bit of a contact pattern (see `factor_entries`). The bit is set while the row of G waits for renewal.
 _RENEWED = 1 << NEIGHBOURS
 
 
 @njit
 def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, factor):
-    """Renew the rows of G that depend on elements that joined or left the contact set, from place `start` to `stop`.
+    """Renew the rows of the sparse factor G that depend on elements which joined or left the contact set.
+
+    Only rows of G for elements with indices from `start` to before `stop` in flat fields are renewed.
 
     inside : True for elements in the new contact set, flat field
-    changed : places of the elements that joined or left
-    offsets : offsets in flat fields from an element to its neighbours, and last to the element itself
-    patterns : patterns of contact of the neighbours (see `factor_entries`), flat field, renewed in place
-    rows_of_pattern : rows of G by pattern and neighbour
+    changed : indices in flat fields of the elements that joined or left
+    offsets : index of each neighbour minus the index of the element, in flat fields; the last offset is 0
+    patterns : contact pattern of every element, which encodes the neighbours in contact (see `factor_entries`); flat
+        field, renewed in place
+    rows_of_pattern : all possible rows of G, by pattern and neighbour
     factor : entries of G (see the module's docstring), renewed in place
     """
     rows, count = np.empty(changed.size * offsets.size, changed.dtype), 0
@@ -75,11 +78,12 @@ def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, fac
 
 @njit
 def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
-    """Renew all patterns and rows of G in the rows of blocks from `first_row` to `last_row`.
+    """Renew all contact patterns, and all rows of the sparse factor G, in some rows of blocks.
 
+    first_row, last_row : first row of blocks, and the row of blocks after the last
     side : number of rows of the grid in a row of blocks
     inside, patterns, factor : see `_renew`
-    entries : entries of G by neighbour and pattern
+    entries : entries of all possible rows of G by neighbour and pattern, from `factor_entries`
     """
     width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
     for row in range(first_row * side + BORDER, min(last_row * side, factor.shape[0] - 2 * BORDER) + BORDER):
@@ -100,7 +104,7 @@ def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
 def _any_active(active, first):
     """Return True if any of the next _TOGETHER blocks, from block `first` on, has elements in contact.
 
-    active : positive for blocks in a row that have elements in contact
+    active : an entry for each block of a row of blocks, positive if the block has elements in contact
     """
     total = 0.0
     for block in range(first, min(first + _TOGETHER, active.size)):
@@ -110,11 +114,12 @@ def _any_active(active, first):
 
 @njit(inner=True)
 def _next_run(active, first):
-    """Return start and stop of the next run of consecutive blocks to process, from block `first` on.
+    """Find the next run of consecutive blocks to process in a row of blocks, from block `first` on.
 
-    Both are the number of blocks if there is nothing left to process.
+    active : an entry for each block of the row, positive if the block has elements in contact
 
-    active : positive for blocks in a row that have elements in contact
+    Returns the index of the first block of the run, and the index after its last block. If no block is left to
+    process, both indices equal the number of blocks.
     """
     while first < active.size and not _any_active(active, first):
         first += _TOGETHER
@@ -126,13 +131,15 @@ def _next_run(active, first):
 
 @njit(fastmath=True)
 def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
-    """Store the sum of the squares of the row sums of G in every block, for some rows of blocks.
+    """Compute Σ s² for every block in some rows of blocks, where s are the row sums of the sparse factor G.
+
+    The sum for a block contains the rows of G that belong to the elements of the block.
 
     first_row, last_row : first row of blocks, and the row of blocks after the last
-    factor, unit : entries of G, and the unit of the stored numbers
+    factor, unit : entries of G as stored numbers, which must be multiplied by `unit`
     height : rows of the grid without border
     sides : rows and columns of elements in a block
-    squares : sums of squares by rows and columns of blocks
+    squares : the results are stored here, by rows and columns of blocks
     """
     for block_row in range(first_row, last_row):
         total = np.full(factor.shape[2], unit - unit)  # zeros in the precision of the unit
@@ -146,11 +153,11 @@ def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
 
 @njit(inner=True, fastmath=True)
 def _add_up(values, side, sums, first, last):
-    """Store the sum of the values in every block, for the blocks from `first` to before `last`.
+    """Sum the values in each of the blocks from `first` to before `last`.
 
     values : values of all elements in a row of the grid
     side : number of values in a block
-    sums : sums of all blocks in a row of blocks
+    sums : the sums are stored here, with an entry for every block of the row
     """
     for block in range(first, last):
         total = 0.0
@@ -161,9 +168,9 @@ def _add_up(values, side, sums, first, last):
 
 @njit(inner=True, fastmath=True)
 def _multiply_row(factor, unit, residual, row, first, values):
-    """Compute values = G r for consecutive elements in a row of the grid.
+    """Compute values = G r for consecutive elements in a row of the grid, with the sparse factor G.
 
-    factor, unit : entries of G, and the unit of the stored numbers
+    factor, unit : entries of G as stored numbers, which must be multiplied by `unit`
     residual : r, flat field
     row, first : row of the grid, and column of the first element, counted with the border
     """
@@ -198,14 +205,14 @@ def _multiply_row_transposed(factor, unit, residual, row, first, values):
 
 @njit(fastmath=True)
 def _restrict(first_row, last_row, factor, unit, residual, height, sides, active, values, loads):
-    """Compute values = G r and loads = Wᵀ G r for some rows of blocks, with W not normalised.
+    """Compute values = G r and loads = Wᵀ G r for some rows of blocks; see `SparseFactor.restrict` for G and W.
 
-    W is explained at `SparseFactor.restrict`, most arguments at `_sum_squares`.
+    The other arguments are explained at `_sum_squares`.
 
     residual : r, flat field
     active : positive for blocks with elements in contact, by rows and columns of blocks
-    values : flat field
-    loads : by rows and columns of blocks
+    values : G r is stored here, flat field
+    loads : Wᵀ G r is stored here, by rows and columns of blocks
     """
     width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
     for block_row in range(first_row, last_row):
@@ -225,7 +232,7 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
 
 @njit(fastmath=True)
 def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values):
-    """Subtract W loads from `values` for some rows of blocks, with W not normalised; see `_restrict`."""
+    """Subtract the product W loads from `values` for some rows of blocks; see `_restrict` for W and the arguments."""
     width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
     spread = np.empty(columns, values.dtype)
     for block_row in range(first_row, last_row):
@@ -244,7 +251,7 @@ def _correct(first_row, last_row, factor, unit, loads, height, sides, active, va
 
 @njit(fastmath=True)
 def _prolong(first_row, last_row, factor, unit, values, height, sides, active, result):
-    """Compute result = Gᵀ values for some rows of blocks; see `_restrict` for the arguments."""
+    """Compute result = Gᵀ values for some rows of blocks; see `_restrict` for G and the arguments."""
     width = factor.shape[2]
     for block_row in range(first_row, last_row):
         first, last = _next_run(active[block_row], 0)
@@ -257,15 +264,15 @@ def _prolong(first_row, last_row, factor, unit, values, height, sides, active, r
 
 
 class SparseFactor:
-    """The sparse factor G, which is updated for one contact set after another on the same grid.
+    """Sparse factor G of the preconditioner Gᵀ … G; `update` adapts G to another contact set on the same grid.
 
-    height, width : rows and columns of flat fields, border included
+    height, width : rows and columns of the grid, border included
     sides : rows and columns of elements in a block
     aspect : dy/dx of the elements
-    precision : floating-point type of the products; in single precision, entries of G are rounded to one byte
+    precision : floating-point type of products with G; in single precision, entries of G are rounded to one byte
     threads : number of threads
 
-    squares : for every block, the squared length of the vector of row sums of G; shape (rows, columns) of blocks
+    squares : Σ s² for every block, with the row sums s of G for its elements; shape (rows, columns) of blocks
     """
 
     def __init__(
@@ -306,14 +313,14 @@ class SparseFactor:
         return changed.size
 
     def _renew_rows(self, first_row: int, last_row: int, changed: Integers) -> None:
-        """Renew the data that depend on elements that joined or left the set, for some rows of blocks.
+        """Renew contact patterns, rows of G and `squares` in some rows of blocks, after the contact set has changed.
 
         first_row, last_row : first row of blocks, and the row of blocks after the last
-        changed : places of the elements that joined or left
+        changed : indices in flat fields of the elements that joined or left the contact set
         """
         width, side = self._factor.shape[2], self._sides[0]
         start, stop = ((row * side + BORDER) * width for row in (first_row, last_row))
-        # A row of G depends on elements up to two rows of the grid before its own element.
+        # The row of G for an element depends on neighbours up to two rows of the grid before the element.
         first, last = np.searchsorted(changed, (start - BORDER * (width + 1), stop))
         if first == last:
             return
@@ -328,7 +335,9 @@ class SparseFactor:
     def restrict(self, residual: Array) -> Array:
         """Return Wᵀ G r by rows and columns of blocks, and keep G r for `prolong`.
 
-        W has a column for each block: the vector of the row sums of G in the block, not normalised.
+        G is the sparse factor. W is a matrix with a column for each block of elements. A column contains the row sums
+        of G for the elements of the block, and zeros for all other elements. Unlike the columns of W in the module
+        multilevel, the columns are not normalised.
 
         residual : r, flat field
         """
@@ -337,12 +346,12 @@ class SparseFactor:
         return self._loads
 
     def prolong(self, loads: Array) -> Array:
-        """Return Gᵀ (G r − W loads), with G r from the last call of `restrict`, and W as explained at `restrict`.
+        """Return Gᵀ (G r − W loads), with G r from the last call of `restrict`; see `restrict` for G and W.
 
         The result is a flat field whose values outside the contact set have no meaning. The next call overwrites the
         returned array.
 
-        loads : by rows and columns of blocks
+        loads : loads of the blocks, by rows and columns of blocks
         """
         blocks = self._height, self._sides, self.squares
         self._over_rows(_correct, self._factor, self._unit, loads, *blocks, self._values)

@@ -18,7 +18,7 @@ def check_solvable(
 ) -> float:
     """Check the arguments of a function of the contact solver, and return the tolerance as a float.
 
-    name : name of the function; messages of errors start with it
+    name : name of the function; error messages start with it
 
     Raises ValueError if the indenter is not a map, its spacing is too small, or tolerance or threads are out of range.
     Raises TypeError if the options are not SolverOptions.

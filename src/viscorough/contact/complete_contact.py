@@ -21,7 +21,8 @@ from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.preconditioner import Preconditioner
 from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
 
-# Smallest residual to which the linear problems are solved: ratio of the norms of residual and right-hand side.
+# Smallest relative residual to which K q = 1 and K s = g are solved, as the norm of the residual divided by the norm of
+# the right-hand side.
 EXACT = 1e-12
 # Largest number of iterations. ConvergenceError is raised if these do not suffice.
 _MAX_ITERATIONS = 500
@@ -35,7 +36,7 @@ class JoinedSurface(NamedTuple):
     tangent : q, the increase of the pressures P with the depth, shape (elements,)
     load : s, the tensions at depth 0, shape (elements,)
     initial_gap : g, shape (elements,)
-    residual : bound on the ratio of the norms of residual and right-hand side, for each of the two problems
+    residual : bound on the norm of the residual divided by the norm of the right-hand side, for both problems
     """
 
     tangent: Array
@@ -54,14 +55,15 @@ class JoinedSurface(NamedTuple):
         return float(self.load.sum() / self.tangent.sum())
 
     def first_complete_contact(self, units: Units) -> DenseContact:
-        """Return the contact at the depth where it becomes complete, with pressures P and tangents q.
+        """Return the contact at the depth where contact becomes complete, with pressures P and tangents q.
 
         units : Units of the reduced quantities
         """
         depth, stiffness = self.depth, float(self.tangent.sum())
         # Rounding can make the pressure of the element that touches last negative.
         pressure = np.maximum(depth * self.tangent - self.load, 0.0)
-        # The largest residual of an element does not exceed the norm of all residuals.
+        # The residual of K P = u − g has at most the norm self.residual * size. The residual at a single element does
+        # not exceed this norm.
         size = depth * self.tangent.size**0.5 + float(np.linalg.norm(self.initial_gap))
         return DenseContact(
             units,
@@ -87,7 +89,7 @@ def joined_surface(
 
     Raises ConvergenceError if a residual does not fall below this limit.
     """
-    from scipy.sparse.linalg import LinearOperator, cg  # this import takes long
+    from scipy.sparse.linalg import LinearOperator, cg  # imported here, because this import takes long
 
     rows, columns = elements.shape
     height, width = rows + 2 * BORDER, columns + 2 * BORDER

@@ -21,7 +21,7 @@ from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
 # Allowed relative rounding error: of a gap relative to the depth, of a pressure relative to the largest pressure, and
 # of the depth at which an element touches, relative to this depth.
 ROUNDING = 1e-12
-# Largest number of contact sets that are tried. ConvergenceError is raised if these do not suffice.
+# Largest number of contact sets that are tried for one contact. If none of them is correct, ConvergenceError is raised.
 _MAX_ITERATIONS = 100
 # Depth for an element that never touches. It is finite, because the compiler assumes finite numbers in loops with
 # fastmath.
@@ -31,7 +31,7 @@ _NEVER = 1e300
 class ContactEvents(NamedTuple):
     """Contact events: the depths at which further elements touch, in increasing order.
 
-    All fields are arrays of shape (events,) in reduced units, in the order of the fields of step_control.Level.
+    All fields are arrays of shape (events,) in reduced units. Their order is the same as in step_control.Level.
 
     depth : depth u of each event
     pressure_sum, tangent_sum : sums ΣP and Σq of the elements in contact just beyond the event
@@ -99,8 +99,8 @@ def solve(
     The method repeats two steps until the contact set no longer changes: it solves for the pressures of the set, then
     removes elements under tension and adds elements that overlap the surface. Gaps are convex functions of the depth,
     so an element can join the contact only if it overlaps the surface for the predicted pressures P + Δu q, with the
-    depth step Δu. The first set that is tried consists of the elements in contact at the smaller depth, and of the
-    elements that overlap, except those that touch late in the step (see options.LATE).
+    depth step Δu. The first contact set consists of the elements in contact at the smaller depth and of overlapping
+    elements, but without elements that touch late in the step (see options.LATE).
 
     contact : contact at a smaller depth
     candidates : number of elements with an initial gap below `depth`
@@ -109,8 +109,10 @@ def solve(
     Returns None if more than `max_count` elements come into contact.
     Raises ConvergenceError if the set still changes after _MAX_ITERATIONS solutions.
     """
+    # Give up if too many elements touch already, because contact only grows with depth. Also give up if many elements
+    # can touch and there is no contact to start from.
     if candidates > max_count and not 0 < contact.count < max_count:
-        return None  # contact only grows with depth, so it will not have fewer elements
+        return None
     loads, depth_step = contact.loads, depth - contact.reduced_depth
     others = _without(np.arange(candidates), loads.members)
     table = elements.influence, elements.row, elements.column
@@ -186,12 +188,12 @@ def _without(elements: Integers, members: Integers) -> Integers:
 
 def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -> tuple[Array, Array]:
     """Return pressure P and tangent q of the elements of a contact set at a depth, each of shape (count,)."""
-    from scipy.linalg.lapack import dposv  # this import takes long
+    from scipy.linalg.lapack import dposv  # imported here, because this import takes long
 
     matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
     right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
-    # LAPACK stores matrices by columns and numpy by rows. The lower triangle is therefore the upper one for LAPACK, and
-    # the transposed matrix needs no copy.
+    # LAPACK stores matrices by columns and numpy by rows. The transposed matrix therefore needs no copy, and its upper
+    # triangle is used.
     _, solution, failed = dposv(matrix.T, right.T, lower=False, overwrite_a=True, overwrite_b=True)
     if failed:
         raise ConvergenceError(f"contact of {members.size} elements: their influence matrix is not positive definite")
@@ -207,10 +209,10 @@ def _exact_contact(units: Units, depth: float, members: Integers, pressure: Arra
 
 @njit(fastmath=True)
 def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
-    """Compute the contact events after a given contact, as `follow_events`; compiled code needs plain arrays.
+    """Compute the contact events after a given contact (see `follow_events`) in compiled code, from plain arrays.
 
     depth : reduced depth of the given contact
-    start, pressure : ranks of its elements in contact, and their pressures P
+    start, pressure : ranks and pressures P of the elements in contact at this depth
     most : largest number of elements in contact
     force : largest reduced ΣP
 
@@ -220,8 +222,9 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
-    # Lower bound of the depth at which each element touches; _NEVER for elements in contact. A gap is a convex function
-    # of the depth: it closes at most as fast as the depth grows, and ever more slowly.
+    # Lower bound of the depth at which each element touches; _NEVER for elements in contact. The first bound is the
+    # initial gap, because a gap closes at most as fast as the depth grows. Later bounds follow from the tangent of the
+    # gap, which is a convex function of the depth.
     earliest = initial_gap.copy()
     count, total, following = 0, 0.0, 0
     for t in range(start.size - 1):
@@ -265,13 +268,14 @@ def _next_touch(influence, row, column, initial_gap, depth, members, load, tange
     guess : element whose gap is computed first; if it touches soon, few other gaps have to be computed
 
     Returns the increase of the depth until the next touch, the element that touches, and a guess for the next call: the
-    element with the smallest lower bound among the others.
+    element with the smallest lower bound among all other elements.
     """
     depth_step, element, following, first_later = _NEVER, -1, 0, _NEVER
     member_row, member_column = row[members], column[members]
     for position in range(-1, initial_gap.size):
         i = guess if position < 0 else position
-        # An element touches no earlier than at a depth equal to its initial gap, which increases with the rank.
+        # An element touches only at depths of at least its initial gap. The initial gap increases with the rank, so no
+        # element from here on touches earlier.
         if position >= 0 and initial_gap[i] - depth >= depth_step:
             break
         if earliest[i] - depth < depth_step:

@@ -14,8 +14,8 @@ from viscorough.contact.state import ContactState, DenseContact, GridContact
 def gap_map(solver: ContactSolver, contact: ContactState) -> Array:
     """Return the gap e between indenter and deformed surface [length], in the shape of the heights.
 
-    The gap is nan outside the indenter. If the contact was solved on the grid of a box, its fields contain the gap in
-    this box. At all other elements, the gap follows from the deflection by all loads.
+    The gap is nan outside the indenter. A contact that was solved on the grid of a box (a part of the map) contains the
+    gap of all elements in this box. At all other elements, the gap follows from the deflection due to all loads.
 
     solver : ContactSolver that has solved the contact
 
@@ -27,8 +27,8 @@ def gap_map(solver: ContactSolver, contact: ContactState) -> Array:
     on_grid = slice(top, top + rows), slice(left, left + columns)
     part, box, box_gap = gap[on_grid], (0, 0, 0, 0), None
     grid = solver.grid_of(contact)
-    # The operator of a restricted grid computes the deflection only in tiles with elements that can touch, so the
-    # fields lack the gap in the other tiles of the box.
+    # Take the gap in the box from the contact, unless the grid is restricted: on a restricted grid, the gap is known
+    # only in tiles (parts of the box) with elements that can touch.
     if grid and isinstance(contact, GridContact) and not grid.is_restricted:
         box, box_gap = grid.box, grid.in_box(contact.fields.gap_change.values)
     if box != (0, 0, rows, columns):
@@ -47,7 +47,7 @@ def gap_map(solver: ContactSolver, contact: ContactState) -> Array:
 
 
 def _undeformed_gap(solver: ContactSolver, depth: float) -> Array:
-    """Return the gap g − u of all elements without deflection of the surface [length], in the shape of the heights."""
+    """Return the gap g − u between all elements and the undeformed surface [length], in the shape of the heights."""
     heights, highest = solver.indenter.heights, solver.ranking.highest
     gap = np.empty(heights.shape)
 
@@ -75,7 +75,8 @@ def _add_deflection(solver: ContactSolver, contact: ContactState, gap: Array, bo
         restricted.load[place] = load * solver.units.length
         restricted.add_to(gap, tiles.tiles_beyond(box, elements.shape))
     else:
-        # Dense solutions are exact within the rounding of double precision, so the deflection must be, too.
+        # Compute the deflection in double precision for dense solutions, which are exact within rounding, and for small
+        # tolerances.
         is_exact = isinstance(contact, DenseContact) or solver.tolerance < options.exact_gap_below
         precision, threads = np.float64 if is_exact else np.float32, solver.threads
         spectrum = spectrum_of_grid(rows, columns, aspect=elements.aspect, padding=options.padding, threads=threads)

@@ -1,10 +1,11 @@
 """Estimate the error due to the spacing of a map, from its loading curve and the curve of every second point.
 
-A map contains no roughness between its points. How much a curve changes when the spacing doubles is used to estimate
-how much it would change if the spacing were halved again and again. In a fluid of viscosity η the velocity at the force
-F is v = F/(η k/G), with the stiffness k and the shear modulus G. At equal forces, the ratio of two velocities therefore
-follows from the stiffnesses. The errors at a level of the curve are estimated as follows. The index 2 denotes the curve
-of every second point, and ⟨·⟩ the mean over all forces within half a decade of the level, uniform in ln F:
+A map contains no roughness between its points. The loading curve would change if the spacing of the map were halved
+again and again. This change is estimated from the change of the curve when the spacing is doubled. In a fluid of
+viscosity η the velocity at the force F is v = F/(η k/G), with the stiffness k and the shear modulus G. At equal forces,
+the ratio of two velocities therefore follows from the stiffnesses. The errors at a level (a computed point of the
+curve) are estimated as follows. The index 2 denotes the curve of every second point, and ⟨·⟩ the mean over all forces
+within half a decade of the level, uniform in ln F:
 
     error of the velocity:          s √⟨ln²(v/v₂)⟩     v and v₂ at equal force; s = SAFETY_FACTOR
     error of the force:             r √⟨(1 − F₂/F)²⟩   F and F₂ at equal depth; r = FORCE_SAFETY_FACTOR
@@ -24,23 +25,25 @@ from viscorough.basics.types import Array
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# The difference between the velocities of the two curves is multiplied by this factor. On most surfaces the difference
-# alone exceeds the true error; the product exceeds it on nine surfaces of ten (benchmarks/grid_errors.py).
+# Estimated error of the velocity, divided by the difference between the velocities on the curves of all points and of
+# every second point. On most surfaces the difference alone exceeds the true error. With this factor, the estimate
+# exceeds the true error on nine surfaces of ten (benchmarks/grid_errors.py).
 SAFETY_FACTOR = 1.3
-# The difference between the forces at equal depth is multiplied by this factor. If the spacing is halved repeatedly,
-# the force changes in the same direction each time, above all on surfaces of small Hurst exponent. The changes of the
-# force therefore add up to more than the changes of the velocity.
+# Estimated error of the force, divided by the difference between the forces at equal depth on the curves of all points
+# and of every second point. This factor is larger than the factor for the velocity. If the spacing is halved
+# repeatedly, the force changes in the same direction each time, above all on surfaces of small Hurst exponent. The
+# changes of the force therefore add up to more than the changes of the velocity.
 FORCE_SAFETY_FACTOR = 3.0
-# Two curves are compared at this number of points per decade of force. Many points are needed, because the stiffnesses
-# jump whenever an element touches.
+# Two curves are compared at this number of points per decade of force. Many points are needed, because the stiffness
+# jumps whenever an element touches.
 _POINTS_PER_DECADE = 50
-# The error at a level is a mean over all forces whose ln F differs from ln F of the level by at most this number, which
-# is half a decade.
+# The error at a level (a computed point of the curve) is a mean over all forces within this distance in ln F from the
+# force of the level, which is half a decade.
 _HALF_WINDOW = 0.5 * np.log(10)
-# Smallest normalised force X = F/(4GhL) for means over a whole curve. A smaller force is carried by a few summits,
-# which coarse grids cannot represent.
+# Means over a whole curve begin at this reduced force X = F/(4GhL), where h is the rms height and L the diameter of the
+# map. Smaller forces are carried by a few summits, which coarse grids cannot represent.
 _LEAST_X = 0.01
-# If a curve ends at a small force, means over the whole curve begin at this share of its last force.
+# Means over a whole curve begin at this share of the largest force of the curve, if the curve ends at a small force.
 _LEAST_RANGE = 0.1
 
 
@@ -66,15 +69,15 @@ def ordinal(number: int) -> str:
 
 
 def highest_missed(indenter: Indenter, coarse: Indenter) -> float:
-    """Return how much higher the highest point of a map is than the highest point of a coarser map [length]."""
+    """Return the height of the highest point of a map above the highest point of a coarser map [length]."""
     return float(np.nanmax(indenter.heights)) - float(np.nanmax(coarse.heights))
 
 
 def lowest_force(indenter: Indenter, last_force: float) -> float:
-    """Return the force F/G from which on means over a whole curve are taken [length²].
+    """Return the smallest force F/G that contributes to means over a whole curve [length²].
 
-    This is the force with X = F/(4GhL) = 0.01, where h is the rms height of the map, and L the diameter of a disc with
-    the area of the map. If a tenth of the last force of the curve is smaller, this tenth is returned instead.
+    This force is F = 0.01 · 4GhL, where h is the rms height of the map, and L the diameter of a disc with the area of
+    the map. It is at most a tenth of the last force of the curve.
 
     last_force : F/G at the end of the curve [length²]
     """
@@ -88,7 +91,7 @@ def with_grid_errors(curve: LoadingCurve, coarse: LoadingCurve, indenter: Indent
 
     curve : loading curve of a map
     coarse : loading curve of every second point of the map; it is continued as a straight line beyond its last level
-    indenter : map whose height and size determine the force from which on errors are averaged (see `lowest_force`)
+    indenter : map whose rms height and area determine the smallest force for mean errors (see `lowest_force`)
     missed : height of the highest point of the map above the highest point of the coarse map [length]
     """
     levels = np.log(curve.force)
@@ -118,12 +121,12 @@ def _points(first: float, last: float) -> Array:
 
 
 def _forces(points: Array, curve: LoadingCurve) -> Array:
-    """Return the forces F for given values of ln F, limited to the forces of the curve in spite of rounding."""
+    """Return the forces F for given values of ln F. Rounding does not move a force beyond the ends of the curve."""
     return np.clip(np.exp(points), curve.force[0], curve.force[-1])
 
 
 def _means(points: Array, values: Array, low: Any, high: Any) -> Any:
-    """Return the mean of a piecewise linear function from `low` to `high`; for low = high, the value of the function.
+    """Return the mean of a piecewise linear function between `low` and `high`, or its value there if low = high.
 
     points, values : function values at the points, between which the function is linear
     low, high : ends of the interval, within the range of the points; numbers or arrays of equal shape
@@ -135,11 +138,11 @@ def _means(points: Array, values: Array, low: Any, high: Any) -> Any:
 
 
 def _force_at_depth(curve: LoadingCurve, depth: Array) -> Array:
-    """Return the force F/G at each depth, which is 0 for depths below 0.
+    """Return the force F/G at each depth; the force is 0 for depths below 0.
 
-    Before its first level the curve is a straight line from the origin, and beyond its last level its tangent. Between
-    the levels, the force is a power law of the depth between closely spaced points of the curve, which takes far less
-    time than `LoadingCurve.at_depth`.
+    Before its first level the curve is a straight line from the origin. Beyond its last level it continues along its
+    tangent. Elsewhere, the force is interpolated as a power law of the depth between closely spaced points of the
+    curve, which takes far less time than `LoadingCurve.at_depth`.
     """
     force = _forces(_points(*np.log(curve.force[[0, -1]])), curve)
     log_depth = np.log(np.clip(depth, curve.depth[0], curve.depth[-1]))

@@ -40,12 +40,12 @@ from viscorough.contact.step_control import ContactsAhead, Level, StepControl, d
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# Below the contact fraction `start_fraction`, levels are far apart: each depth is this multiple of the depth before.
+# Below the contact fraction `start_fraction`, levels are far apart: each depth is this multiple of the previous depth.
 _APPROACH_DEPTH_RATIO = 4.0
-# These long steps end when the contact fraction reaches this share of `start_fraction`.
+# The long steps in depth below `start_fraction` end when the contact fraction reaches this share of `start_fraction`.
 _APPROACH_SHARE = 0.7
-# The long steps become shorter close to `start_fraction`. They end at the latest when the ratio of successive depths
-# falls to this value.
+# Close to the contact fraction `start_fraction`, the long steps in depth become shorter. They end at the latest when
+# the ratio of successive depths falls to this value.
 _APPROACH_MIN_RATIO = 1.02
 # Curves that end at or below this contact fraction do not need the depth of complete contact.
 _FAR_FROM_COMPLETE = 0.95
@@ -53,11 +53,11 @@ _FAR_FROM_COMPLETE = 0.95
 _DEFAULT_TOLERANCE = 1e-3
 # Smallest and largest error of the velocity that can be requested.
 _ERRORS = 1e-3, 0.5
-# If the grid error is estimated, too, the curve itself takes about this share of the time. The rest is for the curve of
-# every second point.
+# If the grid error is estimated, the curve of all points takes about this share of the time, and the curve of every
+# second point takes the rest.
 _SHARE_OF_CURVE = 0.75
-# The finished share of the computation is estimated as a power of the reached share of the final contact count, or of
-# the final force, with this exponent.
+# The finished share of the computation is estimated as s to this power, where s is the share of the final contact count
+# or of the final force that the curve has reached.
 _PROGRESS_EXPONENT = 0.5
 
 
@@ -137,10 +137,10 @@ def indent(
     Returns
     -------
     LoadingCurve
-        Curve whose last level is the first one at or beyond `until_fraction` or `until_force`, or else the level at the
-        depth of complete contact, beyond which the curve is straight. If all heights of the indenter are equal, the
-        curve is a straight line from the origin. It then has a single level, at the depth √(dx dy), with the spacings
-        dx and dy of the map.
+        Curve with the given depths or forces. If neither is given, the curve ends at the first level at or beyond
+        `until_fraction` or `until_force`, or at the depth of complete contact, beyond which the curve is straight. If
+        all heights of the indenter are equal, the curve is then a straight line from the origin, with a single level at
+        the depth √(dx dy), where dx and dy are the spacings of the map.
 
     Raises
     ------
@@ -206,8 +206,8 @@ class _CurveRequest:
     start_fraction, until_fraction : range of contact fractions
     until_force : largest F/G of the curve [length²]
     depths : depths of the levels [length], or None
-    forces : forces F/G of the levels [length²], or None; depths and forces are never both given, and if either is
-        given, the three values above are ignored
+    forces : forces F/G of the levels [length²], or None. Depths and forces are never both given. If either is given,
+        the contact fractions and `until_force` are ignored
     threads : number of threads
     options : SolverOptions
     """
@@ -265,11 +265,11 @@ def _check_forces(forces: ArrayLike | None, modulus: float | None, unit: str) ->
 
 
 def _check_error(error: float | None, **others: Any) -> float | None:
-    """Return the requested error as a float, or None if none is requested.
+    """Return the requested error as a float, or None if no error is requested.
 
-    others : arguments that exclude a requested error, by name; None if not given
+    others : values of arguments that cannot be combined with a requested error; None for arguments that are not given
 
-    Raises ValueError if the error is out of range, or if any of the other arguments is given, too.
+    Raises ValueError if the error is out of range, or if it is given together with any of the other arguments.
     """
     if error is None:
         return None
@@ -306,8 +306,8 @@ def _curve(request: _CurveRequest, indenter: Indenter, tolerance: float, progres
         contacts = accumulate(depths, solver.advance, initial=solver.unloaded_state())
         levels = _levels(islice(contacts, 1, None), len(depths), progress)
     elif forces is not None:
-        # Contacts use half of the tolerance. The correction of each contact to exactly the given force may use the
-        # other half.
+        # Contacts are solved to half of the tolerance. The other half is left for the correction of each contact to
+        # exactly the given force.
         solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False)
         levels = _levels(map(ForceSearch(solver).contact_at, forces), len(forces), progress)
     else:
@@ -335,10 +335,10 @@ def _curve(request: _CurveRequest, indenter: Indenter, tolerance: float, progres
 
 
 def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str) -> None:
-    """Raise ValueError if given depths are so close that the computed forces do not increase, or vice versa.
+    """Raise ValueError if given depths or forces are so close together that the computed quantity does not increase.
 
     given : depths or forces of the levels as the user has given them, or None
-    found : computed forces or depths of the same levels
+    found : computed forces (for given depths) or computed depths (for given forces)
     name, other : names of the given and of the computed quantity, "depths" or "forces"
     """
     if given is not None and (closer := np.diff(found) <= 0).any():
@@ -349,8 +349,9 @@ def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str
 
 
 def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:
-    """Return the levels of contacts, which are solved as the iterator is read; report progress after each contact.
+    """Return the levels of contacts, and report progress after each contact.
 
+    contacts : contacts; an iterator may solve each contact when it is read
     number : number of contacts
     """
     levels = []
@@ -361,7 +362,7 @@ def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -
 
 
 class _LoadingPath:
-    """Levels of a loading curve, from first contact up to a contact fraction or force.
+    """Computation of the levels (points) of a loading curve, from first contact up to a contact fraction or force.
 
     The class works in the reduced units of contact.state.
 
@@ -375,7 +376,8 @@ class _LoadingPath:
         self._solver, self._progress = solver, progress
         self._control = StepControl(solver.tolerance, solver.threads)
         self._until_count = until_fraction * solver.elements.count
-        self._complete: ContactState | None = None  # complete contact; computed only when a contact may have reached it
+        # Contact at the depth of complete contact; computed only when a solved contact may have reached this depth.
+        self._complete: ContactState | None = None
         # The limit is slightly above the force, so that rounding does not leave the last level below the force.
         self._until_pressure_sum = (1 + ROUNDING / 2) * until_force / solver.units.force
         self._contact = solver.first_contact()
@@ -395,12 +397,12 @@ class _LoadingPath:
             return False
         if contact.count < every or isinstance(contact, DenseContact):
             return contact.count < self._until_count  # a dense solution is exact, and so is its contact count
-        # All elements are in contact on the grid. There, elements may join slightly too early, because their gaps are
-        # computed to the tolerance, so contact need not be complete yet.
+        # All elements are in contact on the grid, but contact need not be complete yet. Gaps on the grid are accurate
+        # only to the tolerance, so elements may join slightly too early.
         return self._until_count > every - 1 and not self._solver.is_flat
 
     def _advance_to(self, depth: float) -> ContactState:
-        """Return the contact at a larger depth, or the contact at the depth of complete contact if this is smaller.
+        """Return the contact at `depth`, or at the depth of complete contact if this depth is smaller than `depth`.
 
         The depth of complete contact is computed as soon as a contact may lie beyond it, unless the curve ends with
         this contact.
@@ -414,8 +416,8 @@ class _LoadingPath:
             if is_last or not self._solver.may_be_complete(contact):
                 return contact
             self._complete = self._solver.complete_contact()
-            # If the contact is at almost the depth of complete contact, return complete contact: rounding and residuals
-            # could otherwise put two levels in the wrong order.
+            # If the contact is almost at the depth of complete contact, return the complete contact instead. Rounding
+            # and residuals could otherwise put these two contacts in the wrong order.
             is_before = depth * self._control.min_ratio < self._complete.reduced_depth
             return contact if is_before else self._complete
         if depth >= self._complete.reduced_depth:
@@ -429,7 +431,7 @@ class _LoadingPath:
         self._progress(min(done, 1.0) ** _PROGRESS_EXPONENT)
 
     def _approach(self, start_count: float) -> None:
-        """Take long steps towards the smallest contact count of interest, and shorter steps close to this count."""
+        """Take long steps in depth towards the contact count `start_count`, and shorter steps close to this count."""
         ratio, most = _APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
         while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
             contact = self._advance_to(self._contact.reduced_depth * ratio)
@@ -439,7 +441,8 @@ class _LoadingPath:
                 self._ahead.keep(contact)
             else:
                 self._add(contact)
-            if self._ahead:  # the next step goes half of the way, in ln u, to the nearest contact that was kept
+            # Let the next step go half of the way to the nearest kept contact, on a logarithmic scale of depth.
+            if self._ahead:
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 
     def _follow_events(self) -> None:
@@ -453,7 +456,8 @@ class _LoadingPath:
         most = min(self._control.events, int(np.ceil(self._until_count)))
         events, self._contact, _ = self._solver.follow_events(contact, most, self._until_pressure_sum)
         if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
-            self._levels.pop()  # the first event is at the same depth as this level, and more elements touch there
+            # Remove the last level: the first event is at the same depth, but more elements are in contact.
+            self._levels.pop()
         self._levels += [Level(*event) for event in zip(*events, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
         self._ahead = ContactsAhead(contact for contact in self._ahead if contact.reduced_depth > nearest)

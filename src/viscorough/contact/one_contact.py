@@ -25,8 +25,8 @@ from viscorough.contact.state import ContactState
 from viscorough.results.contact_maps import Contact
 from viscorough.surfaces.indenter import Indenter
 
-# In the search for the contact at a force, contacts of smaller forces take about this share of the time. The rest of
-# the time is for contacts close to the force.
+# In the search for the contact at a force, about this share of the time passes until a solved contact has reached the
+# force. The rest of the time is for contacts close to the force.
 _SHARE_OF_APPROACH = 0.6
 
 
@@ -158,8 +158,8 @@ def contact_at(
     Returns
     -------
     Contact or list[Contact]
-        The contact, or a list of contacts for several depths or forces; each contact is solved from the one before. The
-        pressures times the area of an element add up to the force F/G within rounding.
+        The contact, or a list of contacts for several depths or forces. The pressures times the area of an element add
+        up to the force F/G within rounding. Each contact of a list is solved from the previous contact.
 
     Raises
     ------
@@ -191,8 +191,8 @@ def contact_at(
         given = units.forces_over_modulus(force, modulus, unit, argument("force"))
     name = argument("depth" if by_depth else "force", of="contact_at")
     values = increasing(name, np.atleast_1d(given), above_zero=True)
-    # Contacts use half of the tolerance. The change of the pressures to exactly the sum of the force may use the other
-    # half.
+    # Contacts are solved to half of the tolerance. The other half is left for rescaling the pressures, so that they add
+    # up to exactly the force.
     largest_depth = float(values[-1]) if by_depth else np.inf
     solver = ContactSolver(indenter, tolerance / 2, options, threads, largest_depth=largest_depth, whole=False)
     states = (_states_at_depths if by_depth else _states_at_forces)(solver, values, progress or (lambda done: None))
@@ -208,9 +208,9 @@ def contact_at(
 
 
 def _states_at_depths(solver: ContactSolver, depths: Array, progress: Progress) -> Iterator[ContactState]:
-    """Solve the contacts at depths [length], each from the one before.
+    """Yield the contacts at depths [length]; each contact is solved from the previous contact.
 
-    The pressures are rescaled, so that they add up exactly to the force.
+    The pressures of each contact are rescaled, so that they add up exactly to its force.
     """
     last: ContactState = solver.unloaded_state()
     for number, depth in enumerate(depths, 1):
@@ -220,7 +220,7 @@ def _states_at_depths(solver: ContactSolver, depths: Array, progress: Progress) 
 
 
 def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) -> Iterator[ContactState]:
-    """Solve the contacts at forces F/G [length²], each from the one before."""
+    """Yield the contacts at forces F/G [length²]; each contact is solved from the previous contact."""
     search = ForceSearch(solver)
     for number, force in enumerate(forces):
         yield search.contact_at(force, _approach(progress, number, forces.size))
@@ -228,7 +228,7 @@ def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) 
 
 
 def _approach(progress: Progress, number: int, size: int) -> Progress:
-    """Return a function that reports the progress of the search for a force.
+    """Return a function that reports the progress of the search for the contact at one force.
 
     The returned function takes the share of the force that is reached so far, from 0 to 1.
 
@@ -244,7 +244,7 @@ def _with_maps(
     """Return a solved contact with its maps of pressure and gap.
 
     state : solved contact
-    depth, force, tolerance, modulus : values for the result, in the units of Contact
+    depth, force, tolerance, modulus : values to store in the Contact, in its units
     """
     if not np.isfinite(state.force):
         text = "the force is too large to represent; a larger unit of length is needed"
@@ -254,7 +254,7 @@ def _with_maps(
     pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
     contact = pressure > 0
     for array in (pressure, gap, contact):
-        array.flags.writeable = False  # a Contact copies writeable arrays
+        array.flags.writeable = False  # saves a copy: a Contact copies writeable arrays only
     return Contact(
         pressure=pressure,
         gap=gap,

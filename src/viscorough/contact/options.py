@@ -4,10 +4,9 @@ from dataclasses import dataclass, fields
 
 from viscorough.basics.arrays import real_number, shown, whole_number
 
-# A step from one depth to the next starts from a guess of the contact set. The guess leaves out elements that are
-# predicted to touch late in the step, since the elements that touch earlier will push the surface away from them. In a
-# step from depth 0, "late" is this last share of the step. In a smaller step, the share is smaller by the ratio of the
-# step to the new depth.
+# A step Δu to the depth u starts from a guess of the contact set. The guess leaves out elements that are predicted to
+# touch late in the step, because elements that touch earlier will push the surface away from them. "Late" means in the
+# last share LATE · Δu/u of the step.
 LATE = 0.5
 
 

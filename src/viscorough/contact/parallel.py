@@ -66,8 +66,8 @@ def run_blocks(
         work()
     finally:
         for helper in pending:
-            # Cancelling succeeds if a helper has not started. No block is then left for it, so it need not run. Wait
-            # only for helpers that have started.
+            # Cancel helpers that have not started, because no block is left for them. Wait for helpers that have
+            # started: cancel() returns False for these.
             if not helper.cancel():
                 helper.result()
     return results
@@ -84,7 +84,7 @@ def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
 class Buffer(threading.local):
     """Scratch array `array`, separate for each thread.
 
-    It consists of zeros when a thread uses it first; later it contains what the thread has written last.
+    Each thread first sees an array of zeros, and later the values that the same thread has written.
     """
 
     def __init__(self, shape: tuple[int, ...], dtype: DTypeLike) -> None:

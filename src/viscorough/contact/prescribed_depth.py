@@ -45,40 +45,42 @@ from viscorough.surfaces.indenter import Indenter
 _BOX_DEPTH_MARGIN = 2.0
 # The whole grid is used if the box around the elements that can touch would cover more than this share of the grid.
 _LARGEST_BOX = 0.8
-# A box is enlarged to allow for a larger depth only as long as its area grows at most by this factor.
+# A box (the part of the grid where contacts are solved) is enlarged for larger depths only as long as its area grows at
+# most by this factor.
 _GROWTH_OF_BOX = 1.3
-# Contact only grows with depth. Within the accuracy of the solution, though, an element may leave the contact. It is an
-# error if the gap of this element is larger than this multiple of the tolerance times the depth.
+# Contact grows with depth, but within the accuracy of the solution an element may leave the contact. An element that
+# left the contact is an error if its gap exceeds this number times tolerance times depth.
 _LOST_CONTACT = 3
-# Largest reduced depth. The largest number of single precision is more than a thousand times as large.
+# Largest reduced depth that a contact may have. It is far below the largest number of single precision, 3e38.
 _LARGEST_DEPTH = 1e25
-# The linear problems of complete contact are solved until the norm of the residual, divided by the norm of the
-# right-hand side, is this share of the tolerance. The relative error of the depth is a few times this ratio. At a
-# single element, the residual may be √n times as large relative to the right-hand side, with the number n of elements.
+# The two linear problems of complete contact are solved until the norm of the residual, divided by the norm of the
+# right-hand side, is this share of the tolerance. The relative error of the depth is a few times this ratio. With n
+# elements, the residual at a single element may be √n times as large relative to the right-hand side.
 _JOINED_SHARE = 1e-4
-# A gap counts as open if it exceeds the residual by this factor, which is a margin for rounding.
+# An element counts as out of contact if its gap exceeds the residual of the contact times this factor, which is a
+# margin for rounding.
 _OPEN_GAP = 1.1
-# The last contact is transferred to a new grid, to start the iteration there, only if the new depth is less than this
-# multiple of the last depth.
+# On a new grid, the iteration starts from the last contact only if the new depth is less than this multiple of the last
+# depth.
 _LARGEST_RATIO_OF_START = 2.0
 
 
 class ContactSolver:
     """Solver for the contact of one indenter at increasing depths.
 
-    Arguments, of which the first four are also attributes:
+    Arguments (the first four are also attributes):
 
     indenter : Indenter with two-dimensional heights
     tolerance : largest allowed gap |e| in contact, or overlap outside the contact, divided by the depth
     options : SolverOptions
     threads : number of threads for contacts on the grid
-    largest_depth : largest depth that will be requested [length]. Grids need not allow for larger depths
+    largest_depth : largest depth that will be requested [length], so that no grid allows for larger depths
     whole : True if the whole map may come into contact. Memory is then checked for the whole map at once, otherwise for
         each new box around the elements that can touch
 
     Further attributes:
 
-    ranking : Ranking of the elements by height; each solution ranks further elements as needed
+    ranking : Ranking of the elements by height; further elements are ranked when a contact needs them
     units : state.Units
 
     Raises MemoryError if the available memory does not suffice for the map.
@@ -108,7 +110,7 @@ class ContactSolver:
 
     @property
     def elements(self) -> Elements:
-        """Return the Elements, with arrays of the elements ranked so far."""
+        """Return the Elements object with all elements that are ranked by height so far."""
         return self.ranking.elements
 
     @property
@@ -126,7 +128,7 @@ class ContactSolver:
         return unloaded_contact(self.units)
 
     def first_contact(self) -> ContactState:
-        """Return the contact at the depth up to which only the highest elements touch, so that the curve is straight.
+        """Return the contact at the end of the straight first part of the curve, where only the highest elements touch.
 
         This depth is the smallest positive initial gap, or the side of an element if all elements have the same height.
         """
@@ -134,7 +136,8 @@ class ContactSolver:
         gap = self.elements.initial_gap
         highest = np.searchsorted(gap, 0, side="right")
         depth = 1.0 if self.is_flat else gap[highest]
-        if highest == 1 and self.options.dense_contacts:  # a tenth of the time of a general solution
+        if highest == 1 and self.options.dense_contacts:
+            # This function takes a tenth of the time of the general solution below.
             return dense.solve_highest_element(self.elements, depth)
         return self.advance_reduced(self.unloaded_state(), depth)
 
@@ -142,11 +145,11 @@ class ContactSolver:
         """Extrapolate the contact along its tangent to a nearby depth, and rescale its pressures to the given sum.
 
         The residual of the returned contact may be up to twice the tolerance. It includes a bound on the overlap of
-        elements outside the box of the grid, namely the depth minus their smallest initial gap, relative to the depth.
+        elements outside the box of the grid: 1 − g/u, where g is the smallest initial gap of these elements.
 
         contact : the contact solved last
-        depth, pressure_sum : u and ΣP of the returned contact, reduced. If `contact` was solved by dense linear
-            algebra, these must be the depth and the sum of `contact`
+        depth, pressure_sum : reduced depth u and sum ΣP of the returned contact. For a `contact` from dense linear
+            algebra, they must equal the depth and the sum of `contact`
         """
         if not isinstance(contact, GridContact) or self._grid is None:
             return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
@@ -168,14 +171,14 @@ class ContactSolver:
         target: TargetForce | None = None,
         guess: MemberLoads | None = None,
     ) -> ContactState:
-        """Solve the contact at a larger depth in units of the largest initial gap. Raises the errors of `advance`.
+        """Solve the contact at a larger depth in units of the largest initial gap; raise the same errors as `advance`.
 
         contact : contact at a smaller depth
         depth : depth at which the contact is solved, or a first guess of the depth if there is a target
-        target : force to reach. On the grid, the contact is solved at this force within the tolerance, or at the
-            largest depth of the target. A dense solution ignores the target: it is at the guessed depth
-        guess : loads similar to the loads at the larger depth. If the depth of `contact` is much smaller, the iteration
-            on the grid starts from these loads instead
+        target : force to reach. A contact on the grid is solved at this force within the tolerance, or at the largest
+            depth that the target allows. A dense solution ignores the target and is solved at `depth`
+        guess : expected loads. If the depth of `contact` is much smaller than `depth`, the iteration on the grid starts
+            from the expected loads instead of `contact`
         """
         if depth > _LARGEST_DEPTH:
             text = f"contact at depth {depth * self.units.length:g}: larger than {_LARGEST_DEPTH:g} times the largest"
@@ -198,9 +201,9 @@ class ContactSolver:
     def follow_events(
         self, contact: DenseContact, most: int, pressure_sum: float
     ) -> tuple[ContactEvents, DenseContact, bool]:
-        """Compute the next contact events, the depths where elements touch, as `dense.follow_events` does.
+        """Compute the next contact events, the depths where elements touch, and rank further elements as needed.
 
-        Further elements are ranked as needed.
+        See `dense.follow_events` for arguments and results.
         """
         while True:
             events, last, ends_at_force = dense.follow_events(self.elements, contact, most, pressure_sum)
@@ -211,14 +214,15 @@ class ContactSolver:
     def may_be_complete(self, contact: ContactState) -> bool:
         """Return True if the depth of a contact may be at or beyond the depth of complete contact.
 
-        The number of elements in contact does not show this, because an element that overlaps the surface by less than
-        the tolerance need not join the contact. From the depth of complete contact on, though, all exact gaps are zero,
-        and no computed gap exceeds the residual. The method returns True if no computed gap does.
+        From the depth of complete contact on, all exact gaps are zero, so no computed gap exceeds the residual. The
+        method therefore returns True if no computed gap exceeds the residual. It does not compare the number of
+        elements in contact with the number of all elements, because an element that overlaps the surface by less than
+        the tolerance need not join the contact.
         """
         if not isinstance(contact, GridContact):
             return contact.count == self.elements.count  # a dense solution is exact
         if contact.reduced_depth < 1:
-            return False  # the lowest element cannot touch
+            return False  # the depth is less than the initial gap of the lowest element, which therefore cannot touch
         fields, limit = contact.fields, _OPEN_GAP * contact.residual * contact.reduced_depth
         fixed = limit, fields.gap_change.values, fields.initial_gap
         return not any(self._loops.each(kernels.has_open_gap, fixed, fields.place))
@@ -243,12 +247,12 @@ class ContactSolver:
         return grid if grid and _is_on(grid, contact) else None
 
     def depth_of_box(self, depth: float, deepest: float) -> float:
-        """Return the largest reduced depth whose box is at most slightly larger than the box of a given depth.
+        """Return the largest reduced depth for which the box of the grid need grow only slightly.
 
-        The box of a depth surrounds all elements that can touch at this depth. A single element far from all others can
+        The box at a depth surrounds all elements that can touch at this depth. A single element far from all others can
         make the box many times as large, even if this element does not come into contact.
 
-        depth : given reduced depth; the area of its box may grow by the factor _GROWTH_OF_BOX
+        depth : reduced depth. The box may be larger than the box at this depth, in area by the factor _GROWTH_OF_BOX
         deepest : largest reduced depth to return; all elements up to this depth must be ranked
         """
         rank, reach = (max(self.elements.count_below(u), 1) for u in (depth, deepest))
@@ -262,22 +266,23 @@ class ContactSolver:
     def _start(
         self, grid: GridSolver, contact: ContactState, depth: float, guess: MemberLoads | None
     ) -> GridContact | MemberLoads:
-        """Return the start of the iteration on the grid for a larger depth: a contact on this grid, or loads.
+        """Return the start of the iteration for a larger depth: either a contact that is stored on `grid`, or loads.
 
         contact : contact solved last, on any grid or by dense linear algebra
         guess : loads to start from if the depth of `contact` is much smaller; None for a start without loads
         """
         if isinstance(contact, GridContact) and _is_on(grid, contact):
             return contact
-        # Computing the fields of a contact at a much smaller depth takes more time than it saves.
+        # Transfer the contact to `grid` unless its depth is much smaller than `depth`. In this case, the transfer takes
+        # more time than it saves.
         if depth < _LARGEST_RATIO_OF_START * contact.reduced_depth:
             return grid.transferred(contact)
         return unloaded_contact(self.units).loads if guess is None else guess
 
     def _grid_up_to(self, rank: int, deepest: float) -> GridSolver:
-        """Return the grid solver of the current box, or of a new box if the current one lacks elements.
+        """Return the grid solver of the current box, or of a new box if the current box lacks elements.
 
-        Only elements whose initial gap is below the depth can touch, so a box need not contain the others.
+        Only elements whose initial gap is below the depth can touch, so a box need not contain lower elements.
 
         rank : number of elements, from the highest element on, that the box must contain
         deepest : reduced depth; a new box contains all elements that can touch up to this depth
@@ -299,7 +304,7 @@ class ContactSolver:
             self._grid.place_elements(self.elements)
             return self._grid
         self._former_applications = self.operator_applications
-        self._grid = None  # frees the memory of the current grid for the larger one
+        self._grid = None  # frees the memory of the current grid before the next grid needs memory
         require_for_box(self.indenter.heights, box, **self._memory_options)
         if reach == self.elements.count:
             self.ranking.free_influence()  # contacts on the whole grid need no dense solutions
@@ -309,8 +314,8 @@ class ContactSolver:
     def _checked(self, before: ContactState, after: ContactState) -> ContactState:
         """Return the contact after a step. Raises ConvergenceError unless it is valid.
 
-        A valid contact has no tension and a residual within the tolerance. No element lost contact in the step by more
-        than the accuracy explains (_LOST_CONTACT).
+        A valid contact has no tension, and a residual within the tolerance. If elements left the contact in the step,
+        their gaps are so small that the limited accuracy explains them (see _LOST_CONTACT).
         """
         pressure = after.fields.pressure if isinstance(after, GridContact) else after.member_loads().pressure
         if after.residual > self.tolerance or self._loops.lowest(pressure) < 0:
@@ -325,8 +330,8 @@ class ContactSolver:
                 f"{opening * self.units.length:g} although contact can only grow; choose a smaller tolerance"
             )
         if self.elements.initial_gap[after.count - 1] == 0 and self.elements.initial_gap[after.members[-1]] == 0:
-            # All elements in contact have the same, largest height, so the curve is straight up to this depth. The
-            # sum of pressures is made exactly proportional to the depth, so that LoadingCurve.at_force recognizes this.
+            # All elements in contact have the same, largest height, so the curve is straight up to this depth. Make the
+            # sum of pressures exactly proportional to the depth, so that LoadingCurve.at_force finds a straight line.
             return replace(after, pressure_sum=after.reduced_depth * after.tangent_sum)
         return after
 

@@ -29,36 +29,36 @@ from viscorough.contact.state import ContactState, DenseContact, Elements, Membe
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.surfaces.indenter import Indenter
 
-# While few elements touch, and all solved contacts are below the force, the next depth is at most this multiple of the
-# last depth.
+# As long as few elements touch and no solved contact has reached the force, the next depth is at most this multiple of
+# the last depth.
 _MAX_DEPTH_RATIO = 4.0
-# The depth for a force may turn out larger than the guessed depth. The largest depth allowed is the guess times the
-# following factor: the ratio of the guess to the last depth, raised to this power. The box of the grid contains only
-# elements that can touch up to the largest depth.
+# The depth for a force may turn out larger than the guessed depth u. Depths up to u (u/u₀)^_UNCERTAINTY are allowed,
+# where u₀ is the last depth. The box of the grid contains only elements that can touch up to the largest allowed depth.
 _UNCERTAINTY = 0.2
-# Contact events are computed up to this number of elements in contact.
+# Contact events (the depths where elements touch) are computed up to this number of elements in contact.
 _EVENTS = 200
-# From this number of elements in contact on, the power law is trusted even for depths of more than _MAX_DEPTH_RATIO
-# times the last depth.
+# With at least this number of elements in contact, the depth for a force is extrapolated by a power law even beyond
+# _MAX_DEPTH_RATIO times the last depth.
 _REPRESENTATIVE = 100
-# This number avoids a division by zero for two contacts at the same depth.
+# This number avoids a division by zero if two contacts have the same depth.
 _TINY = 1e-300
-# Side of a block in elements.
+# Number of elements along each side of a block. The coarser map contains only the highest element of each block.
 _SIDE = 4
-# Tolerance of contacts on the map of blocks.
+# Tolerance of contacts on the coarser map, in which a single element replaces each block of elements.
 _COARSE_TOLERANCE = 1e-2
-# The depth is estimated on a map of blocks only for forces of at least this multiple of the last force.
+# A coarser map (with one element per block) is used to estimate the depth only if the force is at least this multiple
+# of the force of the last contact.
 _FAR = 4.0
-# At the same force, the depth of the map is larger than the depth u of the map of blocks. The difference is written as
-# u c/√n with the number n of blocks in contact and the "excess" c. These values are a small, a likely and a large value
-# of c (c was 0.6 to 3 on self-affine maps).
+# Let u be the depth at a force on the coarser map of blocks, and n the number of blocks in contact. The depth on the
+# full map at the same force is u (1 + c/√n), with an unknown "excess" c. The constants are a small, a likely and a
+# large value of c. On self-affine maps, c was 0.6 to 3.
 _EXCESS = 0.6, 1.2, 2.5
-# If the excess between the map of blocks and a still coarser map has been measured, the three values are these
-# multiples of the measured excess. (On self-affine maps, c was 0.9 to 1.6 times the measured excess.)
+# If the excess c has been measured between the coarser map and a still coarser map, the small, the likely and the large
+# value of c are these multiples of the measured value. On self-affine maps, c was 0.9 to 1.6 times the measured value.
 _GROWTH_OF_EXCESS = 0.8, 1.1, 1.6
-# A measured excess smaller than this is replaced by this value.
+# Lower limit of a measured excess c (see _EXCESS). Smaller values are replaced by the limit.
 _LEAST_EXCESS = 0.3
-# Reduced deflection of the centre of a square element under its own uniform pressure, divided by P.
+# Deflection w/P at the centre of a square element under its own uniform pressure P, in reduced units.
 _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 
 
@@ -93,12 +93,11 @@ def _largest_in_blocks(heights):
 def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
     """Divide the load of every block among the elements of the block.
 
-    An element is loaded if its depth below the highest element of its block is less than the deflection of the block by
-    its own pressure. Within a block, loads are proportional to the square root of this difference, as in a Hertzian
-    contact.
+    Let w be the deflection of a block under its own pressure, and z the distance of an element below the highest
+    element of the block. The element is loaded if z < w, in proportion to √(w − z), as in a Hertzian contact.
 
-    elements : Elements, of which all that can be loaded are ranked
-    pressure : pressure P of every block, in reduced units of the elements, shape of the map of blocks
+    elements : Elements; all elements that can be loaded must be ranked
+    pressure : pressures P of the blocks in the reduced units of `elements`, in the shape of the coarser map of blocks
     """
     row, column = elements.places_on_map()
     block = row // _SIDE * pressure.shape[1] + column // _SIDE
@@ -115,10 +114,10 @@ def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
 
 
 class _Guess(NamedTuple):
-    """Guess of the contact at a force, which is solved next in the search for this force.
+    """Guess of the contact at a force, from which the next contact is solved.
 
     depth : likely reduced depth
-    target : TargetForce, so that the depth is adjusted to the force while the contact is solved; None to solve the
+    target : TargetForce if the depth is to be adjusted to the force while the contact is solved; None to solve the
         contact at exactly `depth`
     loads : likely loads of the contact; None if the iteration should start from a contact that was solved before
     """
@@ -129,11 +128,11 @@ class _Guess(NamedTuple):
 
 
 class _BlockDepth(NamedTuple):
-    """Depth of the contact on the map of blocks at a force. It serves to estimate the depth on the map itself.
+    """Depth at a force on the coarser map of blocks, from which the depth on the full map is estimated.
 
-    depth : depth of the map of blocks, in reduced units of the elements
-    share : 1/√n with the number n of blocks in contact. The estimated depth is depth · (1 + c share), with c from
-        _EXCESS
+    depth : depth on the coarser map, in the reduced units of the full map
+    share : 1/√n with the number n of blocks in contact. The estimated depth on the full map is depth · (1 + c share),
+        with the excess c (see _EXCESS)
     """
 
     depth: float
@@ -141,29 +140,31 @@ class _BlockDepth(NamedTuple):
 
 
 class ForceSearch:
-    """Search for contacts at increasing forces, at depths that a ContactSolver solves.
+    """Search for the contacts at increasing forces. A ContactSolver solves the contact at each trial depth.
 
     The class works in the reduced units of contact.state.
 
-    The contacts solved so far bracket the force. `_below` is the contact with the largest force up to the requested
-    force, at first the contact without load. `_above` contains contacts with larger forces.
+    The contacts solved so far bracket the requested force. `_below` is the solved contact with the largest force that
+    does not exceed the requested force; at first it is the contact without load. `_above` contains solved contacts with
+    larger forces.
     """
 
     def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
         self._below: ContactState = solver.unloaded_state()
         self._above = ContactsAhead()
-        # Largest number of elements in contact up to which contact events are computed. It is less than the number of
-        # all elements, because the event of the last element may lie beyond the force.
+        # Contact events are computed up to this number of elements in contact. It is below the number of all elements,
+        # because the depth where the very last element touches may lie beyond the depth of the requested force.
         dense = solver.options.dense_contacts, solver.options.dense_interactions
         self._events = int(min(_EVENTS, *dense, solver.elements.count - 1))
-        self._block_depth: _BlockDepth | None = None  # depth on the map of blocks in the last estimate
+        self._block_depth: _BlockDepth | None = None  # depth on the coarser map of blocks, from the last estimate
 
     @cached_property
     def _first(self) -> ContactState:
-        """Return the contact at the end of the straight start of the loading curve.
+        """Return the contact at the end of the straight first part of the loading curve.
 
-        It is computed only if it is needed, because it requires a table of influence coefficients for the whole map.
+        The contact is computed only when needed, because it requires a table of influence coefficients for the whole
+        map.
         """
         return self._solver.first_contact()
 
@@ -212,10 +213,10 @@ class ForceSearch:
     def _exact_contact(self, target: float, attempt: int) -> ContactState | None:
         """Return the contact at a force if it can be computed exactly, otherwise None.
 
-        It is exact on the straight start of the loading curve, and between contact events.
+        An exact contact can be computed on the straight first part of the loading curve, and between contact events.
 
         target : the force as the sum ΣP of reduced pressures
-        attempt : number of depths solved before in the search for this force
+        attempt : number of depths that were already solved in the search for this force
         """
         is_start = attempt == 0 or not self._below.count
         if is_start and (target <= self._first.pressure_sum or self._solver.is_flat):
@@ -228,10 +229,10 @@ class ForceSearch:
         return self._follow_events(target)
 
     def _estimate(self, target: float) -> _Guess | None:
-        """Guess the contact at a force from the contact of the map of blocks; return None if this would not help.
+        """Guess the contact at a force from the contact of a coarser map; return None if the guess would not help.
 
-        The map of blocks consists of the highest element of every block of elements. It is nowhere lower than the map
-        itself, so it carries the same force at a smaller depth, which is a lower bound.
+        The coarser map contains only the highest element of every block of elements. It is nowhere lower than the full
+        map, so it carries the same force at a smaller depth, which is a lower bound.
 
         target : the force as the sum ΣP of reduced pressures
         """
@@ -244,8 +245,8 @@ class ForceSearch:
         try:
             search = ForceSearch(coarse)
             contact = search.contact_at(target * solver.units.force)
-        except (ConvergenceError, ValueError):  # for example if all blocks have the same height within rounding
-            return None
+        except (ConvergenceError, ValueError):
+            return None  # there is no estimate, for example, if all blocks have the same height within rounding
         unit = coarse.units.length / solver.units.length
         measured = _BlockDepth(unit * contact.reduced_depth, contact.count**-0.5)
         least, likely, largest = (measured.depth * (1 + c * measured.share) for c in search._excess_bounds(contact))
@@ -262,10 +263,11 @@ class ForceSearch:
     def _excess_bounds(self, contact: ContactState) -> tuple[float, ...]:
         """Return a small, a likely and a large value of the excess c (see `_EXCESS`).
 
-        The method belongs to the search on a map of blocks. The returned c relates the depth of this map to the depth
-        of the finer map. If the depth has also been estimated on a still coarser map, c follows from this estimate.
+        Here `self` is the search for contacts on the coarser map of blocks. The returned values of c relate depths on
+        this map to depths on the full map. If `self` has made an estimate on a still coarser map, the values follow
+        from the error of the estimate. Otherwise they are `_EXCESS`.
 
-        contact : last contact that this search has found
+        contact : last contact that the search has found
         """
         if self._block_depth is None:
             return _EXCESS
@@ -276,8 +278,8 @@ class ForceSearch:
     def _follow_events(self, target: float) -> ContactState | None:
         """Compute contact events up to a force, while few elements are in contact.
 
-        Returns the contact at the force, or None if the events end before the force. After the last event the pressures
-        grow linearly with the depth, at the rate of their tangent.
+        Returns the contact at the force, or None if the events end before the force. From the last event to the force
+        the pressures P grow linearly with the depth, at the rate q = dP/du.
 
         target : the force as the sum ΣP of reduced pressures
         """
@@ -308,7 +310,10 @@ class ForceSearch:
         return _Guess(depth, TargetForce(target, self._solver.depth_of_box(depth, largest)))
 
     def _next_depth(self, target: float, attempt: int) -> float:
-        """Return the depth to solve next, between the nearest contacts below and above the force."""
+        """Return the depth to solve next: between the nearest contacts below and above the force, or else larger.
+
+        If no contact above the force is known, the depth is extrapolated from the nearest contact below the force.
+        """
         below = Level.of(self._below)
         by_tangent = below.depth + (target - below.pressure_sum) / below.tangent_sum
         if below.count == self._solver.elements.count:
@@ -323,16 +328,16 @@ class ForceSearch:
             depth = min(by_tangent, above.depth - (above.pressure_sum - target) / above.tangent_sum)
         else:
             depth = interpolate(below, above, np.array([target]))[0]
-        # Both contacts are only as exact as the tolerance. If they are too close for a depth in between, follow the
-        # tangent of the lower contact to the force.
+        # The contacts below and above the force are only as accurate as the tolerance. If they are so close together
+        # that no depth lies between them, follow the tangent of the contact below to the force.
         return float(min(depth, above.depth) if depth > below.depth else by_tangent)
 
     def _is_near(self, contact: ContactState, other: ContactState, target: float) -> bool:
         """Return True if a contact is so near to the force that it can be extrapolated along its tangent.
 
-        The relative change of the stiffness up to the force must be below the tolerance.
+        Between the contact and the force, the stiffness must change relatively by less than the tolerance.
 
-        other : second contact, for an estimate of the change of the stiffness with depth
+        other : second contact, used to estimate the change of the stiffness with depth
         """
         distance = abs(target - contact.pressure_sum) / contact.tangent_sum
         if isinstance(contact, DenseContact):  # `settled` cannot extrapolate a dense contact to another depth

@@ -18,16 +18,16 @@ from viscorough.surfaces.indenter import Indenter
 # To sort gaps on several threads, they are divided into ranges of about equal size. The limits of the ranges are
 # estimated from a sample of about this number of gaps.
 _SAMPLE = 1000
-# Largest number of these ranges.
+# Largest number of ranges of gaps. Each range is sorted on its own thread.
 _MOST_RANGES = 8
 # The elements ranked first are at most this share of all elements.
 _FIRST_SHARE = 0.25
-# The depth up to which elements are ranked first is estimated from a sample of the map. The sample is chosen so large
-# that about this number of its elements will be among those ranked first.
+# The first ranking contains all elements up to a depth, which is estimated from a sample of the map. The sample is so
+# large that about this number of its elements lie within the depth.
 _FIRST_IN_SAMPLE = 64
-# Largest number of elements in this sample.
+# Largest number of points in the sample of the map from which the depth of the first ranking is estimated.
 _LARGEST_SAMPLE = 1 << 14
-# If all ranked elements have the largest height, elements are ranked at least up to this reduced depth.
+# If all elements ranked so far have the largest height, further elements are ranked at least up to this reduced depth.
 _SMALLEST_DEPTH = 1e-3
 
 
@@ -39,15 +39,14 @@ class Ranking:
     indenter : Indenter with two-dimensional heights
     threads : number of threads
     options : SolverOptions with the numbers of elements to rank first
-    largest_depth : all elements up to this depth are ranked at the start [length]. If it is infinite, all elements of a
-        small map are ranked at the start, and no elements of a large map
+    largest_depth : all elements up to this depth are ranked at the start [length]. If the depth is infinite, all
+        elements of a small map are ranked at the start, and no elements of a large map
     whole : True if all elements will be needed
 
     Attributes:
 
-    elements : Elements object with all elements ranked so far. Only methods of this class replace it: `rank_up_to`,
-        which `rank_highest` and `require` call, and `free_influence`. They are called by the ContactSolver and by the
-        ForceSearch, when a contact needs more elements
+    elements : Elements object with all elements ranked so far. Only the methods `rank_highest`, `rank_up_to`, `require`
+        and `free_influence` replace this object. The ContactSolver and the ForceSearch call these methods
     highest : largest height
     is_flat : True if all elements have the same height
     """
@@ -81,7 +80,7 @@ class Ranking:
             self.rank_up_to(largest_depth / units.length)
 
     def rank_highest(self) -> None:
-        """Rank about `rank_first` elements (see SolverOptions), unless some elements are ranked already.
+        """Rank about the `rank_first` highest elements (see SolverOptions), unless elements are ranked already.
 
         The depth of these elements is estimated from a sample of the map, which takes little time.
         """
@@ -97,7 +96,7 @@ class Ranking:
         self.rank_up_to(float(np.partition(gap, rank)[rank]) if gap.size else np.inf)
 
     def rank_up_to(self, depth: float) -> None:
-        """Rank all elements whose initial gap does not exceed a depth, and possibly more elements.
+        """Rank all elements whose initial gap is at most a depth, and possibly more elements.
 
         depth : reduced depth, in units of the largest initial gap
         """
@@ -124,7 +123,7 @@ class Ranking:
         )
 
     def require(self, depth: float, *, up_to: float) -> None:
-        """Rank all elements up to the depth `up_to`, if not all elements up to `depth` are ranked already.
+        """Rank all elements up to the depth `up_to`, unless all elements up to `depth` are ranked already.
 
         Both depths are reduced, in units of the largest initial gap.
         """
@@ -136,9 +135,9 @@ class Ranking:
         self.elements = replace(self.elements, grid=replace(self.elements.grid))
 
     def _between(self, above: float, up_to: float) -> tuple[Integers, Array]:
-        """Return the elements with reduced initial gaps between two depths: their places on the map, and their gaps.
+        """Return the elements whose reduced initial gap lies between two depths, as indices and gaps.
 
-        A place is an index of the flattened map.
+        The indices refer to the flattened map.
         """
         heights, length = self._heights.ravel(), self.elements.units.length
 
@@ -185,7 +184,7 @@ def _increasing_order(gap: Array, threads: int) -> Integers:
     afterwards. This is several times as fast as a method that keeps the order of equal values.
     """
     order = np.argsort(gap) if threads == 1 or gap.size <= BLOCK else _order_by_ranges(gap, min(threads, _MOST_RANGES))
-    is_equal = np.zeros(gap.size, dtype=bool)  # True if a value equals the previous one in sorted order
+    is_equal = np.zeros(gap.size, dtype=bool)  # True if a value equals the previous value in sorted order
 
     def compare(i: int, j: int) -> None:
         in_order = gap[order[max(i - 1, 0) : j]]
@@ -194,15 +193,15 @@ def _increasing_order(gap: Array, threads: int) -> Integers:
     run_blocks(compare, gap.size, threads)
     if is_equal.any():
         members = np.flatnonzero(is_equal | np.append(is_equal[1:], False))
-        # Add a number to each index that grows from group to group of equal values by more than any index. Sorting the
-        # sums sorts the indices within each group.
+        # Sort the indices within each group of equal values, all groups at once. A multiple of the array size is added
+        # to the indices of each group, so that sorting does not mix the groups.
         group = np.cumsum(~is_equal[members]) * gap.size
         order[members] = np.sort(group + order[members]) - group
     return order
 
 
 def _order_by_ranges(gap: Array, ranges: int) -> Integers:
-    """Return indices that sort an array; values are divided into ranges, which are sorted on separate threads.
+    """Return indices that sort an array. The values are divided into ranges, which are sorted on separate threads.
 
     ranges : number of ranges, which contain about equal numbers of values
     """

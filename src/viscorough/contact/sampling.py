@@ -1,4 +1,4 @@
-"""Compute a loading curve within a requested error, on the coarsest sampling of a map and to the loosest tolerance.
+"""Compute a loading curve within a requested error, from few points of the map and to a loose tolerance.
 
 1. Choose the tolerance so that it causes only a part of the requested error.
 2. Compute the curve on every n-th point of the map, beginning with a large step n, a power of two.
@@ -21,20 +21,21 @@ from viscorough.contact.grid_error import every_nth_point, highest_missed, ordin
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# On a given grid, a tolerance t causes an error of the velocity of this number times √t, as root mean square over all
-# forces. The measured error was 1 % at t = 1e-2, and 2 to 4 % at t = 0.1 (self-affine discs of 129 to 513 elements
-# across, H = 0.2 to 0.8). The error grows as √t because the stiffness jumps at contact events, which loose tolerances
-# do not resolve.
+# On a given grid, a tolerance t causes a relative error of the velocity of this number times √t, as root mean square
+# over all forces. The measured error was 1 % at t = 1e-2, and 2 to 4 % at t = 0.1 (self-affine discs of 129 to 513
+# elements across, H = 0.2 to 0.8). The error grows as √t because the stiffness jumps whenever an element touches, and
+# loose tolerances do not resolve these jumps.
 _ERROR_PER_ROOT = 0.12
 # Share of the requested error that the tolerance may cause. The squares of independent errors add up, so a share of
 # √(1 − 0.4²) = 92 % is left for the error of the grid.
 _SHARE_OF_TOLERANCE = 0.4
-# The tolerance is never larger than this, however large the requested error is.
+# Largest tolerance that is chosen, however large the requested error is.
 _LOOSEST_TOLERANCE = 0.1
-# Steps n above 2 are used only if the sampled map has at least this number of rows and of columns. On smaller maps, the
-# curves of two samplings can agree by chance.
+# The map of every n-th point is used for n above 2 only if it has at least this number of rows and of columns. On
+# smaller maps, two curves can agree by chance.
 _FEWEST_POINTS = 16
-# For the same reason, steps n above 2 are used only if at least this number of the sampled points are not nan.
+# The map of every n-th point is used for n above 2 only if at least this number of its points are not nan. On fewer
+# points, two curves can agree by chance.
 _FEWEST_ELEMENTS = 100
 
 # Function that computes the loading curve of a map to a tolerance and reports its progress.
@@ -94,7 +95,7 @@ def part_of(progress: Progress, start: float, end: float) -> Progress:
 
 
 def _steps(indenter: Indenter) -> list[int]:
-    """Return the steps n for samplings of every n-th point: powers of two, from the coarsest sampling to n = 1."""
+    """Return the steps n, on every n-th point of the map, for which curves are computed: powers of two down to 1."""
     step = 2
     while (
         min(indenter.heights.shape) >= 2 * step * _FEWEST_POINTS

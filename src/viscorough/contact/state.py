@@ -121,7 +121,7 @@ class Elements:
         return int(np.searchsorted(self.initial_gap, depth))
 
     def next_gap(self, count: int) -> float:
-        """Return a lower bound of the initial gaps of all but the first `count` elements; infinity if none are left."""
+        """Return a lower bound of the initial gaps after the first `count` elements, infinity if there are none."""
         return float(self.initial_gap[count]) if count < self.initial_gap.size else self.ranked_depth
 
     def places_on_map(self, ranks: Integers | slice = slice(None)) -> tuple[Integers, Integers]:
@@ -134,9 +134,9 @@ class Elements:
 
 @dataclass
 class BoundedField:
-    """Reduced quantity at every place of the grid, with a bound on its accumulated rounding error.
+    """Reduced quantity at every point of a grid, with a bound on its accumulated rounding error.
 
-    values : flat array with a border
+    values : values on the grid and on a border around it, as a flattened array
     rounding : bound on the rounding error of every value
     """
 
@@ -147,10 +147,10 @@ class BoundedField:
 class ContactSet(NamedTuple):
     """Elements of a grid that are in contact.
 
-    Flat fields are flattened arrays of the grid with a border.
+    A flat field is the flattened array of values on the grid and on a border around it.
 
     inside : flat field, True for elements in contact
-    places : indices of the elements in contact in flat fields, shape (count,)
+    places : indices of the elements in contact in a flat field, shape (count,)
     slots : indices of the elements in contact in the flattened load array of the half-space operator, which has no
         border, shape (count,)
     """
@@ -161,7 +161,7 @@ class ContactSet(NamedTuple):
 
 
 class MemberLoads(NamedTuple):
-    """Loads of the elements in contact, stored without the fields of a grid.
+    """Loads of the elements in contact, without values for other elements.
 
     members : ranks of the elements in contact, increasing, shape (count,)
     pressure, tangent : P and q = dP/du of these elements, shape (count,)
@@ -174,18 +174,18 @@ class MemberLoads(NamedTuple):
 
 @dataclass(frozen=True)
 class GridFields:
-    """Reduced quantities of a contact at every place of a grid, as flat arrays with a border.
+    """Reduced quantities of a contact at every point of a grid and of a border around it, as flattened arrays.
 
     The symbols are defined at the top of this module.
 
-    inside : True for places in contact
+    inside : True for elements in contact
     pressure : P
     gap_change : e − g = w − u, the change of the gap since first contact. Its magnitude never exceeds the depth, while
         e can be much larger, so single precision suffices for e − g
     tangent : q = dP/du
     tangent_gap : e_q = K q − 1 = de/du, zero in contact
     initial_gap : g
-    place : for every element, in the order of its rank, its index in the flat arrays
+    place : index of every element in the flattened arrays, in the order of the ranks
     """
 
     inside: np.ndarray
@@ -197,7 +197,7 @@ class GridFields:
     place: np.ndarray
 
     def gap(self, places: Integers) -> Array:
-        """Return the reduced gap e at the given indices of the flat arrays."""
+        """Return the reduced gap e at the given indices of the flattened arrays."""
         return self.gap_change.values[places] + self.initial_gap[places]
 
     def member_loads(self) -> MemberLoads:
@@ -210,8 +210,8 @@ class GridFields:
 class TargetForce(NamedTuple):
     """Force at which a contact on a grid is to be solved.
 
-    pressure_sum : reduced ΣP of the force
-    largest_depth : largest reduced depth; if the force is not reached at this depth, the contact is solved at this
+    pressure_sum : the force as the sum ΣP of reduced pressures
+    largest_depth : largest reduced depth. If the force is larger than at this depth, the contact is solved at this
         depth instead
     """
 
@@ -226,9 +226,10 @@ class ContactState(ABC):
     units : Units of the reduced quantities
     reduced_depth : u, reduced
     count : number of elements in contact
-    pressure_sum, tangent_sum : reduced ΣP, and Σq. Both sums are corrected for the remaining residuals, so that for the
-        given contact set their errors are of second order in the residuals
-    residual : largest |e| in contact or overlap outside the contact, rounding included, divided by the depth
+    pressure_sum, tangent_sum : reduced ΣP, and Σq. Both sums are corrected for the remaining residuals. For the given
+        contact set, their errors are therefore of second order in the residuals
+    residual : largest gap |e| in contact or overlap outside the contact, divided by the depth; includes a bound on
+        rounding errors
     """
 
     units: Units

@@ -18,46 +18,48 @@ from viscorough.contact.state import ContactState, GridContact
 from viscorough.results.loading_curve import interpolate_between
 
 # Smallest error of interpolation that can be requested. A smaller error would require a level at every contact event,
-# as many as direct integration needs.
+# which is as much work as direct integration in time.
 FINEST_ACCURACY = 1e-5
 # Largest ratio of the depths of successive levels.
 _MAX_DEPTH_RATIO = 2.0
-# Depth ratio of the first step after contact events, if the events are too few to estimate it.
+# Ratio of successive depths in the first step after contact events, if the events are too few to estimate this ratio.
 _INITIAL_DEPTH_RATIO = 1.15
-# With n elements in contact, the next element that touches makes the stiffness jump by about 1/n, relatively. Every
-# contact event is therefore a level as long as n is at most this number divided by the allowed error.
+# If n elements are in contact, the stiffness jumps by about the share 1/n when the next element touches. Every such
+# contact event is a level of the curve as long as n is at most this number divided by the allowed error.
 _EVENTS_PER_ACCURACY = 0.4
-# Contact events are levels up to at least this contact count, because computing so few events takes less time than a
-# single longer step.
+# Every contact event up to this contact count is a level, whatever the allowed error is: computing these few events
+# takes less time than a single longer step.
 _FEWEST_EVENTS = 40
-# Contact events are levels up to at most this contact count.
+# Beyond this contact count, contact events are never computed as levels, however small the allowed error is.
 _MAX_EVENTS = 400
-# The next step is chosen so that its error bound is expected to be this share of the allowed bound.
+# The next step in depth is chosen so that its expected error bound is this share of the allowed bound.
 _AIM = 0.8
-# The error bound of a step grows as this power of the logarithm of the ratio of the depths at its ends.
+# The error bound of a step from depth u₁ to u₂ is proportional to ln(u₂/u₁) raised to this power.
 _ORDER = 2
-# From one step to the next, the logarithm of the depth ratio is multiplied by at least this factor.
+# From one step to the next, the logarithm of the ratio of successive depths is multiplied by at least this factor.
 _LEAST_CHANGE = 0.3
-# From one step to the next, the logarithm of the depth ratio is multiplied by at most this factor.
+# From one step to the next, the logarithm of the ratio of successive depths is multiplied by at most this factor.
 _LARGEST_CHANGE = 2.0
-# An interval is divided at a depth between these shares of its width.
+# If an interval between two levels is divided, the dividing depth lies between these shares of the interval.
 _DIVISION = 0.15, 0.85
 # Forces where the error bound is evaluated, as shares of the force interval between two levels.
 _POINTS = np.linspace(0, 1, 18)[1:-1]
 # The error bound is multiplied by this factor, because it may be larger between the points where it is evaluated.
 _BETWEEN_POINTS = 1.15
-# If the predicted error is small enough, an interval is accepted up to this multiple of the allowed error bound.
+# An interval between two levels is accepted although its error bound exceeds the allowed error, by at most this factor,
+# if the predicted error is small enough.
 _RELAXED_BOUND = 3.3
-# A predicted error of at most this share of the allowed error is small enough to accept a larger error bound.
+# A larger error bound (see _RELAXED_BOUND) is accepted only if the predicted error is at most this share of the allowed
+# error.
 _PREDICTED_ERROR = 0.5
 # The error is predicted only if at least this number of elements joins the contact in the interval.
 _PREDICTED_COUNT = 10
 # The prediction is used only if the ratio of the computed to the predicted growth of the force is within these limits.
 _AGREEMENT = 0.8, 1.25
-# If the error bound is below this share of the allowed error, the next step is made as much longer as allowed, and the
-# error need not be predicted.
+# If the error bound is below this share of the allowed error, the error need not be predicted. The interval is accepted
+# and the next step lengthened as much as allowed, whatever a prediction would be.
 _NEGLIGIBLE_BOUND = 0.15
-# Smallest share of the force interval between two levels where the error bound is evaluated. At a smaller share the
+# The error bound is not evaluated in the first part, of this share, of the force interval between two levels. There the
 # logarithm of the force could overflow.
 _SMALLEST_SHARE = 1e-3
 # This number avoids a division by zero.
@@ -68,7 +70,7 @@ _MOST_AHEAD = 2
 
 @dataclass(frozen=True)
 class Level:
-    """Quantities of a contact that a loading curve stores; see state.ContactState; in reduced units."""
+    """Values of one solved contact that a loading curve stores, in reduced units (see state.ContactState)."""
 
     depth: float
     pressure_sum: float
@@ -104,9 +106,9 @@ class StepControl:
 
     Attributes:
 
-    min_ratio : smallest ratio of the depths of successive levels. In such a narrow interval, the triangle that contains
-        the curve is flatter than the allowed error
-    events : every contact event is a level up to this contact count
+    min_ratio : smallest ratio of the depths of successive levels. At this ratio the depth changes only by the allowed
+        error, so interpolation between the levels is accurate enough
+    events : largest contact count for which every contact event is a level
     """
 
     def __init__(self, tolerance: float, threads: int = 1) -> None:
@@ -133,7 +135,7 @@ class StepControl:
         """
         bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
         if not _NEGLIGIBLE_BOUND < bound < _RELAXED_BOUND:
-            # The bound alone decides whether the step is accepted; a prediction would not change this.
+            # The bound alone decides whether the interval is accepted, so the error need not be predicted.
             return bound
         is_smooth = _predicted_error(before, after, self._threads) <= _PREDICTED_ERROR * self._accuracy
         return bound / _RELAXED_BOUND if is_smooth else bound
@@ -155,7 +157,7 @@ def interpolation_bound(before: Level, after: Level) -> float:
     the tangents and at equal intervals of the force.
     """
     if after.count - before.count in (0, 1):
-        return 0.0  # the curve consists of the two tangents, which interpolation uses then
+        return 0.0  # at most one element joins, so the curve consists of the two tangents, and interpolation is exact
     rise = after.pressure_sum - before.pressure_sum
     at_meeting = before.tangent_sum * _meeting(before, after) * (after.depth - before.depth) / rise
     share = np.append(_POINTS, min(max(at_meeting, _SMALLEST_SHARE), 1.0))
@@ -206,12 +208,13 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
        close to the true depth.
     2. Take the stiffness that each element adds as proportional to e_q², which is correct for the first element that
        touches. All elements together add the difference of the two tangent sums Σq.
-    3. Integrate the stiffness to the force, and compare the interpolated depth at this force with the true depth.
+    3. Integrate the predicted stiffness over the depth to find the force at several depths. Interpolate the depths at
+       these forces, and compare them with the true depths.
 
     Returns infinity if the error cannot be predicted.
     """
-    if not isinstance(before, GridContact) or not isinstance(after, GridContact):  # dense contacts have no gaps
-        return np.inf
+    if not isinstance(before, GridContact) or not isinstance(after, GridContact):
+        return np.inf  # a dense contact does not store the gaps of elements out of contact
     loops = GridLoops(threads)
     place_after, place = loops.new_places(after.fields, before.fields)
     # An element with place 0 lies outside the grid of the contact `before`, so its gap there is unknown.
@@ -220,8 +223,8 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
     fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
     share, width = _POINTS[1::2], after.reduced_depth - before.reduced_depth
     loads = (load[place_after].astype(float) for load in (after.fields.pressure, after.fields.tangent))
-    # Let w = e_q² be the weight of an element, and t the share of the interval, from 0 to 1, where it touches. The sums
-    # are Σw, Σw (1 − t) and, for every share s of the interval, Σw max(s − t, 0).
+    # Each joining element touches after a share t of the interval (0 to 1), and has the weight w = e_q². The computed
+    # sums are Σw, then Σw (1 − t), then Σw max(s − t, 0) for every share s of the interval in `share`.
     sums = sum(loops.each(kernels.touch_sums, (*fields, width, share), place, *loads))
     added = (after.tangent_sum - before.tangent_sum) / sums[0]
     rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum

@@ -38,27 +38,28 @@ from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter, check_indenter
 
-# The curve counts as straight between two levels if the tangent of the first level reaches the force of the second
-# level at the depth of the second level, within this relative difference.
+# The curve counts as straight between two levels if the tangent at the first level passes through the second level,
+# within this relative difference in depth.
 _STRAIGHT = 1e-9
 # Points and weights of Gauss–Legendre quadrature, for the interpolated curve between two levels.
 _POINTS, _WEIGHTS = (np.polynomial.legendre.leggauss(8) + np.array([[1.0], [0.0]])) / 2
-# Let the stiffness have a single jump between two levels, at a random force. In units of ΔF Δ(1/k), the error of a
-# trapezoid of the first integral then has this standard deviation.
+# Let the compliance 1/k jump once between two levels, at a random force. The error of the trapezoid of the first
+# integral then has the standard deviation _JUMP ΔF Δ(1/k), where ΔF and Δ(1/k) are the changes between the levels.
 _JUMP = 12**-0.5
-# In the same case, the error of the second integral has this standard deviation, in units of ΔF² Δ(1/k).
+# If the compliance 1/k jumps once between two levels, at a random force, the error of the second integral has the
+# standard deviation _JUMP_OF_SECOND ΔF² Δ(1/k).
 _JUMP_OF_SECOND = 720**-0.5
-# The tolerance of the contacts is this share of the tolerance of the audit. This leaves a tenth of the tolerance of the
-# audit for errors of the stiffness, whose effect on the first integral grows with the force at complete contact.
+# The tolerance of the contacts is this share of the tolerance of the audit. Errors of the stiffness may then take a
+# tenth of the tolerance of the audit. Their effect on the first integral grows with the force at complete contact.
 _CONTACT_TOLERANCE = 0.01
-# Smallest tolerance that contacts can meet.
+# Smallest tolerance to which contacts can be solved.
 _LEAST_CONTACT_TOLERANCE = 1e-12
-# In one round, an interval between levels is divided into at most this number of parts.
+# Levels are added in rounds. In one round, an interval between levels is divided into at most this number of parts.
 _MOST_PARTS = 3
-# Largest number of rounds that add levels.
+# Largest number of rounds in which levels are added.
 _MAX_ROUNDS = 12
-# The norm of the errors of all intervals must fall at least to this share within two rounds. Otherwise no more levels
-# are added, because the levels themselves must be wrong.
+# Within two rounds that add levels, the norm of the errors of all intervals must fall at least to this share. Otherwise
+# no more levels are added, because the levels themselves must be wrong.
 _LEAST_REDUCTION = 0.9
 # This number avoids divisions by 0.
 _TINY = 1e-300
@@ -68,7 +69,7 @@ _TINY = 1e-300
 class CompleteContact(ReadOnlyArrays):
     """Complete contact of an indenter, and exact values of the two integrals of its loading curve.
 
-    All values follow from two linear problems.
+    All values follow from two linear problems (see `complete_contact`).
 
     Attributes
     ----------
@@ -107,11 +108,11 @@ class Integral:
     exact : float
         Exact value, from two linear problems.
     deviations : dict
-        Relative deviation of each quadrature of the curve from the exact value, by the name of the quadrature (see
-        `SumRules`).
+        Relative deviation of each quadrature of the curve from the exact value. The keys are the names of the
+        quadratures (see `SumRules`).
     error : float
-        Estimated relative error. In the first integral it applies to the quadrature "by levels", in the second integral
-        to both quadratures.
+        Estimated relative error, for the first integral of the quadrature "by levels", for the second integral of any
+        quadrature.
     """
 
     exact: float
@@ -122,7 +123,7 @@ class Integral:
     def compared(cls, exact: float, values: dict[str, float], error: float, scale: float) -> "Integral":
         """Return the comparison of quadratures with the exact value of an integral.
 
-        values : result of each quadrature, by its name
+        values : {name of a quadrature: result}
         error : estimated absolute error
         scale : value by which all deviations and the error are divided
         """
@@ -136,16 +137,17 @@ class SumRules(ReadOnlyArrays):
     Attributes
     ----------
     first : Integral
-        Integral ∫ (1/k − 1/k_c) dF = ⟨g₀⟩_q [length]. The quadrature "last level" is u − F/k_c at the last level, "by
-        levels" uses forces and stiffnesses of the levels alone, and "between levels" uses the stiffness that
-        `LoadingCurve.at_force` interpolates. For a curve of `indent`, the "last level" checks nothing: its depth of
-        complete contact comes from the same linear problems as the exact value.
+        Integral ∫ (1/k − 1/k_c) dF = ⟨g₀⟩_q [length]. It is computed by three quadratures. "last level" is u − F/k_c at
+        the last level. "by levels" uses forces and stiffnesses of the levels alone. "between levels" uses the stiffness
+        that `LoadingCurve.at_force` interpolates. For a curve of `indent`, "last level" checks nothing, because the
+        depth of complete contact follows from the same linear problems as the exact value.
     second : Integral
-        Integral ∫ (⟨g₀⟩_q + F/k_c − u) dF = U, as U/G [length³]. The quadrature "by levels" uses depths and
-        stiffnesses of the levels alone, and "between levels" uses the depth that `LoadingCurve.at_force` interpolates.
+        Integral ∫ (⟨g₀⟩_q + F/k_c − u) dF = U, as U/G [length³]. It is computed by two quadratures. "by levels" uses
+        depths and stiffnesses of the levels alone. "between levels" uses the depth that `LoadingCurve.at_force`
+        interpolates.
     errors : array
-        Estimated relative error of both integrals in each interval between levels, shape (levels,) [1]. The first
-        interval starts at zero force.
+        Estimated relative errors √(e₁² + e₂²) of the intervals between levels, shape (levels,) [1]. Here e₁ and e₂ are
+        the contributions of an interval to the errors of both integrals. The first interval starts at zero force.
     """
 
     first: Integral
@@ -154,7 +156,7 @@ class SumRules(ReadOnlyArrays):
 
     @property
     def error(self) -> float:
-        """Return the larger of the estimated relative errors of both integrals."""
+        """Return the larger of the estimated relative errors of the two integrals."""
         return max(self.first.error, self.second.error)
 
     @property
@@ -180,8 +182,8 @@ class Audit(ReadOnlyArrays):
     rules : SumRules
         Both integrals of the curve with the added levels.
     interpolation_error : float
-        Largest relative difference, at the added levels, between the computed depth and the depth that the curve
-        without these levels interpolates [1].
+        Largest relative error of interpolated depths [1]. At each added level, the computed depth is compared with the
+        depth that is interpolated on the curve without added levels.
     """
 
     tolerance: float
@@ -206,7 +208,7 @@ class Audit(ReadOnlyArrays):
         return self.integrals_agree and self.is_interpolated
 
     def __str__(self) -> str:
-        """Return a text: whether the integrals agree, and exact value, deviations and estimated error of each."""
+        """Return a text that says if the integrals agree, with their exact values, deviations and estimated errors."""
         verdict = "agree" if self.integrals_agree else "do not agree"
         text = f"Audit over {self.curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
         if not self.is_interpolated:
@@ -296,10 +298,10 @@ def _energy(reduced: float, length: float) -> float:
 def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     """Compute both integrals of a loading curve by quadratures with estimated errors, and compare with exact values.
 
-    The curve is taken as straight before its first level. Whenever an element joins the contact, 1/k jumps down. Let
-    ΔF, Δu and Δ(1/k) be the changes of force, depth and 1/k between two successive levels, and m the number of elements
-    that join the contact between them. If chord and tangent coincide, the curve is straight in this interval, and all
-    quadratures are exact. Otherwise:
+    The integrals are defined in `SumRules`. The curve is taken as straight before its first level. Whenever an element
+    joins the contact, 1/k jumps down. Let ΔF, Δu and Δ(1/k) be the changes of force, depth and 1/k between two
+    successive levels, and m the number of elements that join the contact between them. If chord and tangent coincide,
+    the curve is straight in this interval, and all quadratures are exact. Otherwise:
 
     - The first integral "by levels" is a sum of trapezoids T of 1/k. The error of an interval is
       e₁ = max(|T − Δu|, 0.29 ΔF Δ(1/k)/√m). The second term is the standard deviation of T if 1/k has m equal jumps at
@@ -309,12 +311,11 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
       random forces, the area between chord and curve is on average (2 + 1/m)/3 of the triangle. This is the whole
       triangle for one jump, and 2/3 of the triangle for many jumps, as for a parabola.
     - "Between levels", both integrals are Gauss quadratures of the curve that LoadingCurve.at_force interpolates.
-    - The error of an interval in the second integral is e₂, the larger of 0.13 ΔF e₁ and the difference between the
-      quadratures "by levels" and "between levels". The factor 0.13 is the ratio of the standard deviations of the two
-      integrals for jumps at random forces.
+    - The error of an interval in the second integral is e₂ = max(0.13 ΔF e₁, |D|). Here D is the difference between the
+      quadratures "by levels" and "between levels" in the interval. The factor 0.13 is the ratio of the standard
+      deviations of the two integrals, divided by ΔF, for jumps at random forces.
     - Errors of intervals are added as independent errors. The error of the first integral is max(|Σ (T − Δu)|, √Σe₁²).
-      The error of the second integral is the difference between the quadratures "by levels" and "between levels" plus
-      3√Σe₂², so that it holds for either quadrature.
+      The error of the second integral is |ΣD| + 3√Σe₂², so that it holds for either quadrature.
 
     curve : loading curve up to complete contact
     complete : complete contact of the same indenter
@@ -333,11 +334,12 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     jumps = _JUMP * rise * drop / np.sqrt(joined)
     error = np.where(is_straight, 0.0, np.maximum(np.abs(off), jumps))
 
-    # The integrand ⟨g₀⟩_q + F/k_c − u of the second integral is a convex function of the force and falls to zero.
+    # `remaining` is the integrand ⟨g₀⟩_q + F/k_c − u of the second integral. This function of the force is convex and
+    # falls to zero.
     remaining = complete.mean_gap + force * least - depth
     triangle = np.maximum((rise * before - sink) * (sink - rise * after), 0.0) / (2 * drop)
-    # By geometry the area of the triangle is at most ΔF² Δ(1/k)/8. If rounding makes the stiffness decrease between two
-    # levels, this limit makes the area almost zero.
+    # The area of a triangle of chord and tangents is at most ΔF² Δ(1/k)/8. If rounding makes the stiffness decrease
+    # between two levels, `drop` is almost zero, and so is the limited area.
     triangle = np.minimum(triangle, rise**2 * drop / 8)
     areas = rise * (remaining[1:] + remaining[:-1]) / 2 - (2 + 1 / joined) / 3 * triangle
     inner = force[1:-1, None] + rise[1:, None] * _POINTS
@@ -346,7 +348,8 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     inner_sinks = rise[1:] * ((1 / inner_stiffness - least) @ _WEIGHTS)
     error_of_second = np.maximum(_JUMP_OF_SECOND / _JUMP * rise * error, np.append(0, np.abs(inner_areas - areas[1:])))
 
-    # Errors are relative to the exact values. If an exact value is 0, they are relative to values at the last level.
+    # Errors are divided by the exact values. If the exact value is 0, errors of the first integral are divided by the
+    # depth u at the last level, and errors of the second integral by F u.
     scale, scale_of_second = complete.mean_gap or depth[-1], complete.energy or force[-1] * depth[-1]
     first = {
         "last level": depth[-1] - force[-1] * least,
@@ -385,7 +388,8 @@ def audit(
     tolerance : float, optional
         Relative accuracy of both integrals, between 1e-10 and 0.1 [1].
     progress : Progress, optional
-        Function that is called before levels are added, with the share of the allowed rounds of additions, up to 1.
+        Function that is called before each round that adds levels, with the number of the round divided by the largest
+        allowed number of rounds.
     threads : int, optional
         Number of threads; it does not change the result.
     options : SolverOptions, optional
@@ -420,11 +424,11 @@ def audit(
     plain = curve = _curve(indenter, until_fraction=1.0, **how)
     rules, norms = integrals(curve, complete), [np.inf, np.inf]
     for number in range(_MAX_ROUNDS):
-        # The first round adds levels even if the error is within the tolerance, unless the curve is exact. These levels
-        # check the interpolation.
+        # In the first round, add levels even if the error is within the tolerance, because the added levels serve to
+        # check the interpolation. Only if the curve is exact, no levels are added.
         allowed, enough = (tolerance, tolerance) if number else (min(tolerance, rules.error / 2), _STRAIGHT)
-        # Compare with the error two rounds before: if the stiffness jumps exactly at the new level in an interval, the
-        # error of this interval falls only in the next round.
+        # Compare with the error two rounds before. If the stiffness happens to jump exactly at a new level, the error
+        # of the divided interval does not fall before the next round.
         norms.append(float(np.linalg.norm(rules.errors)))
         if rules.error <= enough or norms[-1] > _LEAST_REDUCTION * norms[-3]:
             break
@@ -435,7 +439,9 @@ def audit(
         try:
             curve = _merged(curve, _curve(indenter, depths=depths, **how))
         except ValueError:
-            break  # forces do not increase with depth, so levels are too inaccurate; the estimated error stays as it is
+            # The forces do not increase with the depth, because the levels are too inaccurate. Keep the last curve and
+            # its estimated error.
+            break
         rules = integrals(curve, complete)
     between = curve.force > plain.force[0]
     interpolated = plain.at_force(curve.force[between])[0] / curve.depth[between]
@@ -443,7 +449,7 @@ def audit(
 
 
 def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
-    """Return the curve of `indent` without AccuracyWarnings, since depths of complete contact are beyond the theory."""
+    """Return the curve of `indent` without AccuracyWarnings, because complete contact may be beyond the theory."""
     with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         return indent(indenter, **how)
 
@@ -451,10 +457,9 @@ def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
 def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Array:
     """Return the fewest depths of new levels that reduce the error of the integrals to the allowed error.
 
-    Intervals between levels are divided into equal parts. Dividing an interval into n parts divides the error of the
-    interval by n. If errors are independent, the total number of parts is smallest for n proportional to the error to
-    the power 2/3. Errors of equal sign add up to more than independent errors. The numbers of parts are therefore
-    multiplied by the ratio of the estimated error to the sum of independent errors.
+    Intervals between levels are divided into equal parts. With n parts, the error of an interval is n times smaller. If
+    the errors e of the intervals are independent, the total number of parts is smallest for n ∝ e^(2/3). Errors of
+    equal sign add up to more than √Σe². Each n is therefore multiplied by the estimated error divided by √Σe².
 
     rules : both integrals of the curve, with the errors of its intervals
     allowed : allowed relative error of both integrals

@@ -21,8 +21,8 @@ from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.preconditioner import Preconditioner
 from viscorough.contact.state import DenseContact, Elements, MemberLoads, Units
 
-# Smallest relative residual to which K q = 1 and K s = g are solved, as the norm of the residual divided by the norm of
-# the right-hand side.
+# K q = 1 and K s = g are solved at best to this relative residual: the norm of the residual divided by the norm of the
+# right-hand side.
 EXACT = 1e-12
 # Largest number of iterations. ConvergenceError is raised if these do not suffice.
 _MAX_ITERATIONS = 500

@@ -1,4 +1,4 @@
-"""Solve contacts of few elements by dense linear algebra, which is exact to rounding and cheaper than on a grid.
+"""Solve contacts of few elements by dense linear algebra, which is exact within rounding and cheaper than a grid.
 
 Elements are identified by their rank in the order of increasing initial gap. Only elements with an initial gap below
 the depth can be in contact, so these elements have the lowest ranks.
@@ -31,7 +31,8 @@ _NEVER = 1e300
 class ContactEvents(NamedTuple):
     """Contact events: the depths at which further elements touch, in increasing order.
 
-    All fields are arrays of shape (events,) in reduced units. Their order is the same as in step_control.Level.
+    All fields are arrays of shape (events,) in reduced units. The order of the fields is the same as in
+    step_control.Level.
 
     depth : depth u of each event
     pressure_sum, tangent_sum : sums ΣP and Σq of the elements in contact just beyond the event
@@ -171,7 +172,7 @@ def follow_events(
     ends_at_force = bool(total[-1] > pressure_sum)
     if events.depth.size == 0:
         return events, contact, ends_at_force
-    # Solve the contact at the last event again, by the Cholesky factor of the elements in contact.
+    # Solve the contact at the last event again, with the known Cholesky factor of the influence matrix.
     last, last_depth = events.count[-1], events.depth[-1]
     solution = np.stack([last_depth - elements.initial_gap[members[:last]], np.ones(last)])
     solve_factored(factor[:last], solution)
@@ -192,8 +193,8 @@ def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -
 
     matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
     right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
-    # LAPACK stores matrices by columns and numpy by rows. The transposed matrix therefore needs no copy, and its upper
-    # triangle is used.
+    # LAPACK stores matrices by columns and numpy by rows, so the transposed matrix needs no copy. Its upper triangle is
+    # the lower triangle of `matrix`.
     _, solution, failed = dposv(matrix.T, right.T, lower=False, overwrite_a=True, overwrite_b=True)
     if failed:
         raise ConvergenceError(f"contact of {members.size} elements: their influence matrix is not positive definite")

@@ -60,7 +60,7 @@ def _undeformed_gap(solver: ContactSolver, depth: float) -> Array:
 
 
 def _add_deflection(solver: ContactSolver, contact: ContactState, gap: Array, box: tuple[int, ...]) -> None:
-    """Add the deflection of the surface by the loads of a contact to the gap, in place.
+    """Add the deflection of the surface due to the loads of a contact to the gap, in place.
 
     gap : gap on the grid of the elements, shape (rows, columns) [length]
     box : (first row, first column, rows, columns) of a box whose gap need not be updated

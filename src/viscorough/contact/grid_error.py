@@ -37,13 +37,13 @@ FORCE_SAFETY_FACTOR = 3.0
 # Two curves are compared at this number of points per decade of force. Many points are needed, because the stiffness
 # jumps whenever an element touches.
 _POINTS_PER_DECADE = 50
-# The error at a level (a computed point of the curve) is a mean over all forces within this distance in ln F from the
-# force of the level, which is half a decade.
+# The error at a level (a computed point of the curve) is a mean over all forces within half a decade of the force F of
+# the level. This constant is half a decade in ln F.
 _HALF_WINDOW = 0.5 * np.log(10)
 # Means over a whole curve begin at this reduced force X = F/(4GhL), where h is the rms height and L the diameter of the
 # map. Smaller forces are carried by a few summits, which coarse grids cannot represent.
 _LEAST_X = 0.01
-# Means over a whole curve begin at this share of the largest force of the curve, if the curve ends at a small force.
+# Means over a whole curve begin at the latest at this share of the largest force of the curve.
 _LEAST_RANGE = 0.1
 
 
@@ -76,8 +76,8 @@ def highest_missed(indenter: Indenter, coarse: Indenter) -> float:
 def lowest_force(indenter: Indenter, last_force: float) -> float:
     """Return the smallest force F/G that contributes to means over a whole curve [length²].
 
-    This force is F = 0.01 · 4GhL, where h is the rms height of the map, and L the diameter of a disc with the area of
-    the map. It is at most a tenth of the last force of the curve.
+    The returned force is F = 0.01 · 4GhL, but at most a tenth of the last force of the curve. Here h is the rms height
+    of the map, and L the diameter of a disc with the area of the map.
 
     last_force : F/G at the end of the curve [length²]
     """

@@ -47,11 +47,11 @@ _APPROACH_SHARE = 0.7
 # Close to the contact fraction `start_fraction`, the long steps in depth become shorter. They end at the latest when
 # the ratio of successive depths falls to this value.
 _APPROACH_MIN_RATIO = 1.02
-# Curves that end at or below this contact fraction do not need the depth of complete contact.
+# The depth of complete contact is not computed for curves that end at or below this contact fraction.
 _FAR_FROM_COMPLETE = 0.95
 # Tolerance of a curve if the user gives none.
 _DEFAULT_TOLERANCE = 1e-3
-# Smallest and largest error of the velocity that can be requested.
+# Smallest and largest relative error of the velocity that can be requested.
 _ERRORS = 1e-3, 0.5
 # If the grid error is estimated, the curve of all points takes about this share of the time, and the curve of every
 # second point takes the rest.
@@ -245,7 +245,7 @@ def _check_until_force(until_force: float | str, modulus: float | None, unit: st
 
 
 def _check_depths(depths: ArrayLike | None, unit: str) -> Array | None:
-    """Return the depths of levels [length]. Raises ValueError unless they are positive and increase."""
+    """Return the given depths as numbers [length]. Raises ValueError unless they are positive and increase."""
     if depths is None:
         return None
     numbers = np.atleast_1d(units.numbers(depths, unit, unit, argument("depths")))
@@ -253,7 +253,7 @@ def _check_depths(depths: ArrayLike | None, unit: str) -> Array | None:
 
 
 def _check_forces(forces: ArrayLike | None, modulus: float | None, unit: str) -> Array | None:
-    """Return the forces of levels as F/G [length²]. Raises ValueError unless they are positive and increase.
+    """Return the given forces as F/G [length²]. Raises ValueError unless they are positive and increase.
 
     modulus : shear modulus G, or None if `forces` are F/G already
     unit : unit of length
@@ -351,7 +351,7 @@ def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str
 def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:
     """Return the levels of contacts, and report progress after each contact.
 
-    contacts : contacts; an iterator may solve each contact when it is read
+    contacts : solved contacts, or an iterator that solves each contact when it is read
     number : number of contacts
     """
     levels = []
@@ -441,7 +441,8 @@ class _LoadingPath:
                 self._ahead.keep(contact)
             else:
                 self._add(contact)
-            # Let the next step go half of the way to the nearest kept contact, on a logarithmic scale of depth.
+            # Let the next step go half of the way to the nearest larger depth that has been solved, on a logarithmic
+            # scale of depth.
             if self._ahead:
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 

@@ -48,8 +48,8 @@ _LARGEST_BOX = 0.8
 # A box (the part of the grid where contacts are solved) is enlarged for larger depths only as long as its area grows at
 # most by this factor.
 _GROWTH_OF_BOX = 1.3
-# Contact grows with depth, but within the accuracy of the solution an element may leave the contact. An element that
-# left the contact is an error if its gap exceeds this number times tolerance times depth.
+# Contact grows with depth, but within the accuracy of the solution an element may leave the contact. ConvergenceError
+# is raised if the gap of such an element exceeds this number times the tolerance times the depth.
 _LOST_CONTACT = 3
 # Largest reduced depth that a contact may have. It is far below the largest number of single precision, 3e38.
 _LARGEST_DEPTH = 1e25
@@ -74,7 +74,7 @@ class ContactSolver:
     tolerance : largest allowed gap |e| in contact, or overlap outside the contact, divided by the depth
     options : SolverOptions
     threads : number of threads for contacts on the grid
-    largest_depth : largest depth that will be requested [length], so that no grid allows for larger depths
+    largest_depth : largest depth that will be requested [length]. No grid is made for larger depths
     whole : True if the whole map may come into contact. Memory is then checked for the whole map at once, otherwise for
         each new box around the elements that can touch
 
@@ -130,7 +130,7 @@ class ContactSolver:
     def first_contact(self) -> ContactState:
         """Return the contact at the end of the straight first part of the curve, where only the highest elements touch.
 
-        This depth is the smallest positive initial gap, or the side of an element if all elements have the same height.
+        Its depth is the smallest positive initial gap, or the side of an element if all elements have the same height.
         """
         self.ranking.rank_highest()
         gap = self.elements.initial_gap
@@ -188,7 +188,7 @@ class ContactSolver:
             deepest = target.largest_depth
         self.ranking.require(depth, up_to=deepest)
         candidates = self.elements.count_below(depth)
-        # Computing few interactions between elements directly is cheaper than computing all of them on the grid.
+        # Computing few interactions between elements directly is cheaper than computing all interactions on the grid.
         if isinstance(contact, DenseContact) and candidates * contact.count <= self.options.dense_interactions:
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
@@ -220,7 +220,7 @@ class ContactSolver:
         the tolerance need not join the contact.
         """
         if not isinstance(contact, GridContact):
-            return contact.count == self.elements.count  # a dense solution is exact
+            return contact.count == self.elements.count  # a dense solution is exact, and so is its contact count
         if contact.reduced_depth < 1:
             return False  # the depth is less than the initial gap of the lowest element, which therefore cannot touch
         fields, limit = contact.fields, _OPEN_GAP * contact.residual * contact.reduced_depth
@@ -247,12 +247,12 @@ class ContactSolver:
         return grid if grid and _is_on(grid, contact) else None
 
     def depth_of_box(self, depth: float, deepest: float) -> float:
-        """Return the largest reduced depth for which the box of the grid need grow only slightly.
+        """Return the largest reduced depth for which the box of the grid is only slightly larger than at `depth`.
 
         The box at a depth surrounds all elements that can touch at this depth. A single element far from all others can
         make the box many times as large, even if this element does not come into contact.
 
-        depth : reduced depth. The box may be larger than the box at this depth, in area by the factor _GROWTH_OF_BOX
+        depth : reduced depth. Compared with the box at this depth, the area may be larger by the factor _GROWTH_OF_BOX
         deepest : largest reduced depth to return; all elements up to this depth must be ranked
         """
         rank, reach = (max(self.elements.count_below(u), 1) for u in (depth, deepest))
@@ -273,8 +273,8 @@ class ContactSolver:
         """
         if isinstance(contact, GridContact) and _is_on(grid, contact):
             return contact
-        # Transfer the contact to `grid` unless its depth is much smaller than `depth`. In this case, the transfer takes
-        # more time than it saves.
+        # Transfer the contact to `grid` unless its depth is much smaller than `depth`. A transfer from a much smaller
+        # depth takes more time than it saves.
         if depth < _LARGEST_RATIO_OF_START * contact.reduced_depth:
             return grid.transferred(contact)
         return unloaded_contact(self.units).loads if guess is None else guess
@@ -289,7 +289,7 @@ class ContactSolver:
         """
         if self._grid and rank <= self._reach:
             return self._grid
-        # The new box also contains elements that touch only at larger depths. It is the whole grid if a smaller box
+        # The new box also contains elements that touch only at larger depths. The whole grid is used if a smaller box
         # would save little.
         self.ranking.rank_up_to(deepest)
         reach = max(rank, self.elements.count_below(deepest))
@@ -307,7 +307,8 @@ class ContactSolver:
         self._grid = None  # frees the memory of the current grid before the next grid needs memory
         require_for_box(self.indenter.heights, box, **self._memory_options)
         if reach == self.elements.count:
-            self.ranking.free_influence()  # contacts on the whole grid need no dense solutions
+            # Only dense solutions need the influence coefficients. Contacts on the whole grid do not need them.
+            self.ranking.free_influence()
         self._grid = GridSolver(box, self.elements, self.tolerance, self.options, threads=self.threads, reach=reach)
         return self._grid
 

@@ -65,7 +65,7 @@ _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 def _highest_in_blocks(indenter: Indenter) -> Indenter:
     """Return an indenter with a single element for each block of elements, at the largest height in the block.
 
-    It is nowhere lower than the given indenter.
+    The new indenter is nowhere lower than the given indenter.
     """
     heights = _largest_in_blocks(np.ascontiguousarray(indenter.heights))
     return Indenter(heights, _SIDE * indenter.spacing, _SIDE * indenter.row_spacing)
@@ -310,21 +310,22 @@ class ForceSearch:
         return _Guess(depth, TargetForce(target, self._solver.depth_of_box(depth, largest)))
 
     def _next_depth(self, target: float, attempt: int) -> float:
-        """Return the depth to solve next: between the nearest contacts below and above the force, or else larger.
+        """Return the depth to solve next, between the nearest solved contacts below and above the force.
 
-        If no contact above the force is known, the depth is extrapolated from the nearest contact below the force.
+        If no contact above the force has been solved, the depth is extrapolated from the contact below the force.
         """
         below = Level.of(self._below)
         by_tangent = below.depth + (target - below.pressure_sum) / below.tangent_sum
         if below.count == self._solver.elements.count:
             return by_tangent
         if not self._above:
-            # Assume u ∝ F^m with m = F/(k u) at the last contact. The exponent m grows as the contact grows.
+            # Assume u ∝ F^m for depth u and force F, with m = F/(k u) from the stiffness k of the last contact. The
+            # exponent m grows as the contact grows.
             exponent = below.pressure_sum / (below.tangent_sum * below.depth)
             ratio = (target / below.pressure_sum) ** exponent
             return below.depth * (ratio if below.count >= _REPRESENTATIVE else min(ratio, _MAX_DEPTH_RATIO))
         above = Level.of(self._above[-1])
-        if attempt % 2:  # every second time use the tangents, because this method converges for any convex curve
+        if attempt % 2:  # use the tangents in every second attempt: this method converges for any convex curve
             depth = min(by_tangent, above.depth - (above.pressure_sum - target) / above.tangent_sum)
         else:
             depth = interpolate(below, above, np.array([target]))[0]

@@ -18,16 +18,17 @@ from viscorough.surfaces.indenter import Indenter
 # To sort gaps on several threads, they are divided into ranges of about equal size. The limits of the ranges are
 # estimated from a sample of about this number of gaps.
 _SAMPLE = 1000
-# Largest number of ranges of gaps. Each range is sorted on its own thread.
+# To sort gaps on several threads, they are divided into at most this number of ranges.
 _MOST_RANGES = 8
-# The elements ranked first are at most this share of all elements.
+# The first ranking (sorting by height) contains at most this share of all elements.
 _FIRST_SHARE = 0.25
 # The first ranking contains all elements up to a depth, which is estimated from a sample of the map. The sample is so
 # large that about this number of its elements lie within the depth.
 _FIRST_IN_SAMPLE = 64
 # Largest number of points in the sample of the map from which the depth of the first ranking is estimated.
 _LARGEST_SAMPLE = 1 << 14
-# If all elements ranked so far have the largest height, further elements are ranked at least up to this reduced depth.
+# If all elements sorted so far have the largest height, elements are ranked (sorted by height) at least up to this
+# reduced depth.
 _SMALLEST_DEPTH = 1e-3
 
 
@@ -82,7 +83,7 @@ class Ranking:
     def rank_highest(self) -> None:
         """Rank about the `rank_first` highest elements (see SolverOptions), unless elements are ranked already.
 
-        The depth of these elements is estimated from a sample of the map, which takes little time.
+        The necessary depth is estimated from a sample of the map, which takes little time.
         """
         if self.elements.initial_gap.size:
             return
@@ -96,7 +97,7 @@ class Ranking:
         self.rank_up_to(float(np.partition(gap, rank)[rank]) if gap.size else np.inf)
 
     def rank_up_to(self, depth: float) -> None:
-        """Rank all elements whose initial gap is at most a depth, and possibly more elements.
+        """Rank (sort by height) all elements whose initial gap is at most `depth`, and possibly more elements.
 
         depth : reduced depth, in units of the largest initial gap
         """

@@ -79,7 +79,7 @@ def curve_within(error: float, indenter: Indenter, compute: Compute, progress: P
 
 
 def tolerance_for(error: float) -> float:
-    """Return the loosest tolerance that causes only the allowed part of a requested error of the velocity."""
+    """Return the loosest tolerance that causes at most the share _SHARE_OF_TOLERANCE of a requested velocity error."""
     return min((_SHARE_OF_TOLERANCE * error / _ERROR_PER_ROOT) ** 2, _LOOSEST_TOLERANCE)
 
 
@@ -95,7 +95,7 @@ def part_of(progress: Progress, start: float, end: float) -> Progress:
 
 
 def _steps(indenter: Indenter) -> list[int]:
-    """Return the steps n, on every n-th point of the map, for which curves are computed: powers of two down to 1."""
+    """Return the steps n for which the curve of every n-th point is computed: decreasing powers of two, down to 1."""
     step = 2
     while (
         min(indenter.heights.shape) >= 2 * step * _FEWEST_POINTS

@@ -27,10 +27,11 @@ _INITIAL_DEPTH_RATIO = 1.15
 # If n elements are in contact, the stiffness jumps by about the share 1/n when the next element touches. Every such
 # contact event is a level of the curve as long as n is at most this number divided by the allowed error.
 _EVENTS_PER_ACCURACY = 0.4
-# Every contact event up to this contact count is a level, whatever the allowed error is: computing these few events
-# takes less time than a single longer step.
+# Up to this number of elements in contact, every contact event is a level, whatever the allowed error is. Computing
+# these events takes less time than a single longer step.
 _FEWEST_EVENTS = 40
-# Beyond this contact count, contact events are never computed as levels, however small the allowed error is.
+# Beyond this number of elements in contact, levels are no longer placed at contact events, however small the allowed
+# error is.
 _MAX_EVENTS = 400
 # The next step in depth is chosen so that its expected error bound is this share of the allowed bound.
 _AIM = 0.8
@@ -40,11 +41,11 @@ _ORDER = 2
 _LEAST_CHANGE = 0.3
 # From one step to the next, the logarithm of the ratio of successive depths is multiplied by at most this factor.
 _LARGEST_CHANGE = 2.0
-# If an interval between two levels is divided, the dividing depth lies between these shares of the interval.
+# If an interval between two levels is divided, the depth of the new level lies between these shares of the interval.
 _DIVISION = 0.15, 0.85
 # Forces where the error bound is evaluated, as shares of the force interval between two levels.
 _POINTS = np.linspace(0, 1, 18)[1:-1]
-# The error bound is multiplied by this factor, because it may be larger between the points where it is evaluated.
+# The error bound is multiplied by this factor, because the bound may be larger between the points of its evaluation.
 _BETWEEN_POINTS = 1.15
 # An interval between two levels is accepted although its error bound exceeds the allowed error, by at most this factor,
 # if the predicted error is small enough.
@@ -59,8 +60,8 @@ _AGREEMENT = 0.8, 1.25
 # If the error bound is below this share of the allowed error, the error need not be predicted. The interval is accepted
 # and the next step lengthened as much as allowed, whatever a prediction would be.
 _NEGLIGIBLE_BOUND = 0.15
-# The error bound is not evaluated in the first part, of this share, of the force interval between two levels. There the
-# logarithm of the force could overflow.
+# The error bound is not evaluated below this share of the force interval between two levels, because the logarithm of
+# the force could overflow there.
 _SMALLEST_SHARE = 1e-3
 # This number avoids a division by zero.
 _TINY = 1e-30
@@ -108,7 +109,7 @@ class StepControl:
 
     min_ratio : smallest ratio of the depths of successive levels. At this ratio the depth changes only by the allowed
         error, so interpolation between the levels is accurate enough
-    events : largest contact count for which every contact event is a level
+    events : number of elements in contact up to which there is a level whenever an element touches
     """
 
     def __init__(self, tolerance: float, threads: int = 1) -> None:
@@ -117,9 +118,9 @@ class StepControl:
         self.events = int(np.clip(_EVENTS_PER_ACCURACY / self._accuracy, _FEWEST_EVENTS, _MAX_EVENTS))
 
     def first_ratio(self, levels: list[Level]) -> float:
-        """Return the depth ratio of the first step after contact events.
+        """Return the ratio of the depths after and before the first step that follows contact events.
 
-        The ratio follows from the error bound of an interval that spans the last quarter of the events.
+        The ratio is chosen from the error bound of an interval that spans the last quarter of the events.
         """
         first = levels[-1 - len(levels) // 4]
         ratio = levels[-1].depth / first.depth
@@ -141,9 +142,10 @@ class StepControl:
         return bound / _RELAXED_BOUND if is_smooth else bound
 
     def next_ratio(self, ratio: float, excess: float) -> float:
-        """Return the depth ratio of the next step.
+        """Return the ratio of the depths after and before the next step.
 
-        ratio, excess : depth ratio of the last step, and the ratio of its error bound to the allowed bound
+        ratio : ratio of the depths after and before the last step
+        excess : error bound of the last step divided by the allowed bound
         """
         change = (_AIM / max(excess, _TINY)) ** (1 / _ORDER)
         return np.clip(ratio ** np.clip(change, _LEAST_CHANGE, _LARGEST_CHANGE), self.min_ratio, _MAX_DEPTH_RATIO)
@@ -172,7 +174,7 @@ def interpolation_bound(before: Level, after: Level) -> float:
 
 
 def division(before: Level, after: Level) -> float:
-    """Return the depth for a new level between two levels: the intersection of their tangents, away from the ends.
+    """Return the depth for a new level between two levels: the intersection of their tangents, limited by _DIVISION.
 
     If the stiffness jumps at a single depth, the tangents intersect at this depth. Otherwise they intersect near the
     middle of the interval.

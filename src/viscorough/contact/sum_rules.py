@@ -58,8 +58,8 @@ _LEAST_CONTACT_TOLERANCE = 1e-12
 _MOST_PARTS = 3
 # Largest number of rounds in which levels are added.
 _MAX_ROUNDS = 12
-# Within two rounds that add levels, the norm of the errors of all intervals must fall at least to this share. Otherwise
-# no more levels are added, because the levels themselves must be wrong.
+# Levels are added in rounds. Within two rounds, the norm of the errors of all intervals must fall at least to this
+# share. Otherwise no more levels are added, because the levels themselves must be wrong.
 _LEAST_REDUCTION = 0.9
 # This number avoids divisions by 0.
 _TINY = 1e-300
@@ -111,8 +111,8 @@ class Integral:
         Relative deviation of each quadrature of the curve from the exact value. The keys are the names of the
         quadratures (see `SumRules`).
     error : float
-        Estimated relative error, for the first integral of the quadrature "by levels", for the second integral of any
-        quadrature.
+        Estimated relative error. For the first integral it is the error of the quadrature "by levels". For the second
+        integral it holds for both quadratures.
     """
 
     exact: float
@@ -208,7 +208,7 @@ class Audit(ReadOnlyArrays):
         return self.integrals_agree and self.is_interpolated
 
     def __str__(self) -> str:
-        """Return a text that says if the integrals agree, with their exact values, deviations and estimated errors."""
+        """Return a text: whether the integrals agree, and their exact values, deviations and estimated errors."""
         verdict = "agree" if self.integrals_agree else "do not agree"
         text = f"Audit over {self.curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
         if not self.is_interpolated:
@@ -425,7 +425,7 @@ def audit(
     rules, norms = integrals(curve, complete), [np.inf, np.inf]
     for number in range(_MAX_ROUNDS):
         # In the first round, add levels even if the error is within the tolerance, because the added levels serve to
-        # check the interpolation. Only if the curve is exact, no levels are added.
+        # check the interpolation. No levels are added if the curve is exact.
         allowed, enough = (tolerance, tolerance) if number else (min(tolerance, rules.error / 2), _STRAIGHT)
         # Compare with the error two rounds before. If the stiffness happens to jump exactly at a new level, the error
         # of the divided interval does not fall before the next round.
@@ -449,7 +449,7 @@ def audit(
 
 
 def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
-    """Return the curve of `indent` without AccuracyWarnings, because complete contact may be beyond the theory."""
+    """Return the curve of `indent`, without AccuracyWarnings: the theory may not hold up to complete contact."""
     with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         return indent(indenter, **how)
 

@@ -60,7 +60,7 @@ class JoinedSurface(NamedTuple):
         units : Units of the reduced quantities
         """
         depth, stiffness = self.depth, float(self.tangent.sum())
-        # Rounding can make the pressure of the element that touches last negative.
+        # Without this limit, the element that touches last could have a negative pressure due to rounding.
         pressure = np.maximum(depth * self.tangent - self.load, 0.0)
         # The residual of K P = u − g has at most the norm self.residual * size. The residual at a single element does
         # not exceed this norm.

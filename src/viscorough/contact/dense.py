@@ -203,7 +203,7 @@ def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -
 
 def _exact_contact(units: Units, depth: float, members: Integers, pressure: Array, tangent: Array) -> DenseContact:
     """Return the DenseContact with the given pressures P and tangents q of its elements."""
-    pressure = np.maximum(pressure, 0.0)  # rounding can make the pressure of an element that just touches negative
+    pressure = np.maximum(pressure, 0.0)  # an element that just touches can have a negative pressure due to rounding
     loads = MemberLoads(members, pressure, tangent)
     return DenseContact(units, depth, members.size, pressure.sum(), tangent.sum(), loads=loads)
 

@@ -378,7 +378,7 @@ class _LoadingPath:
         self._until_count = until_fraction * solver.elements.count
         # Contact at the depth of complete contact; computed only when a solved contact may have reached this depth.
         self._complete: ContactState | None = None
-        # The limit is slightly above the force, so that rounding does not leave the last level below the force.
+        # The limit is slightly above `until_force`, so that rounding does not leave the last level below `until_force`.
         self._until_pressure_sum = (1 + ROUNDING / 2) * until_force / solver.units.force
         self._contact = solver.first_contact()
         self._levels = [Level.of(self._contact)]
@@ -441,8 +441,8 @@ class _LoadingPath:
                 self._ahead.keep(contact)
             else:
                 self._add(contact)
-            # Let the next step go half of the way to the nearest larger depth that has been solved, on a logarithmic
-            # scale of depth.
+            # On a logarithmic scale of depth, let the next step go half of the way to the nearest larger depth that has
+            # been solved.
             if self._ahead:
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 
@@ -457,7 +457,7 @@ class _LoadingPath:
         most = min(self._control.events, int(np.ceil(self._until_count)))
         events, self._contact, _ = self._solver.follow_events(contact, most, self._until_pressure_sum)
         if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
-            # Remove the last level: the first event is at the same depth, but more elements are in contact.
+            # Remove the last level: the first contact event has the same depth, but more elements in contact.
             self._levels.pop()
         self._levels += [Level(*event) for event in zip(*events, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth

@@ -280,7 +280,7 @@ class ContactSolver:
         return unloaded_contact(self.units).loads if guess is None else guess
 
     def _grid_up_to(self, rank: int, deepest: float) -> GridSolver:
-        """Return the grid solver of the current box, or of a new box if the current box lacks elements.
+        """Return the grid solver of the current box, or of a new box if the current box is too small.
 
         Only elements whose initial gap is below the depth can touch, so a box need not contain lower elements.
 

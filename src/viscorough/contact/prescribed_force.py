@@ -250,7 +250,7 @@ class ForceSearch:
         unit = coarse.units.length / solver.units.length
         measured = _BlockDepth(unit * contact.reduced_depth, contact.count**-0.5)
         least, likely, largest = (measured.depth * (1 + c * measured.share) for c in search._excess_bounds(contact))
-        solver.ranking.rank_up_to(largest)  # rank all elements that may touch, so that none must be ranked later
+        solver.ranking.rank_up_to(largest)  # sort all elements that may touch, so that no sorting is needed later
         if contact.count < solver.options.blocks_in_contact or least <= below.reduced_depth:
             return None
         self._block_depth = measured

@@ -33,7 +33,7 @@ _SMALLEST_DEPTH = 1e-3
 
 
 class Ranking:
-    """Elements of an indenter, ranked from the highest element on, as far as they are needed.
+    """Elements of an indenter, ranked (sorted by height) from the highest element on, as far as they are needed.
 
     Arguments:
 
@@ -171,7 +171,7 @@ class Ranking:
 
 
 def all_elements(indenter: Indenter, threads: int = 1) -> Elements:
-    """Return the Elements of an indenter, all of them ranked."""
+    """Return the Elements object of an indenter with all elements ranked (sorted by height)."""
     ranking = Ranking(indenter, threads)
     ranking.rank_up_to(1.0)
     return ranking.elements

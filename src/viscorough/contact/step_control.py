@@ -47,18 +47,19 @@ _DIVISION = 0.15, 0.85
 _POINTS = np.linspace(0, 1, 18)[1:-1]
 # The error bound is multiplied by this factor, because the bound may be larger between the points of its evaluation.
 _BETWEEN_POINTS = 1.15
-# An interval between two levels is accepted although its error bound exceeds the allowed error, by at most this factor,
-# if the predicted error is small enough.
+# If the predicted error is small enough, an interval between two levels is accepted although its error bound is larger
+# than the allowed error, by up to this factor.
 _RELAXED_BOUND = 3.3
 # A larger error bound (see _RELAXED_BOUND) is accepted only if the predicted error is at most this share of the allowed
 # error.
 _PREDICTED_ERROR = 0.5
 # The error is predicted only if at least this number of elements joins the contact in the interval.
 _PREDICTED_COUNT = 10
-# The prediction is used only if the ratio of the computed to the predicted growth of the force is within these limits.
+# The predicted error is used only if the computed growth of the force in the interval, divided by the predicted growth,
+# is within these limits.
 _AGREEMENT = 0.8, 1.25
-# If the error bound is below this share of the allowed error, the error need not be predicted. The interval is accepted
-# and the next step lengthened as much as allowed, whatever a prediction would be.
+# If the error bound is below this share of the allowed error, the error need not be predicted: the interval is accepted
+# in any case, and the next step is lengthened as much as allowed.
 _NEGLIGIBLE_BOUND = 0.15
 # The error bound is not evaluated below this share of the force interval between two levels, because the logarithm of
 # the force could overflow there.

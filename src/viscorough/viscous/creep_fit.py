@@ -1,24 +1,26 @@
-"""Fit of a medium to the measured depth of a contact that only grows, under a known force.
+"""Fit of a medium to the measured depth of a growing contact under a known force.
 
-While the contact grows, the elastic force at the measured depth is the creep response Φ (viscous.kinetics),
+While the contact grows, the elastic force F_el at the measured depth u equals the creep response Φ (viscous.kinetics):
 
     F_el(u(t))/G = Φ(t) = ∫₀ᵗ J(t − s) dF(s).
 
-For a step of the force this is F J(t). For any other force it is a Volterra equation of the first kind for J. Two
-families of creep compliances J are fitted to the depth by least squares:
+After a step of the force to F, Φ = F J(t). For any other force, this is a Volterra equation of the first kind for the
+creep compliance J. Two families of J are fitted to the depth by least squares:
 
-1. Media of springs and dashpots, J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with unknown amounts J₀, φ, J_j ≥ 0. The grid
-   of retardation times θ_j is refined around the times with J_j > 0. Few of the amounts are positive, so that the
-   residuals of this fit show the scatter of the record.
-2. All J that are concave and do not decrease, as in every medium that relaxes. Such a J is a sum
-   J₀ + Σ c_k min(t, τ_k) with unknown J₀, c_k ≥ 0. The creep response of min(t, τ) is I(t) − I(t − τ), with the impulse
-   I(t) = ∫₀ᵗ F dt. This family can pass through every row of a short or precise record, so its residuals do not show
-   the scatter. The intervals of J are the intervals within this family. They use the scatter of the fit of the first
-   family, or the scatter that the user stated.
+1. Media of springs and dashpots: J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with unknown amounts J₀, φ, J_j ≥ 0. The grid
+   of retardation times θ_j is refined around the times with J_j > 0. Few amounts of the best fit are positive, so that
+   its residuals show the scatter of the record.
+2. All J that are concave and do not decrease; every medium that relaxes has such a J. The fit uses J = J₀ + Σ c_k
+   min(t, τ_k), with times τ_k (knots) and unknown amounts J₀, c_k ≥ 0. The creep response of min(t, τ) is I(t) − I(t −
+   τ), with the impulse I(t) = ∫₀ᵗ F dt. This family can pass through every row of a short or precise record, so its
+   residuals do not show the scatter.
 
-J of the second family is straight between the knots τ_k. In the fit, the difference in creep between the fit of the
-first family and its chords between the knots is added to the creep of the second family. So the straight lines do not
-shift the fit.
+The confidence intervals of J contain the J of the second family, and of all J that do not decrease, that fit the record
+well enough (`_Record.intervals`). They use the scatter of the first fit, or the scatter that the user stated.
+
+A J of the second family is straight between the knots, which alone would shift the fit. A correction removes this
+shift. It is computed for the J of the first fit: its creep response minus the response of the straight lines that
+connect its values at the knots. The correction is added to the creep response of the second family.
 """
 
 import numpy as np
@@ -45,15 +47,16 @@ from viscorough.viscous.record_fit import (
     spread_times,
 )
 
-# Largest number of knots, which are the times with a value of J.
+# Largest number of knots (times between which the fitted J is straight).
 _KNOTS = 60
-# Ratio of the time of the first row to the first knot if the force starts with a ramp.
+# If the force starts with a ramp, the first knot is the time of the first row of the record divided by this number.
 _EARLIER = 64
-# Largest numbers of Gauss-Newton iterations: without, and with an offset or a drift. Within the scatter of the depth
-# the loading curve is almost straight, so that few iterations are needed; within an offset it is not. The iterations
-# end if the residuals change by less than the share _CLOSE of the largest depth.
+# Largest number of Gauss-Newton iterations, without and with a fitted offset or drift of the depth. Without them, few
+# iterations are enough, because the loading curve is almost straight within the scatter of the depth. The iterations
+# end when the residuals change by less than the share _CLOSE of the largest depth.
 _ITERATIONS, _ITERATIONS_OF_SHIFT, _CLOSE = 6, 60, 1e-13
-# Largest number of trials with a halved step if the sum of squares does not decrease.
+# Largest number of trial steps in a Gauss-Newton iteration. If a step increases the sum of squares, the next trial step
+# has half the length.
 _HALVINGS = 12
 
 
@@ -63,12 +66,14 @@ def fit_growing_depth(
     """Fit a medium to the measured depth of a contact that grows.
 
     curve : loading curve of the indenter
-    load : force as a function of time in consistent units, with a sample at the time of each row of the record
-    place : index of the sample of the load for each row, shape (rows,)
+    load : force as a function of time, in units of modulus × length², with a sample at the time of each row of the
+        record
+    place : for each row of the record, the index of its sample of the load, shape (rows,)
     depth : measured depth, shape (rows,)
     kind : kind of medium: "table", "prony" or "springpot"
-    scatter : standard deviation of the depth; None to find it from the record; nan for a fit without intervals
-    shift : choice of the errors of the zero of the depth that are fitted
+    scatter : standard deviation of the measured depth; None to estimate it from the record; nan for a fit without
+        confidence intervals
+    shift : whether an offset and a drift of the depth are fitted, too
     """
     lags = load.time[place] - load.time[0]
     record = _Record(curve, depth, shift.columns(lags))
@@ -110,17 +115,22 @@ def fit_growing_depth(
 def spectrum_of_growth(
     curve: LoadingCurve, load: Load, place: Integers, depth: Array, times: Array, signed: Array
 ) -> tuple[Array, Array]:
-    """Return the amounts J₀, φ and J_j, and the offset and drift, that fit the depth of a growing contact best.
+    """Fit springs and dashpots to the measured depth of a growing contact.
 
-    curve, load, place, depth : arguments of fit_growing_depth
+    Return the amounts J₀, φ and J_j, and the offset and drift of the depth (as far as they are fitted).
+
+    curve, load, place, depth : see fit_growing_depth
     times : retardation times θ_j, shape (elements,)
-    signed : change of the measured depth by a unit of offset and of drift, if they are fitted, shape (rows, 0 to 2)
+    signed : derivatives of the measured depth with respect to offset and drift, one column for each that is fitted,
+        shape (rows, 0 to 2)
     """
     return _Record(curve, depth, signed).fit(_spectral_responses(load, place, times))
 
 
 def _spectral_responses(load: Load, place: Integers, times: Array) -> Array:
-    """Return the creep responses of J = 1, J = t and J = 1 − exp(−t/θ_j) at the rows, shape (rows, 2 + elements).
+    """Return the creep responses of J = 1, J = t and J = 1 − exp(−t/θ_j) at the rows of the record.
+
+    The shape is (rows, 2 + elements).
 
     times : retardation times θ_j, shape (elements,)
     """
@@ -129,46 +139,49 @@ def _spectral_responses(load: Load, place: Integers, times: Array) -> Array:
 
 
 def first_lag(load: Load, lags: Array) -> float:
-    """Return the time of the first row that shows J, counted from the start of the load.
+    """Return the time, after the start of the load, of the first row of the record that depends on J.
 
-    This is the first row after the start, or the row at the start if the force steps there.
+    If the force starts with a step and the record has a row at this time, this row depends on J, and the result is 0.
+    Otherwise the first row after the start depends on J.
 
-    lags : times of the rows after the start of the load
+    lags : times of the rows, measured from the start of the load
     """
     return 0.0 if lags[0] == 0 < load.values[0] else float(lags[lags > 0][0])
 
 
 def knots_of(load: Load, lags: Array) -> Array:
-    """Return the knots of J, which are times after the start of the load: the times of the rows, at most _KNOTS.
+    """Return the knots, the times between which the fitted J is straight, measured from the start of the load.
 
-    If the force starts with a ramp, the knots are _KNOTS times at equal ratios, which start before the first row.
+    The knots are the times of at most _KNOTS rows. If the force starts with a ramp, they are _KNOTS times with equal
+    ratios instead, and the first of them lies before the first row.
 
-    lags : times of the rows after the start of the load
+    lags : times of the rows, measured from the start of the load
     """
     knots = lags[lags > 0]
-    if load.values[0] == 0:  # the response to a ramp depends on J before the first row, too
+    if load.values[0] == 0:  # under a ramp, the first row depends on J at earlier times, too
         return np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
-    if knots.size > _KNOTS:  # choose times of rows at about equal ratios
+    if knots.size > _KNOTS:  # keep times with about equal ratios
         spread = np.geomspace(knots[0], knots[-1], _KNOTS)
         knots = knots[np.unique(np.clip(np.searchsorted(knots, spread * (1 - 1e-12)), 0, knots.size - 1))]
     return knots
 
 
 def _amounts(compliance: Array, knots: Array) -> Array:
-    """Return J₀ and c_k of J = J₀ + Σ c_k min(t, τ_k) with given values at time 0 and at the knots τ_k.
+    """Return the coefficients J₀ and c_k of J = J₀ + Σ c_k min(t, τ_k) from values of J.
 
-    compliance : values of J, shape (1 + knots,)
+    compliance : J at time 0 and at the knots τ_k, shape (1 + knots,)
     """
     slopes = np.diff(compliance) / np.diff(knots, prepend=0.0)
     return np.append(compliance[0], slopes - np.append(slopes[1:], 0.0))
 
 
 class _Record:
-    """A record of a growing contact, and least-squares fits of J, as a sum of given functions of time, to its depth.
+    """Record of a growing contact, with the least-squares fit of J to its depth.
 
-    The unknown amounts of these functions in J are non-negative.
+    J is a sum of given functions of time, each multiplied by an unknown amount ≥ 0.
 
-    signed : change of the measured depth by a unit of offset and of drift, if they are fitted, shape (rows, 0 to 2)
+    signed : derivatives of the measured depth with respect to offset and drift, one column for each that is fitted,
+        shape (rows, 0 to 2)
     """
 
     def __init__(self, curve: LoadingCurve, depth: Array, signed: Array) -> None:
@@ -176,12 +189,14 @@ class _Record:
         self.creep, self.stiffness = elastic_force(curve, depth)  # F/G and k/G at the measured depth
 
     def fit(self, responses: Array, bend: Array | float = 0.0) -> tuple[Array, Array]:
-        """Return the amounts ≥ 0, and the offset and drift, that fit the depth best, by the Gauss-Newton method.
+        """Fit the amounts, and offset and drift, to the depth by the Gauss-Newton method.
 
-        responses : creep response at each row to a unit of each amount, shape (rows, amounts)
-        bend : known creep that is added to the creep of the amounts, shape (rows,)
+        Return the amounts, which are ≥ 0, and an array with offset and drift (as far as they are fitted).
+
+        responses : creep response at each row of the record for a unit of each amount, shape (rows, amounts)
+        bend : known creep response that is added to the response of the amounts, shape (rows,)
         """
-        # First guess: the curve is replaced by its tangent at each measured depth, and offset and drift are 0.
+        # First guess: replace the curve by its tangent at each measured depth, and take offset and drift as 0.
         amounts, _ = non_negative(responses / self.stiffness[:, None], (self.creep - bend) / self.stiffness)
         shift = np.zeros(self.signed.shape[1])
         count = amounts.size
@@ -206,9 +221,9 @@ class _Record:
         return unknowns[:count], unknowns[count:]
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
-        """Return depth and stiffness k/G of the curve at the force F/G = creep.
+        """Return depth and stiffness k/G of the loading curve at the elastic force F/G = creep.
 
-        Before the first level the curve is taken for a straight line from the origin.
+        Before its first computed point, the curve is taken to be a straight line from the origin.
         """
         curve = self.curve
         creep = np.minimum(creep, curve.force[-1])
@@ -220,14 +235,17 @@ class _Record:
     def intervals(
         self, amounts: Array, responses: Array, bend: Array, values: Array, distance: float
     ) -> tuple[Array, Array]:
-        """Return the lower and upper ends of the intervals of J, followed by the intervals of offset and drift.
+        """Return the lower ends, and the upper ends, of the confidence intervals.
 
-        At the end of an interval, the sum of squared residuals of the best fit exceeds its minimum by distance². An
-        interval is the union of the intervals in two families: all concave J, and all J that do not decrease. The
-        second family is needed because concave fits of a J that is almost straight, as in a fluid, lie above J.
+        Each array starts with the ends for J, followed by offset and drift (as far as they are fitted). An interval
+        contains all values for which the best fit has a sum of squared residuals of at most the minimum plus distance².
+        The fits are made in two families: all concave J, and all J that do not decrease. An interval extends from the
+        smaller lower end to the larger upper end of the two families. The second family is needed because concave fits
+        of an almost straight J, as in a fluid, lie above this J.
 
-        amounts, responses, bend : result and arguments of `fit` for concave J
-        values : J at the times of the intervals due to a unit of each amount, shape (times, amounts)
+        amounts : amounts that `fit` returned for concave J
+        responses, bend : arguments with which `fit` was called
+        values : J at the times of the intervals for a unit of each amount, shape (times, amounts)
         """
         creep = responses @ amounts
         elastic_depth, stiffness = self._elastic(creep + bend)
@@ -242,18 +260,22 @@ class _Record:
         return low, high
 
     def shift(self, creep: Array) -> Array:
-        """Return the offset and drift that fit the measured depth best if the creep at the rows is given."""
+        """Return the offset and drift that fit the measured depth best for a given creep response at the rows."""
         return np.linalg.lstsq(self.signed, self.depth - self._elastic(creep)[0])[0]
 
     def residual(self, creep: Array) -> Array:
-        """Return the measured depth less the depth that follows from the given creep and the best offset and drift."""
+        """Return the measured depth minus the fitted depth, shape (rows,).
+
+        The fitted depth follows from the given creep response, and from the offset and drift that fit best.
+        """
         return self.depth - self._elastic(creep)[0] - self.signed @ self.shift(creep)
 
 
 class _Spectrum:
-    """Medium of springs and dashpots that fits a record of a growing contact best.
+    """Medium of springs and dashpots that fits the depth of a growing contact best.
 
-    times, amounts : retardation times θ_j, and the amounts J₀, φ and J_j
+    times : retardation times θ_j
+    amounts : J₀, φ and J_j
     creep : creep response of the medium at the rows of the record
     """
 
@@ -276,7 +298,8 @@ class _Spectrum:
     def prony(self, force: float) -> Prony:
         """Return the medium as a Prony series. Raises ValueError if J₀ is 0, or if φ and all J_j are 0.
 
-        force : largest force of the record; a J₀ of a tiny share of the creep at this force counts as 0
+        force : largest force F of the record; J₀ counts as 0 if J₀ F is a negligible share of the largest creep
+            response
         """
         instantaneous, fluidity, strengths = self.amounts[0], self.amounts[1], self.amounts[2:]
         if instantaneous * force <= ROUNDING * self.creep.max() or not (fluidity or strengths.any()):
@@ -287,10 +310,12 @@ class _Spectrum:
 def prony_series(instantaneous: float, fluidity: float, strengths: Array, times: Array) -> Prony:
     """Return the Prony series with the compliance J = J₀ + φ t + Σ J_j (1 − exp(−ρ_j t)), ρ_j = 1/θ_j.
 
-    instantaneous, fluidity : J₀ > 0 and φ ≥ 0; strengths, times : J_j ≥ 0 and θ_j, shape (elements,)
+    instantaneous, fluidity : J₀ > 0 and φ ≥ 0
+    strengths, times : J_j ≥ 0 and θ_j, shape (elements,)
 
-    The conversion is exact. The relaxation rates are the eigenvalues λ of D + b bᵀ/J₀, with D = diag(0, ρ_j) and the
-    squares of the entries of b equal to (φ, J_j ρ_j). The moduli are (b·q)²/(λ J₀²), with the eigenvectors q of norm 1.
+    The conversion is exact. Let D = diag(0, ρ_j), and let b be the vector whose squared entries are φ and J_j ρ_j. The
+    relaxation rates are the eigenvalues λ of D + b bᵀ/J₀. With the eigenvectors q of norm 1, the moduli are (b·q)²/(λ
+    J₀²).
     """
     kept = strengths > 0
     strengths, rates = strengths[kept], 1 / times[kept]
@@ -309,7 +334,7 @@ def _springpot(record: _Record, load: Load, place: Integers) -> Springpot:
     from scipy.optimize import minimize_scalar  # this import takes long
 
     def response(exponent: float) -> Array:
-        # Creep response of J = t^exponent at the rows.
+        # Creep response of J = t^exponent at the rows of the record.
         return by_sums(Springpot(1 / gamma(1 + exponent), exponent), load)[0][place, None]
 
     def squares(exponent: float) -> float:
@@ -322,9 +347,10 @@ def _springpot(record: _Record, load: Load, place: Integers) -> Springpot:
 
 
 def elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
-    """Return force F_el/G and stiffness k/G of the curve at depths up to its last level.
+    """Return force F_el/G and stiffness k/G of the loading curve at given depths.
 
-    Before the first level the curve is taken for a straight line from the origin.
+    No depth may lie beyond the end of the curve. Before its first computed point, the curve is taken to be a straight
+    line from the origin.
     """
     stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
     force = depth * stiffness

@@ -1,11 +1,11 @@
 """Identification of the medium of a half-space from a measured indentation by a body with a known loading curve.
 
-A record is a measured depth under a known force, or a measured force at a known depth. One of three modules fits a
-medium to it:
+The record is a measured depth under a known force, or a measured force at a known depth. One of three modules fits a
+medium to the record:
 
 1. `creep_fit` fits the creep compliance J to the depth of a contact that only grows.
 2. `receding_fit` fits J to the depth of a contact that recedes because the force decreases.
-3. `relaxation_fit` fits the relaxation modulus ψ to the force at a depth of any history.
+3. `relaxation_fit` fits the relaxation modulus ψ to the force at a depth that may increase and decrease.
 """
 
 from __future__ import annotations
@@ -32,18 +32,19 @@ from viscorough.viscous.record_fit import ROUNDING, RecordFit, Shift
 from viscorough.viscous.relaxation_fit import fit_force
 
 KINDS = ("table", "prony", "springpot")
-# A depth counts as decreasing if the mean depth of a few neighbouring rows is lower than the mean of earlier rows by
-# too many standard deviations. Allowed are 3 + √(2 ln n) for n means, multiplied by 1 + 13/(rows - 4), because a record
-# of few rows does not determine the standard deviation well. Among records that consist of noise without creep, about
-# one in ten thousand exceeds this limit.
+# A depth counts as decreasing if the mean of a few neighbouring rows lies below an earlier mean by more than 3 + √(2 ln
+# n) standard deviations of the difference, where n is the number of means. A standard deviation that is estimated from
+# the record is multiplied by 1 + 13/(rows - 4), because few rows do not determine it well. Among records that consist
+# of noise without creep, about one in ten thousand exceeds this limit.
 _LARGEST_DROP, _LARGER_FOR_FEW_ROWS = 3.0, 13.0
-# If the first level of the curve is at most at this share of the largest depth, the curve before it is taken for a
-# straight line.
+# The curve before its first computed point is taken to be straight if the depth of this point is at most this share of
+# the largest depth.
 _FIRST_LEVEL = 1e-3
-# Limits above which the misfit of a medium gives a warning. With a known scatter, a smaller misfit would occur by
-# chance with this probability; without, the limit is this share of the largest value.
+# A misfit above a limit gives a warning. If the scatter is known, random errors alone stay below the limit with the
+# probability _SIGNIFICANT. If it is not known, the limit is the share _SMALL_MISFIT of the largest value.
 _SIGNIFICANT, _SMALL_MISFIT = 0.999, 1e-3
-# Assumed error of the zero of the depth, as a share of the largest depth, if the scatter of the depth is not known.
+# If the scatter of the depth is not known, the zero of the depth is assumed to be wrong by this share of the largest
+# depth.
 _ASSUMED_OFFSET = 1e-3
 
 
@@ -65,9 +66,9 @@ def identify_medium(
     curve : LoadingCurve
         Loading curve of the indenter. It must reach the largest depth of the record.
     load : array_like or Load
-        Prescribed force or depth, which counts as exact: a constant force that is applied at time 0, samples of the
-        force at `times`, or a Load of a force or of a depth. The load may hold and unload, as in creep tests,
-        relaxation tests, and force curves.
+        Prescribed force or depth, which is taken to be free of errors: a constant force that is applied at time 0,
+        samples of the force at `times`, or a Load of a force or of a depth. The load may hold and unload, as in creep
+        tests, relaxation tests, and force curves.
     times, measured : array_like
         Times and measured values of the record, shape (rows,). Times increase. The values are depths if the load is a
         force, and forces if the load is a depth. Their errors are assumed to be independent from row to row and of the
@@ -76,34 +77,35 @@ def identify_medium(
         Kind of medium that is fitted by least squares: "table" for a CreepTable, "prony", or "springpot".
     scatter : float or str, optional
         Standard deviation of the measured depth [length] or force; a number, or a text such as "2 nm". State it if it
-        is known from the instrument. Short or very precise records do not determine it, and then there are no
-        intervals.
+        is known from the instrument. By default it is estimated from the record. A short or very precise record does
+        not determine it, and the result then has no intervals.
     fit_offset, fit_drift : bool, optional
-        Whether to fit an error of the zero of the depth, and a drift of the depth that is linear in time. Fit the
-        offset if the point of first contact is not known, and the drift if the instrument drifts. Intervals then grow,
-        because offset and drift resemble creep. A zero that is wrong by 2 % of the last depth changes J of a sphere by
-        3 % at the last time, and by more at smaller depths and for rough indenters.
+        Whether to fit a constant error of the depth (offset), and an error that is linear in time (drift). Fit the
+        offset if the point of first contact is not known, and the drift if the instrument drifts. The intervals become
+        wider, because offset and drift resemble creep. For a sphere, an offset of 2 % of the last depth changes J by
+        3 % at the last time. The change is larger at smaller depths and for rough indenters.
 
     Returns
     -------
     IdentifiedMedium
-        Identified medium, in Pa and s if the curve's unit of length is known. The interval at a time contains a value
-        if the best fit with this value is not significantly worse than the best fit of all (profile likelihood, 95 %).
-        If the depth of a growing contact was measured, the fits are all J that do not decrease, and all concave J.
-        Otherwise the fits are media of springs and dashpots. Between two times, J is at least the chord of `low`.
+        Identified medium, in Pa and s if the curve's unit of length is known, with confidence intervals. The interval
+        at a time contains a value if the best fit with this value is not significantly worse than the best fit of all
+        (profile likelihood, 95 %). For the measured depth of a growing contact, the compared fits are all J that do not
+        decrease, and all concave J. For other records they are media of springs and dashpots. Between two times, J does
+        not lie below the straight line between the values of `low`.
 
     Raises
     ------
     ValueError
-        For a record that has fewer than five rows or leaves the curve, for a depth that decreases by more than the
-        scatter explains although the force does not decrease, for a kind that the record does not determine, and for a
-        scatter that is not above 0.
+        If the record has fewer than five rows or leaves the curve. If the depth decreases by more than the scatter
+        explains although the force does not decrease. If the record does not determine a medium of this kind, and if
+        the scatter is not above 0.
 
     Warns
     -----
     AccuracyWarning
-        If the misfit (rms) of a Prony series or a springpot is larger than the scatter explains, or, with unknown
-        scatter, larger than 0.1 % of the largest value.
+        If the misfit (rms) of a Prony series or a springpot is larger than the scatter explains. If the scatter is not
+        known, the limit is 0.1 % of the largest value.
 
     Examples
     --------
@@ -133,7 +135,7 @@ def identify_medium(
     scatter = _checked_scatter(scatter, value_unit, unit)
     times, measured = _checked_record(curve, times, measured, value_unit)
     prescribed = load if isinstance(load, Load) and load.by_depth else force_load(load, times, unit)
-    # Measured forces are divided by this area, like the forces of a Load (Load.in_units_of).
+    # Like prescribed forces (Load.in_units_of), measured forces in N are divided by this area in m².
     area = units.square_metres(unit) if by_depth else 1.0
     scatter = None if scatter is None else scatter / area
     record = _Record(curve, *prescribed.with_times(times), times, measured / area, scatter, shift)
@@ -146,14 +148,15 @@ def identify_medium(
 
 
 class _Record(NamedTuple):
-    """A record in consistent units.
+    """Measured record, prescribed load and loading curve, in consistent units.
 
     curve : loading curve of the indenter
     load : prescribed force or depth, with a sample at the time of each row of the record
-    place : index of the sample of the load for each row, shape (rows,)
-    times, measured : times, and depths if the force was prescribed, else forces, shape (rows,)
+    place : for each row of the record, the index of its sample of the load, shape (rows,)
+    times : times of the rows, shape (rows,)
+    measured : measured depths under a prescribed force, or measured forces at a prescribed depth, shape (rows,)
     scatter : standard deviation of `measured`; None if the user did not state it
-    shift : choice of the errors of the zero of the depth that are fitted
+    shift : whether an offset and a drift of the depth are fitted, too
     """
 
     curve: LoadingCurve
@@ -166,7 +169,7 @@ class _Record(NamedTuple):
 
 
 def _check_depths(record: _Record) -> None:
-    """Raise ValueError for prescribed or measured depths that lie outside the loading curve."""
+    """Raise ValueError if the loading curve does not contain all prescribed or measured depths."""
     curve, load, times = record.curve, record.load, record.times
     if load.by_depth:
         _check_within(curve, load.time, load.values)
@@ -179,7 +182,7 @@ def _check_depths(record: _Record) -> None:
 def _fitting_function(record: _Record) -> Callable[..., RecordFit]:
     """Return the function that fits a medium to this record: fit_force, fit_growing_depth or fit_receding_depth.
 
-    Raises ValueError for a depth that decreases although the force does not decrease and no drift is fitted.
+    Raises ValueError if the measured depth decreases, unless the force decreases or a drift is fitted.
     """
     load = record.load
     if load.by_depth:
@@ -197,7 +200,7 @@ def _fitting_function(record: _Record) -> Callable[..., RecordFit]:
 def _effect_of_offset(record: _Record, fit: RecordFit) -> tuple[float, float]:
     """Return an assumed error of the zero of the depth, and the largest relative change of J that this error causes.
 
-    The error is the scatter of the depth, or a share of the largest depth if the scatter is not known.
+    The assumed error is the scatter of the depth. If the scatter is not known, it is a share of the largest depth.
     """
     load, measured = record.load, record.measured
     scatter = np.nan if load.by_depth else fit.scatter
@@ -217,8 +220,8 @@ def _effect_of_offset(record: _Record, fit: RecordFit) -> tuple[float, float]:
 def _result(fit: RecordFit, shift: Shift, assumed: float, effect: float, unit: str, area: float) -> IdentifiedMedium:
     """Return the result of a fit as an IdentifiedMedium.
 
-    shift : choice of the errors of the zero of the depth that were fitted
-    assumed, effect : fields assumed_offset and offset_effect of the IdentifiedMedium
+    shift : whether an offset and a drift of the depth were fitted
+    assumed, effect : assumed_offset and offset_effect of the IdentifiedMedium
     unit : unit of length
     area : factor that converts scatter and misfit to the unit of the measured values
     """
@@ -233,10 +236,10 @@ def _result(fit: RecordFit, shift: Shift, assumed: float, effect: float, unit: s
 
 
 def _checked_scatter(scatter: float | str | None, value_unit: str, unit: str) -> float | None:
-    """Return the scatter that the user stated as a number in the unit `value_unit`; None if the user stated none.
+    """Return the scatter as a number in the unit `value_unit`; None if the user did not state it.
 
-    value_unit : unit of the measured values: "N" for a force, the unit of length for a depth
-    unit : unit of length
+    value_unit : unit of the measured values: "N" for forces, the unit of length for depths
+    unit : unit of length of the loading curve
     """
     if scatter is None:
         return None
@@ -248,7 +251,7 @@ def _checked_scatter(scatter: float | str | None, value_unit: str, unit: str) ->
 
 
 def _check_misfit(fit: RecordFit, measured: Array, factor: float) -> None:
-    """Give an AccuracyWarning if the misfit of the medium is larger than the scatter explains.
+    """Warn if the misfit of the medium is larger than the scatter explains.
 
     factor : factor that converts numbers of the fit to the unit of the user's values, for the message
     """
@@ -265,7 +268,7 @@ def _check_misfit(fit: RecordFit, measured: Array, factor: float) -> None:
 
 
 def _checked_record(curve: LoadingCurve, times: ArrayLike, values: ArrayLike, unit: str) -> tuple[Array, Array]:
-    """Return times and measured values as arrays of floats. Raises ValueError unless there are five or more rows.
+    """Return times and measured values as arrays of floats. Raises ValueError if there are fewer than five rows.
 
     unit : unit of the measured values
     """
@@ -279,7 +282,7 @@ def _checked_record(curve: LoadingCurve, times: ArrayLike, values: ArrayLike, un
 
 
 def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
-    """Raise ValueError if a depth lies beyond the last level of the curve."""
+    """Raise ValueError if a depth lies beyond the end of the loading curve."""
     if depth.max() > curve.depth[-1]:
         where = int(np.argmax(depth > curve.depth[-1]))
         raise ValueError(
@@ -290,9 +293,9 @@ def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
 
 
 def _check_first_level(curve: LoadingCurve, times: Array, depth: Array) -> None:
-    """Raise ValueError if a depth lies before the first level of the curve, unless the curve is a straight line there.
+    """Raise ValueError if a depth lies before the first computed point of a curve that is not straight there.
 
-    A curve whose first level lies at a tiny share of the largest depth counts as straight.
+    The curve is taken to be straight there if the point lies at a tiny share of the largest depth.
     """
     undetermined = np.isnan(curve.at_force(curve.force[0] / 2)[0]) and curve.depth[0] > _FIRST_LEVEL * depth.max()
     if undetermined and (before := (depth < curve.depth[0]) & (depth != 0)).any():
@@ -304,12 +307,13 @@ def _check_first_level(curve: LoadingCurve, times: Array, depth: Array) -> None:
 
 
 def _decrease(times: Array, depth: Array, scatter: float) -> str | None:
-    """Return a text that states where the depth decreases by more than its errors explain; None if it does not.
+    """Return a text that states where the depth decreases by more than its errors explain, or None.
 
-    The errors are the scatter of the depth, and the resolution of the record, which is the smallest step of the depth.
+    The errors are the scatter and the resolution of the record. The resolution is the smallest difference between
+    neighbouring depths that are not equal, and 0 if no neighbouring depths are equal.
 
-    scatter : scatter of the depth that the user stated, or 0. If the scatter that follows from the second differences
-        of the depth is larger, it is used instead
+    scatter : scatter that the user stated, or 0. If the second differences of the depth show a larger scatter, the
+        larger scatter counts
     """
     steps = np.diff(depth)
     found = 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6)

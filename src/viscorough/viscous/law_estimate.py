@@ -1,11 +1,12 @@
 """Estimate depth and velocity of a rough indenter from the calibrated penetration law, without a simulation.
 
-In a medium with creep compliance J(t), the depth at time t under a constant force F is the depth of an elastic contact
-at F/G = F·J(t) (viscous.kinetics). With X = F·J(t)/(4hL), rms height h and diameter L, depth and velocity are
+In a medium with creep compliance J(t), a constant force F causes at time t the depth of an elastic contact whose force
+divided by the modulus G is F·J(t) (viscous.kinetics). With the rms height h, the diameter L, and the reduced force X =
+F·J(t)/(4hL), depth and velocity are
 
-    u = h·D(X),    v = h·(J'(t)/J(t))·V(X),
+    u = h·D(X),    v = h·(J'(t)/J(t))·V(X).
 
-where the penetration law gives D = u/h and V = vt/h. In a Newtonian medium J = t/η, and so v = (h/t)·V(X).
+The penetration law gives the functions D = u/h and V = vt/h. In a Newtonian medium J = t/η, and so v = (h/t)·V(X).
 """
 
 import numpy as np

@@ -1,12 +1,13 @@
 """Least squares with non-negative unknowns, and extreme values of linear functions of these unknowns near the best fit.
 
-The best fit is the x ≥ 0 that minimises ‖A x − b‖². Near the best fit means that x ≥ 0 and that ‖A x − b‖² exceeds its
-minimum by at most distance². Under this condition a linear function r·x is largest (λ > 0) or smallest (λ < 0) at the
-minimiser of ½ ‖A x − b‖² − λ r·x, where λ is adjusted until the excess is distance². An active-set method finds the
-minimiser (Lawson and Hanson 1974). It starts from the unknowns that were positive for the last λ, since few of them
-change with λ.
+The best fit is the x ≥ 0 that minimises ‖A x − b‖². An x ≥ 0 is near the best fit if ‖A x − b‖² exceeds its minimum by
+at most distance². Among these x, a linear function r·x is largest (λ > 0) or smallest (λ < 0) at the minimiser of ½ ‖A
+x − b‖² − λ r·x. The multiplier λ is adjusted until the excess of ‖A x − b‖² equals distance². An active-set method
+finds the minimiser for each λ (Lawson and Hanson 1974). It starts from the unknowns that were positive for the previous
+λ, because few of them change.
 
-Additional unknowns may have any sign. Such an unknown is replaced by its difference from a bound far below its value.
+Additional unknowns may have any sign. Each of them is replaced by a non-negative unknown: its difference from a bound
+far below its value.
 """
 
 from typing import Any
@@ -16,23 +17,27 @@ import numpy as np
 from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array
 
-# Largest number of values of λ that are tried, and relative accuracy to which the distance is met.
+# Largest number of values of λ that are tried for an extreme value, and largest accepted relative error of the
+# distance.
 _TRIALS, _CLOSE = 12, 0.01
-# Largest factor between two successive λ. A distance that was reached with the last λ counts as at least the share
-# _LEAST_SHARE of the required distance, so that the factor is finite.
+# The next λ is the present λ multiplied by the ratio of the required distance and the reached distance. The ratio is
+# limited to _LARGEST_FACTOR. The reached distance counts as at least the share _LEAST_SHARE of the required distance,
+# so that the ratio is finite.
 _LARGEST_FACTOR, _LEAST_SHARE = 4.0, 1e-3
-# Rounding error of gradients, relative to the norm of b. Columns of A have the norm 1.
+# Rounding error of the gradient of ½ ‖A x − b‖², relative to the norm of b. Columns of A have the norm 1.
 _ROUNDING = 1e-11
-# The bound of an unknown of any sign is the negative number at which its column has this multiple of the length of b.
+# An unknown of any sign gets a negative lower bound. The norm of its column, multiplied by the absolute value of the
+# bound, is this multiple of the norm of b.
 _FAR = 10.0
-# A column of A counts as a combination of other columns if its part perpendicular to them is shorter than this.
+# A column of A counts as a linear combination of other columns if its part perpendicular to them is shorter than this.
 _SINGULAR = 1e-13
 
 
 def non_negative(matrix: Array, target: Array, signed: Array | None = None) -> tuple[Array, Array]:
     """Return x ≥ 0, and z of any sign, that minimise ‖matrix x + signed z − target‖.
 
-    matrix, signed : columns of the unknowns x and of the unknowns z, each of shape (rows, number of unknowns)
+    matrix : shape (rows, unknowns x)
+    signed : shape (rows, unknowns z); None if there are no unknowns of any sign
     """
     from scipy.optimize import nnls  # this import takes long
 
@@ -65,7 +70,7 @@ def extremes(
     """Return the smallest and the largest value of linear functions of x ≥ 0 near the best fit of matrix x to target.
 
     functions : coefficients r of each function r·x, shape (functions, unknowns)
-    distance : near the best fit, ‖matrix x − target‖² exceeds its minimum by at most distance²
+    distance : an x is near the best fit if ‖matrix x − target‖² exceeds its minimum by at most distance²
     signed : columns of additional unknowns, which may have any sign. The extreme values of these unknowns are returned,
         too, after the values of `functions`
     """
@@ -73,7 +78,7 @@ def extremes(
 
     given, unknowns = functions.shape
     matrix, target, bounds = _with_signed(matrix, target, signed)
-    # Each unknown of any sign is appended to the functions.
+    # Append each unknown of any sign to the functions, so that its extreme values are found, too.
     functions = np.pad(functions, [(0, bounds.size), (0, bounds.size)])
     functions[given:, unknowns:] = np.eye(bounds.size)
     scale = np.linalg.norm(matrix, axis=0)
@@ -82,7 +87,7 @@ def extremes(
     columns, target = np.ascontiguousarray(reduced[:, :-1].T), np.ascontiguousarray(reduced[:, -1])
     best = nnls(columns.T, target, maxiter=30 * columns.shape[0])[0]
     functions = np.ascontiguousarray(functions / scale)
-    # First guess of λ: the exact value if the unknowns were not bounded, for the solution of least norm.
+    # First guess of λ: distance/‖y‖, with the shortest y that satisfies Aᵀ y = r. It is exact if no unknown is bounded.
     multiplier = distance / np.linalg.norm(np.linalg.lstsq(columns, functions.T, rcond=1e-10)[0], axis=0)
     shift = np.append(np.zeros(given), bounds)
     low, high = (
@@ -95,9 +100,11 @@ def extremes(
 def _extremes(columns, target, functions, best, multipliers, distance):
     """Return the largest (multiplier > 0) or smallest (multiplier < 0) value of each function near the best fit.
 
-    columns : columns of A as rows, of norm 1
+    columns : Aᵀ, where the columns of A have the norm 1
+    target : b
+    functions : r of each function r·x
     best : x of the best fit
-    multipliers : first guesses of λ for each function
+    multipliers : first guess of λ for each function
     """
     least, values = _square(columns, target, best), np.empty(functions.shape[0])
     for k in range(values.size):
@@ -115,7 +122,7 @@ def _extremes(columns, target, functions, best, multipliers, distance):
 
 @njit(inner=True)
 def _square(columns, target, x):
-    """Return ‖A x − b‖², with the columns of A as rows of `columns`, and b = `target`."""
+    """Return ‖A x − b‖², where `columns` is Aᵀ and `target` is b."""
     residual = target.copy()
     for j in range(x.size):
         if x[j] > 0:
@@ -127,8 +134,9 @@ def _square(columns, target, x):
 def _minimise(columns, target, tilt, x):
     """Replace x ≥ 0, in place, by the minimiser of ½ ‖A x − b‖² − tilt·x.
 
-    columns : columns of A as rows, of norm 1. Columns whose x is above 0 at first are linearly independent
-    target, tilt : b, and λ r
+    columns : Aᵀ. Columns of A have the norm 1; the columns with x > 0 at the start must be linearly independent
+    target : b
+    tilt : λ r
     """
     count, rounding = x.size, _ROUNDING * np.sqrt(target @ target)
     passive = x > 0
@@ -166,9 +174,9 @@ def _minimise(columns, target, tilt, x):
 
 @njit(inner=True)
 def _unbounded(columns, target, tilt, members):
-    """Return the minimiser of ½ ‖A x − b‖² − tilt·x if only the unknowns `members` are not 0, and may have any sign.
+    """Minimise ½ ‖A x − b‖² − tilt·x if only the unknowns `members` are not 0, and if they may have any sign.
 
-    It is found by the modified Gram-Schmidt method, A = Q R.
+    Return the values of these unknowns. The modified Gram-Schmidt method gives A = Q R for their columns.
     """
     count = members.size
     basis, triangle = np.empty((count, target.size)), np.zeros((count, count))
@@ -182,7 +190,7 @@ def _unbounded(columns, target, tilt, members):
         basis[j] /= triangle[j, j]
         solution[j] = basis[j] @ residual
         residual -= solution[j] * basis[j]
-    # Solve R x = Qᵀ b + R⁻ᵀ tilt: `solution` is Qᵀ b, and `forward` becomes R⁻ᵀ tilt.
+    # Solve R x = Qᵀ b + R⁻ᵀ tilt. Here `solution` is Qᵀ b, and `forward` becomes R⁻ᵀ tilt.
     forward = np.empty(count)
     for j in range(count):
         value = tilt[members[j]]

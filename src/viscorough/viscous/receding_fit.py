@@ -1,10 +1,10 @@
 """Fit of a medium to the measured depth of a contact that recedes, under a known force that decreases.
 
-The medium has the creep compliance J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)). Its unknown amounts J₀, φ and J_j are ≥ 0;
-the retardation times θ_j are given by a grid. The depth follows from the motion of the row of springs of the loading
-curve in this medium (viscous.unilateral). It is not linear in the amounts. Therefore the amounts are found by the
-Gauss-Newton method, with difference quotients of the exact motion as derivatives. The method starts from the fit to the
-rows of the record before the force decreases.
+The medium has the creep compliance J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with retardation times θ_j on a grid and
+unknown amounts J₀, φ, J_j ≥ 0. The loading curve is replaced by a row of springs. The depth follows from the motion of
+this row in the medium (viscous.unilateral), and is not linear in the amounts. Therefore the Gauss-Newton method finds
+the amounts; difference quotients of the exact motion are its derivatives. The first guess is a fit to the rows of the
+record before the force decreases.
 """
 
 import numpy as np
@@ -36,18 +36,19 @@ from viscorough.viscous.record_fit import (
 from viscorough.viscous.springs import merged, row_of_springs
 from viscorough.viscous.unilateral import law_of, move_row
 
-# Largest number of Gauss-Newton iterations, and of trials with a halved step if the sum of squares does not decrease.
+# Largest number of Gauss-Newton iterations, and of trial steps in an iteration. If a step increases the sum of squares,
+# the next trial step has half the length.
 _ITERATIONS, _HALVINGS = 12, 6
-# The iterations end if the sum of squares decreases by less than this share.
+# The Gauss-Newton iterations end when the sum of squares decreases by less than this share.
 _STALLED = 1e-3
-# Number of steps of the refined grid of retardation times in a step of the first grid.
+# The refined grid of retardation times has this number of steps in one step of the first grid.
 _FINER = 4
-# Largest number of springs in the row.
+# Largest number of springs in the row. Neighbouring springs are merged.
 _SPRINGS = 1000
-# Smallest J₀ and φ t of the medium whose motion is computed, as shares of the largest J. Both must be above 0, because
-# the relaxation spectrum of the medium is needed.
+# Smallest J₀, and smallest φ multiplied by the duration of the load, as shares of J at the end of the load. Both must
+# be above 0, because the motion needs the relaxation spectrum of the medium.
 _LEAST_SPRING, _LEAST_DASHPOT = 1e-6, 1e-7
-# Step of the difference quotients: change of J at the end of the record, as a share of the largest J.
+# A difference quotient changes one amount so that J at the end of the load changes by this share.
 _STEP = 1e-4
 
 
@@ -56,10 +57,10 @@ def fit_receding_depth(
 ) -> RecordFit:
     """Fit a medium to the measured depth of a contact that recedes.
 
-    creep_fit.fit_growing_depth explains the arguments.
+    The arguments are the same as in creep_fit.fit_growing_depth.
 
-    Raises ValueError unless at least five rows precede the first decrease of the force, and if the contact grows beyond
-    the last level of the curve in the medium that these rows show.
+    Raises ValueError if fewer than five rows of the record precede the first decrease of the force. Also raises it if
+    the contact would grow beyond the end of the loading curve in the medium that fits these rows.
     """
     lags = load.time[place] - load.time[0]
     falls = np.flatnonzero(np.diff(load.values) < 0)
@@ -103,11 +104,12 @@ def fit_receding_depth(
 
 
 def _refined(times: Array, amounts: Array) -> tuple[Array, Array]:
-    """Return a finer grid of retardation times around the times with positive amounts, and amounts for it.
+    """Refine the grid of retardation times around the times with positive amounts.
 
-    The returned amounts are first guesses for a new fit.
+    Return the refined grid, and first guesses of the amounts for a new fit.
 
-    times, amounts : grid of retardation times θ_j, and the fitted J₀, φ and J_j
+    times : first grid of retardation times θ_j
+    amounts : fitted J₀, φ and J_j
     """
     found = amounts[2:] > 0
     finer = finer_times(times[found], times, _FINER)
@@ -119,8 +121,9 @@ def _refined(times: Array, amounts: Array) -> tuple[Array, Array]:
 def _prony(amounts: Array, times: Array, last: float) -> Prony:
     """Return the Prony series with given J₀, φ and J_j. Raises ValueError if J₀ is 0, or if φ and all J_j are 0.
 
-    amounts, times : J₀, φ and J_j, and retardation times θ_j
-    last : J at the end of the record; a J₀ of a tiny share of this counts as 0
+    amounts : J₀, φ and J_j
+    times : retardation times θ_j
+    last : J at the end of the record; J₀ counts as 0 if it is a negligible share of this value
     """
     if amounts[0] <= ROUNDING * last or not amounts[1:].any():
         raise no_prony_series()
@@ -128,11 +131,12 @@ def _prony(amounts: Array, times: Array, last: float) -> Prony:
 
 
 class _RecedingRecord:
-    """A record of a receding contact, and the least-squares fit of the amounts J₀, φ and J_j to its depth.
+    """Record of a receding contact, with the least-squares fit of the amounts J₀, φ and J_j to its depth.
 
     load, place, depth : see creep_fit.fit_growing_depth
     times : retardation times θ_j, shape (elements,)
-    signed : change of the measured depth by a unit of offset and of drift, if they are fitted, shape (rows, 0 to 2)
+    signed : derivatives of the measured depth with respect to offset and drift, one column for each that is fitted,
+        shape (rows, 0 to 2)
     """
 
     def __init__(
@@ -143,14 +147,14 @@ class _RecedingRecord:
         self.gap, self.stiffness = merged(row.gap, row.stiffness, curve.depth[-1], _SPRINGS)
         self.limit = row.limit
         self.duration = load.time[-1] - load.time[0]
-        # J at the end of the load, due to a unit of each amount.
+        # Contribution of a unit of each amount to J at the end of the load.
         self.ends = np.append([1.0, self.duration], -np.expm1(-self.duration / times))
 
     def fit(self, amounts: Array, shift: Array) -> tuple[Array, Array, Array, Array]:
         """Fit amounts, offset and drift to the depth by the Gauss-Newton method.
 
-        Return the amounts J₀, φ and J_j, the offset and the drift, the fitted depth at the rows (without offset and
-        drift), and the derivatives of the depth with respect to the amounts.
+        Return the amounts J₀, φ and J_j; the offset and the drift; the fitted depth at the rows of the record (without
+        offset and drift); and its derivatives with respect to the amounts.
 
         amounts, shift : first guesses of the amounts, and of offset and drift
         """
@@ -163,9 +167,10 @@ class _RecedingRecord:
         count = amounts.size
 
         def evaluate(unknowns: Array) -> tuple[float, Array]:
-            """Return the sum of squared residuals, and the depth at the rows.
+            """Return the sum of squared residuals, and the depth at the rows of the record.
 
-            If the contact grows beyond the curve, the sum is nan, which counts as worse than any number.
+            If the contact grows beyond the end of the loading curve, the sum is nan. A step with this result is not
+            accepted.
             """
             predicted = self._predicted(unknowns[:count])
             return float(((self.depth - predicted - self.signed @ unknowns[count:]) ** 2).sum()), predicted
@@ -187,7 +192,10 @@ class _RecedingRecord:
         return unknowns[:count], unknowns[count:], predicted, columns
 
     def _predicted(self, amounts: Array) -> Array:
-        """Return the depth at the rows in the medium with these amounts; nan after the contact has left the curve."""
+        """Return the depth at the rows of the record in a medium with these amounts.
+
+        After the contact has grown beyond the end of the loading curve, the depth is nan.
+        """
         largest = amounts @ self.ends
         kept = amounts[2:] > 0
         retardation = RetardationSpectrum(
@@ -203,9 +211,9 @@ class _RecedingRecord:
         return moved.depth[self.place]
 
     def _derivatives(self, amounts: Array, predicted: Array) -> Array:
-        """Return the derivatives of the depth at the rows with respect to the amounts, shape (rows, amounts).
+        """Return the derivatives of the depth with respect to the amounts, shape (rows, amounts).
 
-        predicted : depth at the rows for these amounts
+        predicted : depth at the rows of the record for these amounts
         """
         columns = np.empty((predicted.size, amounts.size))
         for k, step in enumerate(_STEP * (amounts @ self.ends) / self.ends):
@@ -220,8 +228,8 @@ def _springpot(
 ) -> tuple[Springpot, Array]:
     """Return the springpot that fits the depth best, and the residuals of the depth.
 
-    time, compliance : times, and J of a fitted medium of springs and dashpots; a power law through this J is the first
-        guess
+    time, compliance : times, and creep compliance J at these times of a fitted medium of springs and dashpots. The
+        first guess of the springpot is a power law that fits this J
     """
     from scipy.optimize import least_squares  # this import takes long
     from scipy.special import gamma

@@ -1,11 +1,12 @@
-"""Shared parts of the fits of media to records: result type, scatter, errors of the zero of the depth, and times.
+"""Common parts of the fits of media to records: result type, scatter, offset and drift, and grids of times.
 
-A record is a measured depth or force at a series of times; each time is a row. The measured depth may have a wrong
-zero, and the zero may drift. With an offset a and a drift b, the measured depth is
+A record consists of rows; each row is a time with a measured depth or force. The measured depth may have a wrong zero,
+and the zero may drift. With an offset a and a drift b, the measured depth is
 
     u_measured = u + a + b (t − t₀),
 
-where u is the true depth and t₀ the start of the load. a and b are unknowns of any sign in a least-squares fit.
+where u is the true depth and t₀ the start of the load. a and b may have any sign, and are fitted together with the
+medium.
 """
 
 from collections.abc import Callable
@@ -18,22 +19,22 @@ from viscorough.basics.argument_names import spelled
 from viscorough.basics.types import Array
 from viscorough.media.kinds import CreepTable, Prony, Springpot
 
-# A record whose scatter, relative to its largest value, is below this number counts as exact.
+# A record counts as exact if its scatter, divided by its largest value, is below this number.
 ROUNDING = 1e-9
-# Relative accuracy of fits that move a row of merged springs and use a grid of retardation or relaxation times. A
-# record with a smaller scatter counts as exact in these fits.
+# Relative accuracy of fits that merge springs of the row and use a grid of retardation or relaxation times. For these
+# fits, a record with a smaller scatter counts as exact.
 RESOLUTION = 5e-5
-# Degrees of freedom that each positive unknown of a non-negative least-squares fit uses up. The mean of the sum of
-# squares lies between the values for 1 and for 2 (Meyer and Woodroofe 2000), and 1.5 keeps the intervals from being too
-# narrow. If fewer degrees of freedom than _LEAST_FREEDOM are left, the scatter is not determined.
+# In a non-negative least-squares fit, each positive unknown reduces the number of degrees of freedom by _PER_AMOUNT.
+# The expected sum of squares corresponds to a number between 1 and 2 (Meyer and Woodroofe 2000). With 1.5 the
+# confidence intervals are not too narrow. If fewer than _LEAST_FREEDOM degrees of freedom are left, the scatter is not
+# determined.
 _PER_AMOUNT, _LEAST_FREEDOM = 1.5, 2
-# Confidence level of the intervals.
+# Confidence level of all intervals.
 _LEVEL = 0.95
-# Number of degrees of freedom that is used instead of infinity if the scatter is known.
+# If the scatter is known, the number of degrees of freedom is infinite. This number is used instead of infinity.
 _MANY = 1e9
-# A fit uses a grid of retardation or relaxation times. The grid begins at the first time of the record divided by
-# BEYOND, and ends at the last time multiplied by BEYOND. It is then refined once around the times with positive
-# amounts.
+# The grid of retardation or relaxation times of a fit begins at the first time of the record divided by BEYOND, and
+# ends at the last time multiplied by BEYOND. After a first fit, it is refined around the times with positive amounts.
 BEYOND, _TIMES_PER_DECADE = 3.0, 10
 
 
@@ -41,14 +42,15 @@ class RecordFit(NamedTuple):
     """Result of fitting a medium to a record.
 
     medium : medium of the requested kind
-    time, compliance : times, and creep compliance J at these times, shape (times,)
-    modulus : relaxation modulus ψ at the times of `time` if the force was measured, else None
-    low, high : ends of the interval at each time, of J if the depth was measured, of ψ if the force was measured; nan
-        if the scatter is not known
+    time : times of the following arrays, shape (times,)
+    compliance : creep compliance J at these times
+    modulus : relaxation modulus ψ at these times if the force was measured, else None
+    low, high : ends of the confidence intervals at these times: of J if the depth was measured, of ψ if the force was
+        measured; nan if the scatter is not known
     scatter, freedom : standard deviation of the record, and its number of degrees of freedom; nan if not known
     misfit : root mean square of the residuals of `medium`
-    shift, shift_low, shift_high : values, and ends of the intervals, of offset and drift. Each array contains only the
-        quantities that were fitted, offset first
+    shift : fitted offset and drift; the array contains only the quantities that were fitted
+    shift_low, shift_high : ends of the confidence intervals of the quantities in `shift`
     """
 
     medium: CreepTable | Prony | Springpot
@@ -66,19 +68,19 @@ class RecordFit(NamedTuple):
 
 
 class Shift(NamedTuple):
-    """Which errors of the zero of the depth are fitted.
+    """Choice of the errors of the measured depth that are fitted.
 
-    offset : whether a constant is added to the depth
-    drift : whether a term that is linear in time is added to the depth
+    offset : whether a constant error is fitted
+    drift : whether an error that is linear in time is fitted
     """
 
     offset: bool
     drift: bool
 
     def columns(self, lags: Array) -> Array:
-        """Return the change of the measured depth by a unit of offset and of drift, if they are fitted.
+        """Return the derivatives of the measured depth with respect to offset and drift.
 
-        The shape is (times, 0 to 2), with a column for each fitted quantity.
+        The array has one column for each of the two that is fitted, shape (times, 0 to 2).
 
         lags : times after the start of the load, shape (times,)
         """
@@ -87,7 +89,7 @@ class Shift(NamedTuple):
 
 
 def no_prony_series() -> ValueError:
-    """Return the error to raise if no Prony series describes a record."""
+    """Return the ValueError for a record that no Prony series describes."""
     name = spelled("--fit prony", "kind 'prony'")
     text = "the record shows no compliance at once, or no creep, which a Prony series needs"
     return ValueError(f"{name}: {text}; allowed: table or springpot")
@@ -96,12 +98,12 @@ def no_prony_series() -> ValueError:
 def scatter_of(residual: Array, amounts: Array, others: int, exact: float) -> tuple[float, float]:
     """Return the standard deviation of a record about a fit, and its number of degrees of freedom.
 
-    Both are nan if the record does not determine them.
+    Both results are nan if the record does not determine them.
 
-    residual : measured values less fitted values, shape (rows,)
+    residual : measured values minus fitted values, shape (rows,)
     amounts : values of the non-negative unknowns of the fit
-    others : number of unknowns of any sign
-    exact : if the standard deviation is at most this, the record counts as exact, and both results are nan
+    others : number of unknowns that may have any sign
+    exact : if the standard deviation is not above this value, the record counts as exact, and both results are nan
     """
     freedom = residual.size - _PER_AMOUNT * np.count_nonzero(amounts) - others
     if freedom < _LEAST_FREEDOM:
@@ -113,11 +115,11 @@ def scatter_of(residual: Array, amounts: Array, others: int, exact: float) -> tu
 def distance_of(scatter: float, freedom: float, unknowns: int = 1) -> float:
     """Return the distance that determines the width of confidence intervals.
 
-    The interval of a quantity contains a value if the sum of squared residuals of the best fit with this value exceeds
-    the smallest sum of all fits by at most distance².
+    To test whether an interval contains a value, fix the quantity at this value and fit all other unknowns. The
+    interval contains the value if the sum of squared residuals exceeds its minimum by at most distance².
 
     scatter, freedom : standard deviation of the record, and its number of degrees of freedom
-    unknowns : number of unknowns whose joint confidence region gives the interval
+    unknowns : number of unknowns of the joint confidence region from which the interval follows; 1 for a single unknown
     """
     return scatter * np.sqrt(unknowns * fdtri(unknowns, min(freedom, _MANY), _LEVEL))
 
@@ -127,12 +129,13 @@ def damped_step(
 ) -> tuple[Array, float, Any] | None:
     """Take a step of the Gauss-Newton method from `last` towards `aim`, and halve it until the fit is not worse.
 
-    Return the new unknowns, their sum of squared residuals, and their state; or None if no step is found.
+    Return the new unknowns, their sum of squared residuals, and their further results. Return None if all trial steps
+    make the fit worse.
 
-    evaluate : function of the unknowns that returns the sum of squared residuals and a state
+    evaluate : function of the unknowns that returns the sum of squared residuals and further results
     last, aim : unknowns before the step, and after a full step
     squares : sum of squared residuals at `last`
-    halvings : largest number of steps that are tried
+    halvings : largest number of trial steps, including the full step
     """
     for _ in range(halvings):
         new, state = evaluate(aim)
@@ -143,19 +146,20 @@ def damped_step(
 
 
 def limit_early_times(low: Array, high: Array, time: Array, first: float) -> None:
-    """Widen the intervals of J at times before the first row of a record that shows J, in place.
+    """Widen, in place, the intervals of J at times before the first row of the record that depends on J.
 
-    Before that row the record shows only that J does not decrease. So the lower end becomes 0, and the upper end
-    becomes its value at the time `first` of the row.
+    At these times the record shows only that J does not decrease. So the lower ends become 0, and the upper ends become
+    the upper end at the time of this row.
 
-    low, high : ends of the intervals at the times `time`
+    low, high : ends of the intervals of J at the times `time`
+    first : time of the first row that depends on J
     """
     before = np.flatnonzero(time < first)
     low[before], high[before] = 0.0, high[before.size]
 
 
 def spread_times(first: float, last: float) -> Array:
-    """Return retardation or relaxation times at equal ratios, from first/BEYOND to last·BEYOND.
+    """Return a grid of retardation or relaxation times with equal ratios, from first/BEYOND to last·BEYOND.
 
     first, last : first and last time of a record
     """
@@ -164,13 +168,13 @@ def spread_times(first: float, last: float) -> Array:
 
 
 def finer_times(found: Array, times: Array, finer: int = 10) -> Array:
-    """Return a finer grid of retardation or relaxation times around some times of a grid.
+    """Return a finer grid in the neighbourhood of some retardation or relaxation times of a grid.
 
-    found : times of the grid around which it is refined, up to the neighbouring times
-    times : the grid, with times at equal ratios
-    finer : number of steps of the finer grid in a step of the grid
+    found : times of the grid; the finer grid extends to their neighbours on both sides
+    times : the grid, whose times have equal ratios
+    finer : number of steps of the finer grid in one step of the grid
     """
     step = np.log(times[-1] / times[-2])
     near = np.arange(-finer, finer + 1) / finer * step
-    # Grids around neighbouring times have points in common, which differ by rounding.
+    # Neighbouring times give the same points except for rounding. Rounding the logarithms makes these points equal.
     return np.exp(np.unique(np.round(np.add.outer(np.log(found), near), 9)))

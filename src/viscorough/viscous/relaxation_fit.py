@@ -1,25 +1,26 @@
 """Fit of a medium to the measured force on an indenter whose depth is known.
 
 The loading curve is replaced by an equivalent row of springs (viscous.springs). Let spring i have the stiffness k_i and
-touch at time t_i, and let the first n springs be in contact at time t. In a medium with the relaxation modulus
-ψ(t) = G∞ + Σ G_j exp(−t/τ_j) the force is
+touch at time t_i, and let the first n springs be in contact at time t. In a medium with the relaxation modulus ψ(t) =
+G∞ + Σ G_j exp(−t/τ_j) the force is
 
     F(t) = Σ_{i<n} k_i ∫_{t_i}^t ψ(t − s) du(s).
 
-The relaxation times τ_j are given by a grid. The unknown amounts G∞, G_j ≥ 0 are found by least squares:
+The relaxation times τ_j are given by a grid. The unknown moduli G∞, G_j ≥ 0 (amounts) are found by least squares:
 
 - If the contact only grows, n does not depend on the medium, and the force is linear in the amounts.
-- Otherwise n and the force follow from the exact motion of the row (viscous.unilateral), and the amounts from the
-  Gauss-Newton method. Under a prescribed depth, the motion of a spring does not depend on the other springs, and a
-  spring that is released has no force at that time. So the change of n with the amounts changes the force to second
-  order only, and the formula with constant n gives the derivatives of the force.
+- Otherwise n and the force follow from the exact motion of the row (viscous.unilateral), and the Gauss-Newton method
+  finds the amounts. The formula with constant n gives the derivatives of the force. This is correct because a spring
+  has no force when it is released: the change of n with the amounts changes the force to second order only. (Under a
+  prescribed depth, the motion of a spring does not depend on the other springs.)
 
-The formula is evaluated as follows. Let R and Z be the responses of a single branch of modulus 1 to the elastic force
-F_el(u) and to the depth u, K_n = Σ_{i<n} k_i, and t_n the time when the last spring in contact touched. Then
+To evaluate the formula for one branch of modulus 1 and relaxation time τ, let R(t) = ∫ exp(−(t − s)/τ) dF_el(s) and
+Z(t) = ∫ exp(−(t − s)/τ) du(s), where F_el is the elastic force at the depth u. With K_n = Σ_{i<n} k_i, and with the
+time t_n when the last spring in contact touched,
 
     Σ_{i<n} k_i ∫_{t_i}^t exp(−(t − s)/τ) du = exp(−(t − t_n)/τ) R(t_n) + K_n (Z(t) − exp(−(t − t_n)/τ) Z(t_n)).
 
-A dashpot parallel to the medium is fitted as a branch that relaxes long before the first row.
+A dashpot parallel to the medium is fitted as a branch that relaxes long before the first row of the record.
 """
 
 from typing import NamedTuple
@@ -50,33 +51,37 @@ from viscorough.viscous.record_fit import (
 from viscorough.viscous.springs import merged, row_of_springs
 from viscorough.viscous.unilateral import law_of, move_row
 
-# Largest number of Gauss-Newton iterations. They end if the sum of squares decreases by less than the share _STALLED,
-# or if the root mean square of the residuals is below the share _EXACT of the largest force.
+# Largest number of Gauss-Newton iterations. The iterations end earlier if the sum of squares decreases by less than the
+# share _STALLED, or if the root mean square of the residuals is below the share _EXACT of the largest force.
 _ITERATIONS, _STALLED, _EXACT = 8, 1e-2, 1e-10
-# Largest number of springs in the row: without, and with a fit of the offset. With 5000 springs the relative error of
+# Largest number of springs in the row, without and with a fit of the offset. With 5000 springs the relative error of
 # the force is 1e-5, and the relative error of its derivative is 1e-3.
 _SPRINGS, _FEWER_SPRINGS = 5000, 2000
-# Relaxation times of the branches that act as a dashpot, as shares of the time of the first row.
+# Relaxation times of the branches that represent a parallel dashpot, divided by the time of the first row of the
+# record.
 _DASHPOTS = (1e-4, 1e-3, 1e-2, 1e-1)
-# Number of times at which the results J and ψ are given, and ratio of the time of the first row to the first of these
-# times.
+# The resulting J and ψ are given at _KNOTS times. The first of them is the time of the first row of the record divided
+# by _EARLIER.
 _KNOTS, _EARLIER = 120, 64
-# Step of the difference quotients with respect to the drift: change of the depth, as a share of the largest depth. It
-# is longer than the distance between the gaps of two springs, because the force of a dashpot jumps when a spring
-# touches.
+# Step of the drift in difference quotients: the largest change of the depth that it causes, divided by the largest
+# depth. This change is larger than the distance between the gaps of neighbouring springs, because the force of a
+# dashpot jumps when a spring touches.
 _DRIFT_STEP = 2e-3
-# Offsets of the first fits, as shares of the largest depth.
+# The first fits are made at these offsets of the depth, given as shares of the largest depth.
 _OFFSETS = np.linspace(-0.1, 0.1, 21)
-# The offsets of the fits are then replaced by _FINER_OFFSETS offsets that just cover the confidence interval of the
-# offset. This is repeated at most _REPLACEMENTS times, until at least _RESOLVED offsets lie within the interval.
+# New fits are then made at _FINER_OFFSETS offsets that just cover the confidence interval of the offset. This is
+# repeated until at least _RESOLVED of the offsets lie within the interval, but at most _REPLACEMENTS times are the
+# offsets replaced.
 _FINER_OFFSETS, _REPLACEMENTS, _RESOLVED = 15, 4, 5
-# If the offset is fitted: number of steps of the refined grid of relaxation times in a step of the first grid.
+# If the offset is fitted, the refined grid of relaxation times has this number of steps in one step of the first grid.
 _FINER = 4
-# Number of bisections that find each end of the confidence interval of the offset.
+# Number of bisections to find each end of the confidence interval of the offset.
 _BISECTIONS = 5
-# The intervals of ψ are computed at this many offsets within the interval of the offset, or at all if there are fewer.
+# The confidence intervals of ψ are computed from the fits at up to this number of offsets within the interval of the
+# offset.
 _INSIDE = 12
-# Largest number of trials with a halved step if the sum of squares does not decrease.
+# Largest number of trial steps in a Gauss-Newton iteration. If a step increases the sum of squares, the next trial step
+# has half the length.
 _HALVINGS = 8
 
 
@@ -87,11 +92,12 @@ def fit_force(
 
     curve : loading curve of the indenter
     load : depth as a function of time, with a sample at the time of each row of the record
-    place : index of the sample of the load for each row, shape (rows,)
-    force : measured force in consistent units, shape (rows,)
+    place : for each row of the record, the index of its sample of the load, shape (rows,)
+    force : measured force, in units of modulus × length², shape (rows,)
     kind : kind of medium: "table", "prony" or "springpot"
-    scatter : standard deviation of the force; None to find it from the record; nan for a fit without intervals
-    shift : choice of the errors of the zero of the depth that are fitted
+    scatter : standard deviation of the measured force; None to estimate it from the record; nan for a fit without
+        confidence intervals
+    shift : whether an offset and a drift of the depth are fitted, too
 
     Raises ValueError if the record shows no force or no relaxation, and if a fitted offset is too large.
     """
@@ -120,7 +126,8 @@ def fit_force(
     unknowns = _unknowns_of_region(fit) if shift.offset else 1
     intervals = _intervals(record, fits, time, distance_of(np.hypot(scatter, resolution), freedom, unknowns))
     low, high, shift_low, shift_high = intervals
-    # Before the first row, ψ may be a high pulse: the record shows only its area. So ψ has no upper limit there.
+    # Before the first row, ψ may be a high pulse: the record shows only its integral over time. So ψ has no upper limit
+    # there.
     high[time < first * (1 - 1e-12)] += np.inf
     low[low < resolution / record.elastic_force] = 0.0
     prony, residual = _prony(fit), force - fit.force
@@ -138,21 +145,21 @@ def fit_force(
 
 
 def _with_finer_times(times: Array, found: Array) -> Array:
-    """Return a grid of relaxation times that is refined around the times `found`.
+    """Refine a grid of relaxation times around the times `found`, and return the whole refined grid.
 
-    The other times are kept, because fits at other offsets may need them.
+    Times far from `found` are kept, because fits at other offsets may need them.
 
-    times : grid of times at equal ratios
+    times : grid whose times have equal ratios
     """
     apart = np.abs(np.log(np.divide.outer(times, found))).min(axis=1) > 1.5 * np.log(times[1] / times[0])
     return np.sort(np.append(times[apart], finer_times(found, times, _FINER)))
 
 
 def _scatter(record: "_ForceRecord", fit: "_Fit", scatter: float | None, exact: float) -> tuple[float, float]:
-    """Return the standard deviation of the force, and its number of degrees of freedom.
+    """Return the standard deviation of the measured force, and its number of degrees of freedom.
 
-    scatter : standard deviation if it is known; None to find it from the residuals of the fit
-    exact : if the standard deviation that is found is at most this, the record counts as exact
+    scatter : known standard deviation; None to estimate it from the residuals of the fit
+    exact : if an estimated standard deviation is not above this value, the record counts as exact
     """
     if scatter is not None:
         return scatter, np.inf
@@ -162,10 +169,10 @@ def _scatter(record: "_ForceRecord", fit: "_Fit", scatter: float | None, exact: 
 def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None, resolution: float) -> list["_Fit"]:
     """Return fits at increasing offsets, which include the best offset and enclose its confidence interval.
 
-    The force is not linear in the offset. Besides, branches that relax before the first rows can replace a part of the
-    offset within the noise of the record. Therefore a separate fit is made at each of a series of offsets. If the
-    medium has a dashpot, an early row determines the offset so well that only a fine grid of offsets shows the
-    interval.
+    The force is not linear in the offset. Besides, branches that relax before the first rows have almost the same
+    effect as a small offset, and the noise hides the difference. Therefore a separate fit is made at each of several
+    offsets. If the medium has a dashpot, an early row determines the offset so accurately that only closely spaced
+    offsets show the interval.
 
     times : grid of relaxation times
     scatter, resolution : standard deviation of the force (None if not known), and error of the computed force
@@ -199,8 +206,9 @@ def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None
 
 
 def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, resolution: float) -> Integers:
-    """Return the indices of the fits, each made at one offset, whose offset lies within its confidence interval.
+    """Return the indices of the fits whose offsets lie within the confidence interval of the offset.
 
+    fits : fits, each at its own prescribed offset
     scatter, resolution : standard deviation of the force (None if not known), and error of the computed force
     """
     squares = np.array([record.squares(fit) for fit in fits])
@@ -212,11 +220,11 @@ def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, r
 
 
 def _unknowns_of_region(fit: "_Fit") -> int:
-    """Return the number of unknowns whose joint confidence region gives the intervals if the offset is fitted.
+    """Return the number of unknowns of the joint confidence region that gives the intervals if the offset is fitted.
 
-    The drift, and branches that relax before the first rows, can replace a part of the offset. The exact values then
-    lie at the edge of the values that fit, where the confidence region of a single unknown is too narrow. So all
-    unknowns count: the offset, the drift, and the amounts above 0.
+    The drift, and branches that relax before the first rows, can replace a part of the offset. The true values may then
+    lie at the edge of all values that fit the record, and the confidence region of a single unknown would be too
+    narrow. So all unknowns count: the offset, the drift, and the amounts above 0.
     """
     return 1 + fit.drift.size + int(np.count_nonzero(fit.amounts))
 
@@ -224,7 +232,9 @@ def _unknowns_of_region(fit: "_Fit") -> int:
 def _intervals(
     record: "_ForceRecord", fits: list["_Fit"], time: Array, distance: float
 ) -> tuple[Array, Array, Array, Array]:
-    """Return the lower and the upper ends of the intervals of ψ, and the lower and the upper ends of offset and drift.
+    """Return the ends of the confidence intervals of ψ, and of offset and drift.
+
+    The four arrays are the lower and the upper ends for ψ, and the lower and the upper ends for offset and drift.
 
     fits : fits at one or more offsets, in increasing order
     time : times of the intervals of ψ, shape (times,)
@@ -244,7 +254,8 @@ def _intervals(
         target = record.force - fit.force + fit.columns @ fit.amounts + fit.signed @ fit.drift
         left = np.sqrt(distance**2 - (record.squares(fit) - squares.min()))
         low, high = extremes(fit.columns, target, values, left, fit.signed)
-        # The values of the fit itself belong to the intervals. At an end of the interval of the offset, no others do.
+        # Include the values of the fit itself. At an end of the interval of the offset, they are the only values that
+        # fit.
         lows.append(np.minimum(low, np.append(values @ fit.amounts, fit.drift)))
         highs.append(np.maximum(high, np.append(values @ fit.amounts, fit.drift)))
     low, high = np.min(lows, axis=0), np.max(highs, axis=0)
@@ -257,11 +268,12 @@ def _intervals(
 
 
 def _crossing(offsets: Array, excess: Array) -> float:
-    """Return the offset after which the excess is positive at all further offsets in the arrays.
+    """Return the end of the confidence interval of the offset: after it, the excess is positive.
 
     The excess is interpolated linearly between two offsets.
 
-    excess : sum of squared residuals at each offset, less the largest sum within the confidence interval
+    offsets : increasing for the upper end of the interval, decreasing for the lower end
+    excess : sum of squared residuals at each offset, minus the largest sum that the confidence interval allows
     """
     k = int(np.flatnonzero(excess <= 0)[-1])
     if k == offsets.size - 1:
@@ -273,7 +285,7 @@ class _Path(NamedTuple):
     """Depth as a function of time, with a sample at the first touch of every spring.
 
     time, depth : times, and depths at these times, shape (samples,)
-    touches : index of the sample of the first touch, for every spring that ever touches, shape (springs that touch,)
+    touches : index of the sample at which each spring first touches, shape (springs that ever touch,)
     place : index of the sample of each row of the record, shape (rows,)
     """
 
@@ -284,15 +296,15 @@ class _Path(NamedTuple):
 
 
 class _Fit(NamedTuple):
-    """Unknowns of a fit, and the force at the rows of the record with its derivatives.
+    """Result of a fit: the unknowns, the force that follows from them, and the derivatives of this force.
 
     times : grid of relaxation times τ_j, shape (branches,)
     amounts : G∞ and G_j, shape (1 + branches,)
-    offset : offset of the depth, which is given in a fit
+    offset : offset of the depth, which is prescribed
     drift : drift of the depth, shape (1,); or shape (0,) if the drift is not fitted
-    force : force at the rows, shape (rows,)
+    force : force at the rows of the record, shape (rows,)
     columns : derivatives of the force with respect to the amounts, shape (rows, 1 + branches)
-    signed : derivative of the force with respect to the drift, shape (rows, 1); or (rows, 0) if it is not fitted
+    signed : derivative of the force with respect to the drift, shape (rows, 1); or (rows, 0) if the drift is not fitted
     """
 
     times: Array
@@ -305,7 +317,7 @@ class _Fit(NamedTuple):
 
 
 class _ForceRecord:
-    """A record of a measured force, and the least-squares fits of the amounts G∞ and G_j to this force."""
+    """Record of a measured force, with the least-squares fit of the moduli G∞ and G_j to this force."""
 
     def __init__(self, curve: LoadingCurve, load: Load, place: Integers, force: Array, shift: Shift) -> None:
         self.curve, self.load, self.place, self.force = curve, load, place, force
@@ -315,14 +327,14 @@ class _ForceRecord:
         self.gap, spring = merged(
             row.gap, row.stiffness, load.values.max(), _FEWER_SPRINGS if shift.offset else _SPRINGS
         )
-        # Sums of stiffness, and of stiffness × gap, of the first n springs, n = 0, 1, …
+        # Sums over the first n springs, n = 0, 1, …: of stiffness, and of stiffness × gap.
         self.stiffness = np.append(0.0, np.cumsum(spring))
         self.moment = np.append(0.0, np.cumsum(spring * self.gap))
         self.elastic_force = load.values.max() * self.stiffness[-1] - self.moment[-1]
         self.grows = bool((np.diff(load.values) >= 0).all())
 
     def fit(self, times: Array, offset: float) -> _Fit:
-        """Fit the amounts of a spring and of branches, and the drift if it is fitted, at a given offset.
+        """Fit the moduli of a spring and of branches, and the drift if the user wants it, at a given offset.
 
         times : relaxation times of the branches
         """
@@ -358,7 +370,7 @@ class _ForceRecord:
         return float(((self.force - fit.force) ** 2).sum())
 
     def _linearised(self, times: Array, amounts: Array, offset: float, drift: Array) -> _Fit:
-        """Return a _Fit: the force that these unknowns give at each row of the record, and its derivatives by them."""
+        """Return a _Fit with the force that these unknowns give at the rows of the record, and with its derivatives."""
         path, force, in_contact = self._force(times, amounts, offset, drift)
         columns = self._columns(path, times, in_contact)
         signed = np.empty((force.size, drift.size))
@@ -369,9 +381,10 @@ class _ForceRecord:
         return _Fit(times, amounts, offset, drift, force, columns, signed)
 
     def _force(self, times: Array, amounts: Array, offset: float, drift: Array) -> tuple[_Path, Array, Integers]:
-        """Return the path of the depth, the force at the rows, and the number of springs in contact at the rows.
+        """Return the path of the depth, and the force and the number of springs in contact at each row of the record.
 
-        times, amounts : relaxation times τ_j of the branches, and G∞ and G_j
+        times : relaxation times τ_j of the branches
+        amounts : G∞ and G_j
         """
         path = self._path(offset, drift)
         branches = amounts[1:] > 0
@@ -386,9 +399,9 @@ class _ForceRecord:
         return path, moved.force[self.place], moved.in_contact[self.place]
 
     def _path(self, offset: float, drift: Array) -> _Path:
-        """Return the depth as a function of time, corrected by offset and drift, with samples at touches of springs."""
+        """Return the depth, minus offset and drift, as a function of time, with samples where springs first touch."""
         depth = self.load.values - offset - self.drifts @ drift
-        # Add a sample out of contact before the first sample, so that a load that starts at a depth starts with a step.
+        # Add a sample out of contact before the first sample. So a load that starts at a depth starts with a step.
         time, depth = np.append(self.load.time[0], self.load.time), np.append(min(depth[0], 0.0), depth)
         gap = self.gap
         after = np.searchsorted(np.maximum.accumulate(depth), gap, side="right")
@@ -405,11 +418,12 @@ class _ForceRecord:
         )
 
     def _columns(self, path: _Path, times: Array, in_contact: Integers) -> Array:
-        """Return, for each row of the record, the force in a medium of one spring or one branch of modulus 1.
+        """Return the forces in media that consist of one spring, or of one branch, of modulus 1.
 
-        The shape is (rows, 1 + times): first the elastic spring, then a branch for each relaxation time.
+        The shape is (rows, 1 + times), with a row for each row of the record. The first column is the force of the
+        spring; then follows a branch for each relaxation time.
 
-        in_contact : number of springs of the row in contact at each row of the record
+        in_contact : number of springs in contact at each row of the record
         """
         in_contact = np.minimum(in_contact, path.touches.size)
         stiffness = self.stiffness[in_contact]
@@ -420,7 +434,8 @@ class _ForceRecord:
         _, to_force = branch_states(intervals, elastic, times)
         _, to_depth = branch_states(intervals, path.depth, times)
         touch = path.touches[np.maximum(in_contact, 1) - 1]
-        # The time since the last touch. It may be negative for rows without contact, whose forces are set to 0 below.
+        # Time since the last spring in contact touched. At rows without contact it may be negative; the forces at these
+        # rows are set to 0 below.
         since = np.maximum(path.time[path.place] - path.time[touch], 0.0)
         kept = np.exp(-since[:, None] / times)
         memory = to_depth[path.place] - kept * to_depth[touch]
@@ -445,8 +460,8 @@ def _prony(fit: _Fit) -> Prony:
 def _springpot(record: _ForceRecord, fit: _Fit) -> tuple[Springpot, Array]:
     """Return the springpot that fits the force best, and the residuals of the force.
 
-    Offset and drift are taken from a fit of springs and dashpots. Only the exponent is searched for, because the force
-    at a prescribed depth is proportional to the modulus.
+    Offset and drift are taken from `fit`, a fit of springs and dashpots. Only the exponent is searched for: the force
+    at a prescribed depth is proportional to the modulus, so the best modulus for an exponent is known.
     """
     from scipy.optimize import minimize_scalar  # this import takes long
 

@@ -5,17 +5,17 @@ creep compliance J of the medium and the creep response Φ(t) = ∫J(t − s) dF
 
     u(t) = u_el(F/G = Φ(t)),    v(t) = Φ'(t)/(k/G),
 
-where u_el(F/G) and k/G are depth and stiffness of the loading curve. In a viscous medium Φ = ∫F dt/η (paper, Eqs. 1
-to 3). Eqs. 7 to 9 of the paper contain an additional factor 1/Γ(2−α), because they apply a Laplace transform to the
+where u_el(F/G) and k/G are depth and stiffness of the loading curve. In a viscous medium Φ = ∫F dt/η (paper, Eqs. 1 to
+3). Eqs. 7 to 9 of the paper contain an additional factor 1/Γ(2−α), because they apply a Laplace transform to the
 relation u(F/G), which is not linear.
 
 For every other history, the loading curve is replaced by an equivalent row of unilateral springs (docs/theory.md):
 
 1. The module `springs` makes the row from the curve.
 2. If the medium consists of springs and dashpots, the module `unilateral` moves the row exactly from event to event. A
-   springpot is replaced by springs and dashpots with the same creep within 1e-10. This holds for times from a millionth
-   of the shortest interval between two turns of the history to the whole duration. In every other medium, the module
-   `unilateral_sums` moves the row by steps in time.
+   springpot is replaced by springs and dashpots that have the same creep within 1e-10, from a millionth of the shortest
+   interval between two turns of the history (changes of its slope) up to its whole duration. In every other medium, the
+   module `unilateral_sums` moves the row by steps in time.
 3. At times when the contact is as large as ever before, depth and velocity follow from Φ and the interpolated curve.
    They then have no error from the finite number of springs.
 """
@@ -44,22 +44,24 @@ from viscorough.viscous.springs import ROUNDING, RowOfSprings, row_of_springs
 from viscorough.viscous.unilateral import BEYOND, INFINITE, RESTLESS, RowMotion, law_of, move_row
 from viscorough.viscous.unilateral_sums import move_row_by_sums
 
-# Time that is later than the end of every creep that ends.
+# Time that counts as infinite: the end of the creep is searched for only before this time.
 _LATEST = 1e300
-# Number of default output times. They begin when the creep reaches the first level of the curve, and end when it
-# reaches the last level. If the creep never equals one of these levels, they begin or end when the creep differs from
-# its first or last value by the share _EARLY.
+# Number of default output times under a constant force. They begin when the creep response F J(t) reaches the first
+# level (computed point) of the curve, and end when it reaches the last level. If the response is above the first level
+# from time 0 on, or always below the last level, the times begin or end when the response differs from its first or
+# last value by the share _EARLY of its range.
 _SPREAD, _EARLY = 100, 1e-3
-# The springs and dashpots that replace a springpot creep as it does only at times longer than this share of the
-# shortest interval between two turns of the history (changes of its slope).
+# A springpot is replaced by springs and dashpots. They creep like the springpot only at times longer than this share of
+# the shortest interval between two turns of the history (changes of its slope).
 _SHORTEST = 1e-6
-# Two slopes of a history count as equal up to this relative difference. If a sample follows a turn of the history, the
-# interval between turns counts as at most _CLOSE times the time from the turn to the sample.
+# Two slopes of a history count as equal if their relative difference is at most _SAME_SLOPE. If a sample follows a turn
+# of the history after a time t, the shortest interval between turns counts as at most _CLOSE · t.
 _SAME_SLOPE, _CLOSE = 1e-6, 10.0
-# If a motion depends on the unknown curve before the first level, a warning is given if this level carries more than
-# this share of the largest elastic force.
+# A motion that depends on the unknown curve before its first level gives a warning if the force at this level is more
+# than this share of the largest elastic force.
 _UNKNOWN_SHARE = 1e-2
-# Largest number of depths of a history where the row is made to have exactly the force of the curve.
+# The row is made to have exactly the force of the curve at depths where the history turns, but at most at this number
+# of depths.
 _MOST_TURNS = 200
 
 
@@ -81,43 +83,43 @@ def kinetics(
     curve : LoadingCurve
         Loading curve of the indenter.
     force, depth : array_like or Load, optional
-        Prescribed load; either a force or a depth is needed. It is a constant that is applied at time 0; or samples at
-        `times`, linear in between, with a time given twice for a step; or a Load, whose samples may be at other times
-        than `times`. Before the first sample there is no load. Forces are F ≥ 0, in N, and depths are in the curve's
-        unit of length. If this unit is known, both may also have a unit (a text such as "5 mN", or a quantity of pint).
-        A negative depth lifts the indenter above the plane of first contact.
+        Prescribed load: either a force or a depth. It is a constant that is applied at time 0; or samples at `times`,
+        linear in between, with a time given twice for a step; or a Load, whose samples may be at other times than
+        `times`. Before the first sample there is no load. Forces are F ≥ 0, in N, and depths are in the curve's unit of
+        length. If this unit is known, both may also have a unit (a text such as "5 mN", or a quantity of pint). A
+        negative depth lifts the indenter above the plane of first contact.
     medium : Medium or float or str
         Medium, such as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian medium. If the curve's unit of length
         is known, numbers are in Pa, s and Pa s, and a text such as "2 kPa s" is allowed. Otherwise units must be such
         that F·t/η, or F divided by a modulus, is a length².
     times : array_like, optional
-        Times of the output, which increase, and are not negative for a constant load; in s, or with a unit. By default
-        these are the times of a Load. For a constant force, they are by default a hundred times at equal ratios from
-        the curve's first level to its last level, or until the creep has almost ended. If the medium responds
-        elastically at time 0, time 0 precedes them.
+        Increasing times of the output, in s or with a unit; 0 or later for a constant load. The default for a Load is
+        the times of its samples. The default for a constant force is a hundred times with equal ratios, while the creep
+        goes from the first to the last level (computed point) of the curve, or until it has almost ended. If the medium
+        responds elastically at time 0, time 0 precedes them.
 
     Returns
     -------
     Motion
-        Motion at `times`. Force and velocity are the limits just after each time, except at the last time of a history
-        and before a step, where they are the limits just before it. At a step of the force, the velocity is due to the
-        creep alone. In a Springpot this velocity is infinite, and so is the force at a step of the depth into the
-        surface. Under no force the depth is not unique, and by convention the indenter rests on the recovering surface.
-        Before the curve's first level, depths under a force and forces at a depth are nan, unless the curve is a
-        straight line there.
+        Motion at `times`. Force and velocity are the limits just after each time. At the last time of a history, and at
+        the first of two equal times (a step), they are the limits just before it. At a step of the force, the velocity
+        is due to the creep alone. In a Springpot this velocity is infinite, and so is the force at a step of the depth
+        into the surface. Under no force the depth is not unique, and by convention the indenter rests on the recovering
+        surface. Before the first level of the curve, depths under a force and forces at a depth are nan, unless the
+        curve is a straight line there.
 
     Raises
     ------
     ValueError
-        For values outside these ranges, for a contact beyond the curve's last level, and for a step of the depth into
-        the surface of a Newtonian or Kelvin-Voigt medium, which takes an infinite force.
+        For values outside these ranges, for a contact beyond the last level of the curve, and for a step of the depth
+        into the surface of a Newtonian or Kelvin-Voigt medium, which needs an infinite force.
 
     Warns
     -----
     AccuracyWarning
-        If the motion depends on the curve before its first level, where the curve is taken for a power law. Also if
-        steps in time do not reach the tolerance, in a medium that neither consists of springs and dashpots nor is a
-        Springpot.
+        If the motion depends on the curve before its first level, where the curve is taken to be a power law. Also if
+        steps in time do not reach the tolerance; they are used for media that neither consist of springs and dashpots
+        nor are a Springpot.
 
     Examples
     --------
@@ -164,9 +166,9 @@ def kinetics(
 
 
 def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) -> tuple[RowOfSprings, RowMotion]:
-    """Return the row of springs of a curve, and its motion under a load in consistent units.
+    """Return the row of springs of a curve, and the motion of the row under a load in consistent units.
 
-    last : index of the last sample of the load whose motion is needed
+    last : index of the last sample of the load at which the motion is needed
 
     Raises ValueError if the motion ends before this sample.
     """
@@ -188,15 +190,20 @@ def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) 
 
 
 def _load_name(quantity: str) -> str:
-    """Return the name of a prescribed "force" or "depth" in messages.
+    """Return the name of the argument that prescribes the load, for messages.
 
-    This is the name of the argument in Python, and of the options on the command line.
+    In Python the name is "force" or "depth"; on the command line it is the corresponding option.
+
+    quantity : "force" or "depth"
     """
     return spelled({"force": "--force or --force-history", "depth": "--depth-history"}[quantity], quantity)
 
 
 def _check_overflow(load: Load, values: ArrayLike) -> None:
-    """Raise ValueError unless all values, which are results under the load, are finite."""
+    """Raise ValueError unless all values are finite.
+
+    load : load under which the values were computed, for the message
+    """
     if not np.isfinite(values).all():
         kind = "depth" if load.by_depth else "force"
         raise ValueError(
@@ -206,9 +213,9 @@ def _check_overflow(load: Load, values: ArrayLike) -> None:
 
 
 def _turning_depths(load: Load) -> Array:
-    """Return the depths at which a load of a depth turns, steps or is held: the deepest _MOST_TURNS of them.
+    """Return the depths at which a prescribed depth turns, steps or is held; at most the _MOST_TURNS deepest of them.
 
-    For a load of a force the array is empty.
+    For a prescribed force, the array is empty.
     """
     if not load.by_depth:
         return np.array([])
@@ -220,7 +227,8 @@ def _turning_depths(load: Load) -> Array:
 def _receding_from(medium: Medium, load: Load) -> float:
     """Return the first time from which the contact recedes; nan if it never does.
 
-    The contact recedes when the creep response of a force decreases, or when a prescribed depth above zero decreases.
+    Under a force, the contact recedes when the creep response decreases. Under a prescribed depth, it recedes when a
+    depth above zero decreases.
     """
     if not load.by_depth:
         return creep_response(medium, load).receding_from
@@ -231,7 +239,7 @@ def _receding_from(medium: Medium, load: Load) -> float:
 def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any, times: Any) -> tuple[Load, Integers]:
     """Return the load in consistent units, with samples added at the output times, and the indices of these samples.
 
-    The load ends at the first sample after the last output time. `kinetics` explains the arguments.
+    The load ends at the first sample after the last output time. The arguments are explained in `kinetics`.
     """
     unit = curve.length_unit
     if isinstance(force, Load) and depth is None and force.by_depth:
@@ -263,9 +271,9 @@ def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any
 
 
 def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, times: Any) -> tuple[Load, Array]:
-    """Return the load of a constant that is applied at time 0, in consistent units, and the output times.
+    """Return the load in consistent units if it is a constant from time 0 on, and the output times.
 
-    name, value : "force" or "depth", and the constant
+    name, value : "force" or "depth", and the value of the constant
     times : output times, or None for the default times
     """
     if not np.isfinite(value) or (name == "force" and value <= 0):
@@ -287,10 +295,11 @@ def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, time
 
 
 def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
-    """Return the default output times under a constant force, at equal ratios.
+    """Return the default output times under a constant force, which have equal ratios.
 
-    They last from about the curve's first level to its last level, or until the creep has almost ended. If the medium
-    responds elastically at time 0, time 0 precedes them.
+    The first time is about the time when the creep reaches the first level (computed point) of the curve. The last is
+    about the time when the creep reaches the last level or has almost ended. If the medium responds elastically at time
+    0, time 0 precedes them.
     """
     limit = min(medium.last_time, _LATEST)
     with np.errstate(over="ignore"):
@@ -316,7 +325,7 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
 def _spectra(medium: Medium, load: Load) -> Any:
     """Return the relaxation and the retardation spectrum of a medium; None if it has no such spectra.
 
-    For a Springpot, these are the spectra of the springs and dashpots that replace it.
+    The spectra of a Springpot are those of the springs and dashpots that replace it under this load.
     """
     if medium.relaxation is not None:
         return medium.relaxation, medium.retardation
@@ -333,8 +342,8 @@ def _spectra(medium: Medium, load: Load) -> Any:
 def _shortest_interval(load: Load) -> float:
     """Return the shortest interval between two successive turns of a history.
 
-    At a turn, the slope of the history changes, or a step begins or ends. A sample that follows a turn reduces the
-    result only if it is closer to the turn than a tenth of the shortest interval (see _CLOSE).
+    At a turn, the slope of the history changes, or a step begins or ends. A sample within the interval reduces the
+    result only if the time between the turn and the sample is shorter than a tenth of the interval (see _CLOSE).
     """
     time, values = load.time, load.values
     lengths = np.diff(time)
@@ -347,7 +356,7 @@ def _shortest_interval(load: Load) -> float:
 
 
 def _check_depths(curve: LoadingCurve, depths: Array) -> None:
-    """Raise ValueError if a depth lies beyond the curve's last level, unless the contact is complete at this level."""
+    """Raise ValueError if a depth lies beyond the end of a curve that does not end with complete contact."""
     last = curve.depth[-1]
     if depths.max() > last * (1 + ROUNDING) and curve.contact_count[-1] < curve.elements:
         raise ValueError(
@@ -357,7 +366,7 @@ def _check_depths(curve: LoadingCurve, depths: Array) -> None:
 
 
 def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Array) -> None:
-    """Raise ValueError if the creep response exceeds the curve's last level, unless the contact is complete there."""
+    """Raise ValueError if the creep response exceeds the end of a curve that does not end with complete contact."""
     beyond = ~(creep <= curve.force[-1] * (1 + ROUNDING))
     if beyond.any() and np.isfinite(row.limit):
         where, enough = int(np.argmax(beyond)), 1.01 * creep[np.isfinite(creep)].max()
@@ -371,7 +380,8 @@ def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Ar
 def _refuse(curve: LoadingCurve, row: RowOfSprings, medium: Medium, load: Load, ended: int, until: float) -> None:
     """Raise the ValueError that states why a motion ended early.
 
-    ended, until : how the motion ended (BEYOND or INFINITE), and when
+    ended : how the motion ended: BEYOND or INFINITE
+    until : when the motion ended
     """
     if ended == INFINITE:
         raise ValueError(
@@ -396,12 +406,14 @@ def _growing(curve: LoadingCurve, row: RowOfSprings, load: Load, creep: Array) -
 
 
 def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> tuple[Array, Array]:
-    """Return depth and stiffness k/G of the curve at the force F/G = Φ, the creep response `creep`.
+    """Return depth and stiffness k/G of the loading curve at the force F/G = `creep`.
 
-    After complete contact, the depth is on the tangent of the last level.
+    After complete contact, the depth continues along the tangent of the last level (computed point).
+
+    creep : creep response Φ
     """
     first, last = curve.force[0], curve.force[-1]
-    # A force that equals the first or last level within rounding must not lie outside the curve.
+    # Rounding must not move a force at the first or last level out of the range of the curve.
     inside = np.where(np.abs(creep - first) <= ROUNDING * first, first, np.clip(creep, 0.0, last))
     depth, stiffness = curve.at_force(inside)
     beyond = creep > last * (1 + ROUNDING)
@@ -413,10 +425,10 @@ def _without_discretisation(
 ) -> tuple[Array, Array, Array, Array]:
     """Return depth, force, velocity and contact fraction at the samples of the load.
 
-    While the contact is as large as ever before, they follow from the interpolated curve, and otherwise from the motion
-    `moved` of the row of springs.
+    While the contact is as large as ever before, these values follow from the interpolated curve. Otherwise they follow
+    from the motion `moved` of the row of springs.
 
-    creep : CreepResponse under a force on a medium that does not consist of springs and dashpots; otherwise None
+    creep : CreepResponse if a force acts on a medium that does not consist of springs and dashpots; otherwise None
     """
     depth, force, velocity = moved.depth.copy(), moved.force.copy(), moved.velocity.copy()
     count = moved.in_contact
@@ -425,8 +437,8 @@ def _without_discretisation(
         front = np.where(moved.largest, depth, front)
         viscosity = 0.0 if medium.relaxation is None else medium.relaxation.viscosity
         if viscosity > 0:
-            # The force of a dashpot is η k u', with the stiffness k. Replace the stiffness of the row, which jumps when
-            # a spring touches, by the stiffness of the curve.
+            # The force of a dashpot is η k u', with the stiffness k. The stiffness of the row jumps when a spring
+            # touches, so replace it by the stiffness of the curve.
             sums = np.append(0.0, np.cumsum(row.stiffness))[count]
             excess = viscosity * velocity * (curve.at_depth(np.maximum(depth, 0.0))[1] - sums)
             corrected = moved.largest & (force > 0) & np.isfinite(excess)
@@ -445,7 +457,8 @@ def _without_discretisation(
         if creep is not None:
             rate[exact] = creep.rate[exact]
         with np.errstate(invalid="ignore"):
-            # An indenter at rest has the velocity 0 even before the first level, where the stiffness is nan.
+            # An indenter at rest has the velocity 0, even before the first level of the curve, where the stiffness is
+            # nan.
             at_rate = np.where(rate == 0, 0.0, rate / stiffness)
         depth, velocity = np.where(corrected, at_curve, depth), np.where(corrected, at_rate, velocity)
     unknown = (count > 0) & (front > 0) & (front < row.first_depth) & (force > 0)
@@ -464,9 +477,9 @@ def _without_discretisation(
 def _at_steps_of_soft_media(
     medium: Medium, load: Load, depth: Array, force: Array, velocity: Array, fraction: Array
 ) -> None:
-    """Set the motion at steps of the load, in place, in a medium with J(0) = 0 that has no springs and dashpots.
+    """Correct, in place, the motion at steps of the load in a medium with J(0) = 0 that has no springs and dashpots.
 
-    At a step of the force such a medium does not move. A step of the depth into the surface needs an infinite force,
+    Such a medium does not move at a step of the force. A step of the depth into the surface needs an infinite force,
     and after a step out of the surface there is no force.
     """
     with np.errstate(over="ignore"):
@@ -484,7 +497,10 @@ def _at_steps_of_soft_media(
 
 
 def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion) -> None:
-    """Warn if the motion depends on the curve before its first level, where the curve is taken for a power law."""
+    """Warn if the motion depends on the curve before its first level (computed point).
+
+    There the curve is taken to be a power law.
+    """
     if row.first_depth == 0:
         return
     if load.by_depth:

@@ -12,11 +12,11 @@ released in the reverse order of touching, so every weight is positive, and the 
 computed in three steps:
 
 1. Compute the loading curve up to the largest contact of the history, and move its row of springs.
-2. Choose some elastic contacts, and take p_el as linear in the force between two successive contacts. Each such
-   interval then adds its share of the force F, multiplied by the ratio of the differences of p_el and F_el between the
-   two contacts. So the sum of all pressures is exactly F(t).
+2. Choose some elastic contacts. Between two successive contacts, p_el is taken to be linear in the force F_el, so this
+   interval adds the pressure ΔF · Δp_el/ΔF_el. Here Δp_el and ΔF_el are the differences between the two contacts, and
+   ΔF is the part of the force F that the interval carries. The sum of all pressures is then exactly F(t).
 3. Distribute the force due to φ(g*), which acts on the whole contact, like q(x; A(g*)). In media with a parallel
-   dashpot φ is linear in g apart from this force, so that one contact more is enough.
+   dashpot φ is linear in g apart from this force, so that step 2 needs only a single interval.
 """
 
 import numpy as np
@@ -38,14 +38,15 @@ from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.kinetics import row_motion
 
-# An interval between two elastic contacts is short if the relative increase of the force is below _SHORT times the
-# tolerance of the contacts, or below _SHORT · _FINEST. In a short interval, the difference of the two pressures would
-# consist of their errors.
+# An interval between two elastic contacts is short if its relative increase of the force is at most _SHORT times the
+# tolerance of the contacts. A tolerance below _FINEST counts as _FINEST. In a short interval, the difference of the two
+# pressures would consist of their errors.
 _SHORT, _FINEST = 10.0, 1e-6
-# The loading curve is computed up to this multiple of the largest elastic force of the history, because the motion by
-# steps in time (viscous.unilateral_sums) exceeds this force while the steps are still long.
+# The loading curve is computed up to this multiple of the largest elastic force of the history. The motion by steps in
+# time (viscous.unilateral_sums) exceeds the largest force while its steps are still long.
 _BEYOND = 1.1
-# The state just after a time is the state after this share of the duration of the history.
+# The state just after a time is computed slightly later. The delay is this share of the time since the start of the
+# load.
 _JUST_AFTER = 1e-12
 
 
@@ -70,12 +71,12 @@ def pressure_at(
         Medium, or the viscosity of a Newtonian medium; see `kinetics`.
     time : float
         Time t within the history, after its start. The pressure is the limit just after t, also at a step. In a
-        springpot and in media with a parallel dashpot, a step of the force is distributed like the pressure of a flat
-        punch of the shape of the contact.
+        springpot and in media with a parallel dashpot, the pressure due to a step of the force is the pressure of a
+        flat punch of the shape of the contact.
     contacts : int, optional
         Number of elastic contacts from which the pressure is computed, 1 or more. Increase it for a smaller error of
-        the pressures; the mean error over the elements is of second order in 1/contacts. Media with a parallel dashpot
-        (Newtonian, Kelvin-Voigt) need only the contact at t, and have no such error.
+        the pressures. The error, averaged over the elements, is of second order in 1/contacts. In media with a parallel
+        dashpot (Newtonian, Kelvin-Voigt), only the contact at t is needed, and there is no such error.
     tolerance : float, optional
         Relative accuracy of the elastic contacts.
 
@@ -116,16 +117,19 @@ def pressure_at(
     count = int(moved.in_contact[-1])
     if count == 0:
         return total
-    # For each spring in contact: its force per unit stiffness, and stiffness and elastic force of the curve at its gap.
+    # For each spring in contact: its force per unit stiffness, and the stiffness and elastic force of the curve at its
+    # gap.
     carried, stiffness = moved.pressures[:count], np.cumsum(row.stiffness)[:count]
     elastic = np.append(0.0, np.cumsum(stiffness[:-1] * np.diff(row.gap[:count])))
-    parts = stiffness[:-1] * -np.diff(carried)  # parts of the force F, one between every two neighbouring springs
+    parts = stiffness[:-1] * -np.diff(carried)  # parts of the force F, between neighbouring springs
     has_dashpot = medium.relaxation is not None and medium.relaxation.viscosity > 0
     nodes = np.unique([0, count - 1]) if has_dashpot else _nodes(elastic, parts, contacts)
-    # Half of the tolerance is left for the correction of the pressures to the exact force.
+    # Compute the contacts to half of the tolerance. The other half is left for the correction of the pressures to the
+    # exact force.
     pressure = _PressureSum(indenter, tolerance / 2)
     pressure.add_intervals(elastic[nodes], np.add.reduceat(np.append(parts, 0.0), nodes[:-1]), tolerance)
-    # The elastic contact at g* is evaluated halfway to the gap of the next spring, where the last spring is in contact.
+    # Use the elastic contact halfway to the gap of the next spring instead of the contact at g*, so that the last
+    # spring is in contact.
     following = min(row.gap[count] if count < row.gap.size else row.limit, 2 * row.gap[count - 1] + curve.depth[0])
     pressure.add_rest(elastic[-1] + 0.5 * stiffness[-1] * (following - row.gap[count - 1]), moved.force[-1])
     return pressure.total
@@ -146,12 +150,12 @@ class _PressureSum:
     def add_intervals(self, forces: Array, shares: Array, tolerance: float) -> None:
         """Add the pressures of the intervals between successive elastic contacts.
 
-        The interval between the contacts at the forces F_{j−1} and F_j adds its share of the force multiplied by
-        (p_j − p_{j−1})/(F_j − F_{j−1}). A short interval (see _SHORT) adds its share multiplied by the mean of q_j and
-        q_{j−1} instead, where q is dp/du of a contact, scaled to the sum 1.
+        An interval between the contacts at the forces F_{j−1} and F_j adds s (p_j − p_{j−1})/(F_j − F_{j−1}), where s
+        is the part of the force F that it carries. A short interval (see _SHORT) adds s (q_{j−1} + q_j)/2 instead,
+        where q is dp/du of a contact, scaled to the sum 1.
 
-        forces : elastic forces F_j of the contacts, from first contact on, shape (intervals + 1,)
-        shares : share of the force F of each interval, shape (intervals,)
+        forces : elastic forces F_j of the contacts; the first is 0, at first contact; shape (intervals + 1,)
+        shares : part s of the force F for each interval, shape (intervals,)
         tolerance : relative accuracy of the elastic contacts
         """
         rise, levels = np.diff(forces), forces[1:]
@@ -177,16 +181,19 @@ class _PressureSum:
         self._add_tangent(loads, max(force - np.nansum(self.total) * self._area, 0.0))
 
     def _add_tangent(self, loads: MemberLoads, force: float) -> None:
-        """Add the pressures of a flat punch that carries `force` and has the shape of the contact with these loads."""
+        """Add the pressure of a flat punch that carries `force`.
+
+        loads : loads of the elastic contact whose shape the punch has
+        """
         place = self._solver.elements.places_on_map(loads.members)
         self.total[place] += force / self._area * loads.tangent / loads.tangent.sum()
 
 
 def _up_to(load: Load, time: float) -> Load:
-    """Return the load up to just after a time, so that its end is after a kink or a step at this time.
+    """Cut the load just after a time, so that a kink or a step at this time is included.
 
-    If the time is the end of the load, a force is held constant after it. A depth is not continued, so that the rate
-    before the end counts.
+    If the load ends at this time, a force is continued with its last value. A depth is not continued, so that the
+    velocity before the end counts.
     """
     after = time + _JUST_AFTER * (time - load.time[0])
     if after > load.time[-1]:
@@ -207,7 +214,7 @@ def _curve(indenter: Indenter, medium: Medium, load: Load, tolerance: float) -> 
             force = contact_at(indenter, depth=float(deepest), tolerance=tolerance).force
     else:
         force = creep_response(medium, load).creep.max()
-    if not 0 < force < np.inf:  # there is no contact
+    if not 0 < force < np.inf:  # there is no contact during the load
         return indent(indenter, tolerance=tolerance, until_fraction=1 / indenter.elements)
     return indent(indenter, tolerance=tolerance, until_force=_BEYOND * force)
 
@@ -215,12 +222,12 @@ def _curve(indenter: Indenter, medium: Medium, load: Load, tolerance: float) -> 
 def _nodes(elastic: Array, parts: Array, contacts: int) -> Integers:
     """Return the indices of the springs at whose gaps elastic contacts are computed, first and last spring included.
 
-    Between two of these springs, p_el is taken as linear in the force. The springs lie at equal steps of the sum of two
-    relative forces, since the pressure changes with both: the elastic force at the gap of a spring, and the part of the
-    force F up to this spring, each divided by its value at the last spring.
+    Between two of these springs, p_el is taken to be linear in the force. The pressure changes with the elastic force
+    at the gap of a spring, and with the part of the force F up to this spring. So both are divided by their values at
+    the last spring, and the chosen springs lie at equal steps of the sum of the two ratios.
 
     elastic : elastic force at the gap of each spring
-    parts : parts of the force F, one between every two neighbouring springs
+    parts : parts of the force F between neighbouring springs
     """
     carried = np.append(0.0, np.cumsum(np.maximum(parts, 0.0)))
     tiny = np.finfo(float).tiny

@@ -7,13 +7,14 @@ force at depth u is therefore
 
 This is the force of a row of independent springs: the springs with initial gaps from g to g + dg have the stiffness dk
 (docs/theory.md). The row is finite, so its force is piecewise linear in the depth. At chosen depths it equals the force
-of the interpolated curve (LoadingCurve.at_force). The depths are chosen as follows:
+of the interpolated curve (LoadingCurve.at_force). The depths are chosen from the levels (computed points) of the curve:
 
 - If at most one element joins the contact between two levels, the curve between them consists of their two tangents.
   The tangents meet at the gap of one spring, whose stiffness is the jump of k. This part of the row is exact.
-- Between other levels, the interpolated curve is divided into chords. There are so many chords that their depth
-  deviates by less than a twentieth of the tolerance of the curve, and that k jumps by little from chord to chord.
-- If the tangent of the first level misses the origin, the curve before this level is taken for a power law with the
+- Between other levels, the interpolated curve is divided into chords. Their number is chosen so that their depth
+  deviates by at most about 0.03 times the tolerance of the curve, and so that k jumps by at most about 0.2 % from chord
+  to chord.
+- If the tangent of the first level misses the origin, the curve before this level is taken to be a power law with the
   same force and the same tangent at this level.
 - Finally, the points are replaced by the greatest convex function below all of them, so that no stiffness dk is
   negative.
@@ -29,18 +30,17 @@ from viscorough.basics.types import Array, Mask
 from viscorough.media.spectra import zero_of_increasing
 from viscorough.results.loading_curve import LoadingCurve
 
-# The depth of a chord deviates from the interpolated curve by at most _DEVIATION times the tolerance of the curve,
-# relative to the depth. A tolerance below _FINEST counts as _FINEST, because the interpolated curve is not known
-# better.
+# Largest deviation of a chord from the interpolated curve: _DEVIATION times the tolerance of the curve, relative to the
+# depth. A tolerance below _FINEST counts as _FINEST, because the interpolated curve is not more accurate.
 _DEVIATION, _FINEST = 0.03, 1e-7
 # Largest relative jump of the stiffness from one chord to the next. The relative error of the velocity is about half of
-# this.
+# this jump.
 _STIFFNESS_STEP = 2e-3
-# Largest number of chords between two levels, and approximate largest number of all chords.
+# Largest number of chords between two levels (computed points), and approximate largest number of chords in total.
 _MOST_CHORDS, _MOST_SPRINGS = 2000, 100_000
-# Number of chords of the power law before the first level.
+# Number of chords that replace the power law before the first level.
 _EARLY_CHORDS = 64
-# A load may exceed the last level of the curve by this relative rounding error.
+# A load may exceed the end of the loading curve by this share, because of rounding.
 ROUNDING = 1e-10
 
 
@@ -49,10 +49,10 @@ class RowOfSprings(NamedTuple):
 
     gap : initial gaps, which increase from 0 [length]
     stiffness : stiffness dk/G > 0 of each spring [length]
-    contact_fraction : share of the elements of the indenter that are in contact while this spring is in contact and no
-        spring after it [1]
+    contact_fraction : share of the elements of the indenter in contact when this spring is the last spring in contact
+        [1]
     limit : depth up to which the curve is known; infinite if the curve reaches complete contact
-    first_depth : depth below which the curve is not known and is taken for a power law; 0 if all of the curve is known
+    first_depth : depth below which the curve is not known and is taken to be a power law; 0 if the whole curve is known
     """
 
     gap: Array
@@ -65,7 +65,8 @@ class RowOfSprings(NamedTuple):
 def row_of_springs(curve: LoadingCurve, depths: ArrayLike = ()) -> RowOfSprings:
     """Return the row of springs that has the force of a loading curve.
 
-    depths : further depths at which the row has exactly the force of the interpolated curve, shape (n,) [length]
+    depths : additional depths at which the force of the row is exactly the force of the interpolated curve, shape (n,)
+        [length]
     """
     parts = [_before_first_level(curve)]
     if curve.depth.size > 1:
@@ -93,9 +94,9 @@ def row_of_springs(curve: LoadingCurve, depths: ArrayLike = ()) -> RowOfSprings:
 
 
 def _before_first_level(curve: LoadingCurve) -> Array:
-    """Return points of the curve from the origin to the first level, shape (3, points).
+    """Return points of the curve from the origin to its first level (computed point), shape (3, points).
 
-    The rows are depths, forces and numbers of elements in contact.
+    The rows of the array are depths, forces and numbers of elements in contact.
     """
     depth, force, stiffness, count = (x[0] for x in (curve.depth, curve.force, curve.stiffness, curve.contact_count))
     exponent = stiffness * depth / force
@@ -106,9 +107,9 @@ def _before_first_level(curve: LoadingCurve) -> Array:
 
 
 def _between_levels(curve: LoadingCurve) -> Array:
-    """Return points of the curve after the first level, which include all further levels, shape (3, points).
+    """Return points of the curve after its first level (computed point), shape (3, points).
 
-    The rows are depths, forces and numbers of elements in contact.
+    They include all other levels. The rows of the array are depths, forces and numbers of elements in contact.
     """
     depth, force, stiffness, count = curve.depth, curve.force, curve.stiffness, curve.contact_count
     joined, rise = np.diff(count), np.diff(depth)
@@ -133,7 +134,7 @@ def _between_levels(curve: LoadingCurve) -> Array:
 
     meeting = _meeting_of_tangents(curve, tangents)
     between = np.flatnonzero(np.isfinite(meeting))
-    at = np.cumsum(chords)[between] - 1  # index of the level at the end of the interval; the new point precedes it
+    at = np.cumsum(chords)[between] - 1  # indices of the levels that follow the new points
     depths = np.insert(depths, at, meeting[between])
     forces = np.insert(forces, at, force[between] + stiffness[between] * (meeting[between] - depth[between]))
     counts = np.insert(counts, at, count[between + 1].astype(float))
@@ -141,10 +142,11 @@ def _between_levels(curve: LoadingCurve) -> Array:
 
 
 def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
-    """Return the depth at which the tangents of two neighbouring levels meet, for each interval between levels.
+    """Return the depth at which the tangents of two neighbouring levels (computed points of the curve) meet.
 
-    tangents : intervals that consist of two tangents. For other intervals, and if the tangents do not meet within the
-        interval, the depth is nan
+    There is one depth for each interval between levels; it is nan if the tangents do not meet within the interval.
+
+    tangents : True for the intervals to compute; the depth is nan for other intervals
     """
     depth, force, stiffness = curve.depth, curve.force, curve.stiffness
     jump, rise = np.diff(stiffness), np.diff(depth)
@@ -157,9 +159,9 @@ def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
 def merged(gap: Array, stiffness: Array, depth: float, most: int) -> tuple[Array, Array]:
     """Merge the springs of a row with gaps up to `depth` into at most `most` springs.
 
-    Return gaps and stiffnesses of the new springs, which fits use because they move the row often. Each new spring
-    replaces some neighbouring springs: it has their mean gap and the sum of their stiffnesses. The new springs lie at
-    about equal steps of the cube root of the gap.
+    Return gaps and stiffnesses of the new springs. Fits use fewer springs because they move the row often. Each new
+    spring replaces some neighbouring springs: it has their mean gap and the sum of their stiffnesses. The new springs
+    lie at about equal steps of the cube root of the gap.
     """
     inside = gap < depth * (1 + 1e-9)
     gap, stiffness = gap[inside], stiffness[inside]
@@ -179,7 +181,7 @@ def _below_all(depth, force):
     count = 0
     for i in range(depth.size):
         if i > 0 and depth[i] <= depth[corners[count - 1]]:
-            continue  # the depth equals the depth of the point before within rounding
+            continue  # within rounding, this point has the depth of the last corner
         while count > 1:
             a, b = corners[count - 2], corners[count - 1]
             before = (force[b] - force[a]) / (depth[b] - depth[a])

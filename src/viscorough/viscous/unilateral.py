@@ -7,14 +7,14 @@ unit modulus. Its deflection y_i and its force divided by W_i, φ_i, are related
 
 with one internal variable w_b for each Maxwell branch b. A spring in contact has y_i = u − g_i at the depth u. A free
 spring has φ_i = 0. The springs in contact are always the first springs of the row (docs/theory.md). So only two events
-can come next: the last spring in contact is released, or the first free spring touches. The kernel moves from event to
-event:
+can come next: the last spring in contact is released, or the first free spring touches. The motion is computed from
+event to event:
 
-1. Between two events, all springs in contact move by the same distance. So the internal variable w_b of a spring in
-   contact is the sum of a variable D_b, which is common to all these springs, and of an offset, which decays by
-   exp(−r_b t). The springs in contact are a stack: a spring that touches stores its offset, and the sum Σ W_i × offset
-   up to itself. When the spring is released, the sum stored by the spring before it is valid again. So no offset is
-   ever subtracted.
+1. Between two events, all springs in contact move by the same distance. So their internal variables w_b differ only by
+   offsets: w_b = D_b + offset, where D_b is the same for all springs in contact, and each offset decays by exp(−r_b t).
+   The springs in contact form a stack. A spring that touches stores its offset, and the sum of W_i × offset for itself
+   and all springs before it. When it is released, the sum that the spring before it has stored is used again. So no
+   offset is ever subtracted from a sum, which would lose digits.
 2. Under a prescribed depth, u is linear in time, and D_b and the force follow directly. Under a prescribed force F, the
    medium is regarded as a series of a spring J₀, a dashpot φ₀ and Kelvin-Voigt elements with compliance J_j and rate
    λ_j = 1/θ_j. Let R_j be the part of F that the dashpot of element j carries, summed over the springs in contact. Then
@@ -22,16 +22,16 @@ event:
 
        u' ΣW = J₀ F' + φ₀ F + Σ_j J_j λ_j R_j,    Σ_i W_i w_ib = φ₀ τ_b F + Σ_j J_j λ_j/(r_b − λ_j) R_j.
 
-3. A spring that is released at deflection y recovers by y(t) = y + Σ_j J_j ρ_j (1 − exp(−λ_j t)). Its remainders
-   ρ_j = Σ_b G_b r_b/(r_b − λ_j) w_b are the R_j of this spring alone, divided by W_i; they decay by exp(−λ_j t). They
-   are evaluated only when this spring can touch next.
-4. The force of the last spring in contact, and the overlap of the indenter with the first free spring, are sums of
-   exponentials and a parabola in time. The first time at which such a function becomes positive is bracketed by bounds
-   of its curvature, and then found by Newton's method.
-5. At a step of the load, every spring responds elastically with the modulus G₀ = G∞ + Σ G_b. The events that happen at
-   this time are followed in their order. A dashpot parallel to the medium does not move at a step.
+3. A spring that is released at deflection y recovers: y(t) = y + Σ_j J_j ρ_j (1 − exp(−λ_j t)). The remainders ρ_j =
+   Σ_b G_b r_b/(r_b − λ_j) w_b are the R_j of this spring alone, divided by W_i. They decay by exp(−λ_j t), and are
+   evaluated only when this spring can touch next.
+4. The force of the last spring in contact is a sum of exponentials and a parabola in time, and so is the overlap of the
+   indenter with the first free spring. The first time when such a function becomes positive is bracketed by bounds of
+   its curvature, and then found by Newton's method.
+5. At a step of the load, every spring responds elastically with the modulus G₀ = G∞ + Σ G_b. The events at this time
+   are followed in their order. A dashpot parallel to the medium does not move at a step.
 
-An event costs a few evaluations of these sums. The cost does not depend on the number of springs in contact.
+The cost of an event is a few evaluations of these sums. It does not depend on the number of springs in contact.
 """
 
 from typing import NamedTuple
@@ -43,47 +43,50 @@ from viscorough.basics.interrupts import uninterrupted
 from viscorough.basics.types import Array, Integers, Mask
 from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 
-# Rounding error of a force or an overlap, relative to its terms. A spring is released, or touches, only if the tension
-# or the overlap exceeds this error.
+# Rounding error of a force or an overlap, relative to the size of its terms. A spring is released only if its tension
+# exceeds this error, and touches only if its overlap does.
 _ROUNDING = 1e-14
-# Newton's method for the time of an event ends when the function is within this multiple of its rounding error of 0.
+# The time of an event is a zero of a function f. Newton's method ends when |f| is at most this multiple of its rounding
+# error.
 _CLOSE = 0.2
-# An event belongs to the sample before it if the time since this sample is at most this share of the sample's time or,
-# in the first interval, of the length of the interval.
+# An event counts as simultaneous with the sample before it if it follows within this share of the time of the sample.
+# In the first interval between samples, this is a share of the length of the interval.
 _AT_ONCE = 1e-11
-# The force of a spring is a sum of exponentials of the time since the last event or sample. Branches that have relaxed
-# since then were large, and their rounding errors remain in the sum. If a release lies more than _FORGOTTEN relaxation
-# times of the fastest branch ahead, the row first moves by the share _APPROACH of the time until then, and the sum
-# starts anew.
+# The force of a spring is a sum of exponentials of the time since the last event or sample. Terms that have decayed
+# leave their rounding errors in the sum. If the next release is more than _FORGOTTEN relaxation times of the fastest
+# branch ahead, the row first moves by the share _APPROACH of the time until the release. Then a new sum begins.
 _FORGOTTEN, _APPROACH = 5.0, 0.999
-# Largest number of halvings of the interval that contains an event, and of Newton steps. Both are enough to find the
-# time to rounding.
+# Largest number of halvings of the interval that contains the time of an event, and of Newton steps. Both numbers
+# suffice to find the time to rounding.
 _HALVINGS, _NEWTON_STEPS = 64, 60
-# Below this x, `_second_mean` uses a series with this number of terms.
+# For x up to _SERIES_BELOW, `_second_mean` uses a series of _SERIES_TERMS terms.
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
-# More events than this at one time, per spring, cannot happen: at one time, a spring can be released once and touch
-# once.
+# Limit for the number of events at one time, divided by the number of springs. Only rounding errors can lead to more
+# events, since at one time a spring can be released once and touch once.
 _MOST_AT_ONCE = 4
-# If events at one time do not end, the row moves on for a short pause without events. As a share of the time since the
-# start of the motion, the n-th pause in an interval between samples has the length _PAUSE · 2^n: from the rounding
-# error of a time to 1e-9 of the time. The second number is the largest n.
+# If events at one time do not end, the row moves for a short time without events (a pause). The n-th pause between two
+# samples, n ≤ _MOST_PAUSES, has the length _PAUSE · 2^n times the time of the second sample. So pauses last from the
+# rounding error of a time to 1e-9 of the time.
 _PAUSE, _MOST_PAUSES = 5e-16, 21
 
-# How a motion ends: at the last sample, at the limit of the depth, at a step that takes an infinite force, or because
-# events at one time do not end.
+# Ways in which a motion ends: at the last sample, when the depth reaches its limit, at a step that needs an infinite
+# force, or because events at one time do not end.
 SETTLED, BEYOND, INFINITE, RESTLESS = 0, 1, 2, 3
 
 
 class Law(NamedTuple):
-    """Both spectra of a medium, and matrices that convert their internal variables; symbols: see the module docstring.
+    """Relaxation and retardation spectrum of a medium, and matrices that convert their internal variables.
+
+    The symbols are defined in the module docstring.
 
     viscosity, relaxed : η of the parallel dashpot and G∞ of the parallel spring
     moduli, rates : moduli G_b and rates r_b of the Maxwell branches, shape (branches,)
     instantaneous, fluidity : J₀ of the spring and φ₀ of the dashpot in series
     flows, decays : J_j λ_j and rates λ_j of the Kelvin-Voigt elements with compliances J_j, shape (elements,)
-    remainders : matrix G_b r_b/(r_b − λ_j) from internal variables w_b of branches to remainders ρ_j of elements, shape
-        (elements, branches)
-    branches : matrix J_j λ_j/(r_b − λ_j) from remainders ρ_j to internal variables w_b, shape (branches, elements)
+    remainders : matrix G_b r_b/(r_b − λ_j), which converts internal variables w_b of branches to remainders ρ_j of
+        elements, shape (elements, branches)
+    branches : matrix J_j λ_j/(r_b − λ_j), which converts remainders ρ_j to internal variables w_b, shape (branches,
+        elements)
     """
 
     viscosity: float
@@ -99,16 +102,18 @@ class Law(NamedTuple):
 
 
 class RowMotion(NamedTuple):
-    """Motion of a row of springs; arrays of shape (times,) unless stated. Symbols: see the module docstring.
+    """Motion of a row of springs at given times; arrays of shape (times,) unless another shape is stated.
 
-    depth, force, velocity : depth u, force F = Σ W φ, and velocity u', as limits after each time. At the first of two
-        samples that make a step, and at the last time, they are limits before the time
+    The symbols are defined in the module docstring.
+
+    depth, force, velocity : depth u, force F = Σ W φ, and velocity u' just after each time. At the last time, and at
+        the first of two equal times (a step), they are the values just before it
     in_contact : number of springs in contact
     deflection : sum of stiffness × deflection, Σ W y, of the springs in contact
     largest : whether there are at least as many springs in contact as at any earlier time
     receding_from : time of the first release of a spring; nan if no spring is released
-    pressures, surface : force divided by stiffness, φ, and initial gap plus deflection, g + y, of every spring at the
-        last time, shape (springs,)
+    pressures : force divided by stiffness, φ, of every spring at the last time, shape (springs,)
+    surface : initial gap plus deflection, g + y, of every spring at the last time, shape (springs,)
     """
 
     depth: Array
@@ -123,11 +128,11 @@ class RowMotion(NamedTuple):
 
 
 class _Row(NamedTuple):
-    """Springs of a row, and sums over its first springs.
+    """Springs of a row, and sums over its first n springs for all n.
 
     gaps, weights, limit : arguments of `move_row`
-    stiffness, moment : sums of stiffness and of stiffness × gap of the first n springs, n = 0, 1, …, each of shape
-        (springs + 1,)
+    stiffness : sums of the stiffness for n = 0, 1, …, shape (springs + 1,)
+    moment : sums of stiffness × gap for n = 0, 1, …, shape (springs + 1,)
     """
 
     gaps: Array
@@ -138,13 +143,14 @@ class _Row(NamedTuple):
 
 
 class _State(NamedTuple):
-    """State of the row, in arrays that the kernel changes in place; symbols: see the module docstring.
+    """State of the row, in arrays that are changed in place; the symbols are defined in the module docstring.
 
     common : internal variables D_b that are common to the springs in contact, shape (branches,)
     joined : time of the last touch of each spring, shape (springs,)
     offset : offset of the internal variables of each spring from the D_b at the time `joined`, shape (springs,
         branches)
-    total : sum of W × offset up to each spring at its time `joined`, shape (springs, branches)
+    total : sum of W × offset of each spring and all springs before it at the time `joined` of the spring, shape
+        (springs, branches)
     left : time of the last release of each spring, shape (springs,)
     rest : deflection y of each spring at the time `left`, shape (springs,)
     remainder : remainders ρ_j of each spring at the time `left`, shape (springs, elements)
@@ -171,7 +177,8 @@ def law_of(relaxation: RelaxationSpectrum, retardation: RetardationSpectrum) -> 
         remainders, branches = np.zeros((decays.size, 0)), np.zeros((0, decays.size))
     else:
         apart = rates - decays[:, None]
-        # If a relaxation rate equals a retardation rate within rounding, the branch has no strength.
+        # If a relaxation rate equals a retardation rate within rounding, the modulus of the branch is negligible. Its
+        # coefficients are set to 0.
         inverse = np.divide(1.0, apart, out=np.zeros_like(apart), where=apart != 0)
         remainders, branches = relaxation.moduli * rates * inverse, np.ascontiguousarray((flows[:, None] * inverse).T)
     return Law(
@@ -187,13 +194,13 @@ def move_row(
 
     gaps : increasing initial gaps g of the springs, shape (springs,)
     weights : stiffnesses W > 0 of the springs per unit modulus, shape (springs,)
-    limit : depth that the motion may not reach
+    limit : depth at which the motion ends early
     times, load : depth or force at increasing times, linear in between, shape (times,); a time given twice is a step
     by_depth : whether `load` is a depth instead of a force
 
-    A motion that does not end early is SETTLED. It ends early with BEYOND if the depth reaches the limit, with INFINITE
-    if a step of the depth presses on a parallel dashpot, and with RESTLESS if events at one time do not end, which
-    would be a fault.
+    A motion up to the last time is SETTLED. The motion ends early with BEYOND if the depth reaches the limit, and with
+    INFINITE if a step of the depth presses on a parallel dashpot. It ends with RESTLESS if events at one time do not
+    end, which should not happen.
     """
     with uninterrupted():
         *motion, ended, until = _march(gaps, weights, limit, law, times - times[0], load, by_depth)
@@ -209,7 +216,7 @@ def _mean_decay(x):
 
 @njit(inner=True)
 def _second_mean(x):
-    """Return (x − 1 + exp(−x))/x², the double integral of exp(−s) from 0 to x, divided by x²."""
+    """Return (x − 1 + exp(−x))/x², which is the double integral ∫₀ˣ ∫₀ˢ exp(−r) dr ds, divided by x²."""
     if x > _SERIES_BELOW:
         return (x + np.expm1(-x)) / (x * x)
     value = 0.0
@@ -220,9 +227,10 @@ def _second_mean(x):
 
 @njit(inner=True)
 def _evaluate(s, value, slope, bend, first, second, rates):
-    """Return f(s), f'(s), and upper bounds of f'' and −f'' at all times after s.
+    """Return f(s), f'(s), and upper bounds of f'' and −f'' that hold at all later times.
 
-    f(s) = value + slope s + bend s² + Σ_k ∫x_k ds, where x_k' = second_k − rates_k x_k and x_k(0) = first_k.
+    f(s) = value + slope s + bend s² + Σ_k ∫x_k ds from 0 to s, where x_k' = second_k − rates_k x_k and x_k(0) =
+    first_k.
     """
     f, rate = value + s * (slope + s * bend), slope + 2 * bend * s
     up, down = max(2 * bend, 0.0), max(-2 * bend, 0.0)
@@ -242,7 +250,7 @@ def _evaluate(s, value, slope, bend, first, second, rates):
 
 @njit(inner=True)
 def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
-    """Return the first s in [0, end] at which the function f of `_evaluate` exceeds `rounding`; infinite if none.
+    """Return the first s in [0, end] at which the function f of `_evaluate` exceeds `rounding`; inf if there is none.
 
     rounding : rounding error of f. If a smaller f counted as an event, a spring that was just released would touch
         again at once
@@ -262,8 +270,8 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
         b, fb, db = stack[top, 0], stack[top, 1], stack[top, 2]
         h = b - a
         curved = 0.5 * up * h * h
-        # In the interval from a to b, f lies below a parabola through either end. It exceeds the chord by at most
-        # max(−f'') h²/8. If one of these bounds is not positive, the interval has no event.
+        # In the interval from a to b, of length h, f has three upper bounds: a parabola through each end, and the chord
+        # plus max(−f'') h²/8. If one of them is not positive in the interval, there is no event.
         if (
             max(fa, fa + da * h + curved) <= 0
             or max(fb, fb - db * h + curved) <= 0
@@ -290,9 +298,11 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
 
 @njit(inner=True)
 def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
-    """Return a zero of the function f of `_evaluate`, which increases from a to b and is positive at b.
+    """Return a zero between a and b of the function f of `_evaluate`, found by Newton's method.
 
-    close : the search ends if |f| is at most this
+    f increases from a to b and is positive at b.
+
+    close : the search ends when |f| is at most this
     """
     s = a
     for _ in range(_NEWTON_STEPS):
@@ -316,8 +326,8 @@ def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
 def _release(row, law, state, t, u, force, rate, count, by_depth, first):
     """Return value, slope and rounding error of −φ, the tension of the last spring in contact.
 
-    Together with the amplitudes `first` of the exponentials, which are set in place, these are arguments of
-    `_first_crossing`: the spring is released when −φ becomes positive.
+    The spring is released when −φ becomes positive; `_first_crossing` finds this time. Its further arguments are the
+    amplitudes `first` of the exponentials in −φ, which are set here in place.
     """
     top, gap = count - 1, row.gaps[count - 1]
     since = t - state.joined[top]
@@ -345,7 +355,7 @@ def _release(row, law, state, t, u, force, rate, count, by_depth, first):
 
 @njit(inner=True)
 def _gap_now(state, law, gap, t, i):
-    """Return the present g + y of the free spring i: an indenter at this depth touches the spring."""
+    """Return the depth g + y at which an indenter would touch the free spring i at time t."""
     since = t - state.left[i]
     for j in range(law.decays.size):
         if state.remainder[i, j] != 0:
@@ -355,7 +365,7 @@ def _gap_now(state, law, gap, t, i):
 
 @njit(inner=True)
 def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
-    """Set `remainders` to the R_j of the springs in contact (see the module docstring), in place."""
+    """Set `remainders` in place to the R_j of the springs in contact; the R_j are defined in the module docstring."""
     stiffness, top = row.stiffness[count], count - 1
     if law.viscosity > 0:
         remainders[:] = force - law.relaxed * (stiffness * u - row.moment[count])
@@ -370,7 +380,7 @@ def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
 
 @njit(inner=True)
 def _let_go(row, law, state, t, u, count):
-    """Release the last of `count` springs in contact, store its state, and return the number that is left."""
+    """Release the last of `count` springs in contact, store its state, and return the number of springs that stay."""
     top = count - 1
     if np.isnan(state.receding[0]):
         state.receding[0] = t
@@ -389,17 +399,17 @@ def _let_go(row, law, state, t, u, count):
 
 @njit(inner=True)
 def _touch(row, law, state, t, u, force, count, by_depth):
-    """Add the first free spring to the `count` springs in contact, and return the new number.
+    """Add the first free spring to the `count` springs in contact, and return the new number of springs in contact.
 
-    The stored offset of the spring makes its force exactly zero in the formula of `_release`. So rounding does not
-    release the spring again at once.
+    The stored offset of the spring is chosen so that the formula of `_release` gives it a force of exactly zero.
+    Otherwise rounding could release the spring again at once.
     """
     i, gap, stiffness = count, row.gaps[count], row.stiffness[count]
     state.joined[i], state.most[0] = t, max(state.most[0], count + 1)
     if law.viscosity > 0:
         return count + 1
     if i == 0:
-        state.common[:] = 0.0  # no other spring has an offset from the common variables
+        state.common[:] = 0.0  # no spring is in contact: the common variables may start from any value
     from_balance = not by_depth and i > 0
     excess = law.relaxed * (u - gap)
     if from_balance:
@@ -425,9 +435,9 @@ def _touch(row, law, state, t, u, force, count, by_depth):
 
 @njit(inner=True)
 def _carried(row, law, state, t, u, count):
-    """Return the force of the springs in contact from their deflections and internal variables.
+    """Return the force of the springs in contact, computed from their deflections and internal variables.
 
-    The force of a parallel dashpot is left out.
+    The force of a parallel dashpot is not included.
     """
     stiffness, moment = row.stiffness[count], row.moment[count]
     force = law.relaxed * (stiffness * u - moment)
@@ -440,13 +450,14 @@ def _carried(row, law, state, t, u, count):
 
 @njit(inner=True)
 def _balanced(row, law, state, t, u, force, count):
-    """Correct the depth by a small step, so that the springs in contact carry exactly the force; return the new depth.
+    """Change the depth slightly, so that the springs in contact carry exactly the force, and return the new depth.
 
-    The common variables are changed by the same step, in place. The step is needed because a released spring had a
-    force of zero only within rounding, and springs of much less stiffness may have to carry this rounding error.
+    The common variables change by the same step, in place. This correction is needed because the force of a released
+    spring is zero only within rounding. Compared with the force of much softer springs in contact, this rounding error
+    may be large.
 
-    In a fluid without a parallel spring the force does not depend on the depth itself, and with a parallel dashpot the
-    depth follows from the force. In both cases the depth is returned unchanged.
+    The depth is returned unchanged in two cases: in a fluid without a parallel spring, where the force does not depend
+    on the depth itself, and with a parallel dashpot, where the depth follows from the force.
     """
     if law.viscosity > 0 or law.relaxed == 0:
         return u
@@ -459,9 +470,9 @@ def _balanced(row, law, state, t, u, force, count):
 def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
     """Return force and velocity at time t.
 
-    Under a prescribed force, the R_j in `remainders` are set in place, except in a medium with a parallel dashpot. Its
-    R_j is advanced from event to event instead. If it were computed from u and F, it would lose all digits when creep
-    has almost ended.
+    Under a prescribed force, `remainders` is set to the R_j in place, except in a medium with a parallel dashpot. The
+    R_j of this medium is advanced from event to event instead: computed from u and F, it would lose all digits when
+    creep has almost ended.
     """
     stiffness = row.stiffness[count]
     if by_depth:
@@ -479,7 +490,7 @@ def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
 
 @njit(inner=True)
 def _gap_of_next(row, law, state, t, count):
-    """Return the depth of an indenter that touches the first free spring now; row.limit if no spring is free."""
+    """Return the depth at which an indenter would touch the first free spring at time t; row.limit if none is free."""
     return _gap_now(state, law, row.gaps[count], t, count) if count < row.gaps.size else row.limit
 
 
@@ -487,12 +498,13 @@ def _gap_of_next(row, law, state, t, count):
 def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts):
     """Step the load to `target` at time t.
 
-    Return the depth and the force after the step, the number of springs in contact, and how the step ended.
+    Return the depth and the force after the step, the number of springs in contact, and how the step ended (SETTLED,
+    BEYOND, INFINITE or RESTLESS).
 
-    release_amounts : work array for the terms of `_first_crossing`, changed in place
+    release_amounts : work array for arguments of `_first_crossing`, changed in place
     """
     if law.viscosity > 0 and not by_depth:
-        # The indenter does not move, because of the dashpot. Springs that the new force would pull are released.
+        # The dashpot keeps the indenter in place. Release the springs that the new force would pull.
         while count > 1:
             value, _, rounding = _release(row, law, state, t, u, target, 0.0, count, by_depth, release_amounts)
             if value <= rounding:
@@ -500,15 +512,15 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts
             count = _let_go(row, law, state, t, u, count)
         return u, target, count, SETTLED
     if law.viscosity > 0:
-        # The surface does not move, because of the dashpot. If the indenter steps up, all springs are released. If it
-        # steps down into the surface, the force is infinite.
+        # The dashpot keeps the surface in place. If the indenter steps up, all springs are released. If it steps down
+        # into the surface, the force is infinite.
         rises = count > 0 and target > u
         while count > 0 and target < u:
             count = _let_go(row, law, state, t, u, count)
         overlap = target - _gap_of_next(row, law, state, t, count)
         return target, force, count, INFINITE if rises or overlap > _ROUNDING * abs(target) else SETTLED
     modulus = law.relaxed + law.moduli.sum()
-    # Follow the elastic path from the old load to the new load. Springs touch, or are released, one after another.
+    # Move elastically from the old load to the new load. On the way, springs touch or are released, one after another.
     for _ in range(_MOST_AT_ONCE * row.gaps.size + 8):
         rises = target > (u if by_depth else force)
         step, reaches = 0.0, True
@@ -539,9 +551,9 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts
 
 @njit(inner=True)
 def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders, until, touch_amounts, drive):
-    """Return the time from now until the indenter touches the first free spring; infinite if it is longer than `until`.
+    """Return the time from now until the indenter touches the first free spring; inf if it is longer than `until`.
 
-    touch_amounts, drive : work arrays for the terms of `_first_crossing`, changed in place
+    touch_amounts, drive : work arrays for the arguments `first` and `second` of `_first_crossing`, changed in place
     """
     reached = _gap_of_next(row, law, state, t, count)
     if not np.isfinite(reached):
@@ -567,10 +579,12 @@ def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders,
 
 @njit(inner=True)
 def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
-    """Move the row by a time s without events, and return the depth. Common variables and R_j are changed in place.
+    """Move the row by a time s without events, and return the new depth.
 
-    end : time after the move. It is rounded, so it is not computed from s here: the offset of a spring that touches at
-        this time decays from the same rounded time
+    The common variables and the R_j (`remainders`) are changed in place.
+
+    end : time at the end of the move, after rounding. It is passed instead of computed from s, because the offset of a
+        spring that touches at this time decays from the same rounded time
     """
     if by_depth:
         for b in range(law.rates.size):
@@ -595,7 +609,7 @@ def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
 
 @njit
 def _march(gaps, weights, limit, law, times, load, by_depth):
-    """Return the fields of a RowMotion, how the motion ended, and when; see `move_row`. Times start at 0."""
+    """Return the fields of a RowMotion, how the motion ended, and when; see `move_row`. The first time is 0."""
     springs, samples = gaps.size, times.size
     branches, elements = law.rates.size, law.decays.size
     row = _Row(gaps, weights, np.zeros(springs + 1), np.zeros(springs + 1), limit)
@@ -624,8 +638,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 _remainders_in_contact(row, law, state, t, u, f, count, remainders)
         else:
             rate, f = (load[k] - before) / length, before
-            # `passed` is the time since the start of the interval. It has more digits than t; soft springs may touch so
-            # soon after the start that t would not resolve the event.
+            # `passed` is the time since the start of the interval. It resolves the time of an event soon after the
+            # start, which t would not resolve.
             passed, started, events, at, pauses = 0.0, False, 0, 0.0, 0
             while True:
                 now, speed = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
@@ -639,8 +653,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     release = _first_crossing(end, rounding, value, slope, 0.0, release_amounts, none, law.rates)
                 event = min(touch, release)
                 if events > _MOST_AT_ONCE * springs + 8:
-                    # The force of a spring is zero within rounding, so that touch and release alternate. Move on for a
-                    # short time without an event.
+                    # A spring whose force is zero within rounding touches and is released again and again. Move on for
+                    # a short time without events.
                     events, event, pauses = 0, np.inf, pauses + 1
                     s = min(_PAUSE * times[k] * 2.0**pauses, length - passed)
                     paused, arrives = True, s == length - passed
@@ -654,17 +668,18 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 if k and not started and passed + s > _AT_ONCE * (last if last > 0 else length):
                     started = True
                     velocity[k - 1] = speed
-                    # Under a prescribed depth, the force jumps with the velocity only in media with a parallel dashpot.
-                    # The fast branches that replace a springpot release springs soon after the sample, but not at the
-                    # sample.
+                    # Replace force and contact at the last sample by their values just after it. Under a prescribed
+                    # depth this is right only in media with a parallel dashpot, whose force jumps with the velocity. In
+                    # other media, the fast branches that replace a springpot release springs soon after the sample, but
+                    # not at the sample.
                     if law.viscosity > 0 or not by_depth:
                         force[k - 1], in_contact[k - 1] = now, count
                         largest[k - 1] = count >= state.most[0]
                 passed = length if arrives else passed + s
                 t = times[k] if arrives else last + passed
                 u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
-                # Interpolate from the end of the interval with the smaller load, so that a load that approaches zero
-                # keeps its digits.
+                # Interpolate from the end of the interval with the smaller load. So a load that approaches zero keeps
+                # its digits.
                 f = before + rate * passed if abs(before) < abs(load[k]) else load[k] - rate * (length - passed)
                 if arrives:
                     break
@@ -696,8 +711,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
         if ended != SETTLED:
             until = t
             break
-        # Record the state at this sample, or just before it if a kink or a step of the load follows. The start of the
-        # next interval overwrites the velocity, and also force and contact if they change there.
+        # Record the state at this sample. If the load has a kink or a step here, this is the state just before it. The
+        # start of the next interval overwrites the velocity, and also force and contact if they change there.
         force[k], velocity[k] = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
         depth[k], in_contact[k], largest[k] = u, count, count >= state.most[0]
         deflection[k] = row.stiffness[count] * u - row.moment[count]

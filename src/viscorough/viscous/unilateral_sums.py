@@ -1,13 +1,14 @@
-"""Motion of a row of unilateral springs by steps in time, for media of which only the creep compliance J is known.
+"""Motion of a row of unilateral springs by steps in time, for media that are known only by their creep compliance J.
 
 The force of a spring, divided by its stiffness, is a constant φ_m within step m, and jumps at the start of the step. So
 the deflection of the spring at the end t_n of step n is
 
     y_n = J(0) φ_n + Σ_{m≤n} φ_m (J(t_n − t_{m−1}) − J(t_n − t_m)).
 
-Each step is solved for the springs that are in contact at its end. The error of the motion is proportional to the
-length of the steps. So the steps are halved, and the motion is extrapolated from the last two motions to steps of zero
-length. This is repeated until two successive extrapolated motions differ by less than the tolerance.
+Each step is solved for the springs in contact at the end of the step, and for their forces. The error of the motion is
+proportional to the length of the steps. So the steps are halved repeatedly, and after each halving the last two motions
+are extrapolated to steps of zero length. The method ends when two successive extrapolated motions differ by less than
+the tolerance.
 """
 
 import warnings
@@ -21,22 +22,25 @@ from viscorough.media.medium import Medium
 from viscorough.viscous.springs import RowOfSprings
 from viscorough.viscous.unilateral import RowMotion
 
-# Tolerance of depth and force, relative to the largest depth and force of the motion.
+# Tolerance of a motion: largest error of the depth (or of the force, under a prescribed depth), relative to its largest
+# value.
 _TOLERANCE = 1e-4
 # Largest numbers of steps and of springs. The cost is steps² × springs.
 _MOST_STEPS, _MOST_SPRINGS = 3000, 400
-# To check that J is concave, its rise is compared in this number of equal intervals of time. It may increase from one
-# interval to the next by _BEND times the largest rise, because of rounding.
+# To check that J is concave, the time is divided into _LAGS equal intervals. The rise of J in an interval may exceed
+# the rise in the interval before it only by rounding: by the share _BEND of the largest rise.
 _LAGS, _BEND = 256, 1e-9
-# A smaller overlap of indenter and spring, relative to the depth, does not count as contact.
+# An overlap of indenter and spring below this share of the depth does not count as contact.
 _ROUNDING = 1e-13
 
 
 def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion:
-    """Return the motion of a row of springs. Depth and force are nan from the time on when the depth reaches row.limit.
+    """Return the motion of a row of springs in a medium with a concave creep compliance.
 
-    Warns with AccuracyWarning if the tolerance is not reached with the largest number of steps. Raises ValueError for a
-    medium whose creep compliance is not concave.
+    When the depth exceeds row.limit, depth and force are nan from this time on.
+
+    Warns with AccuracyWarning if the tolerance is not reached with the largest number of steps. Raises ValueError if
+    the creep compliance is not concave.
     """
     _check_concave(medium, float(load.time[-1] - load.time[0]))
     samples = load.time.size
@@ -51,8 +55,8 @@ def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion
         coarse, best = fine, extrapolated
         if last is not None:
             before, difference = difference, _difference(last, extrapolated, by_depth=load.by_depth)
-            # When the steps are halved, the difference usually falls to a quarter. It may also be small by chance, if
-            # springs touch and are released. So the error is at least a quarter of the difference before.
+            # When the steps are halved, the difference usually falls to a quarter. If springs touch and are released,
+            # it may be small by chance. So the error is taken to be at least a quarter of the previous difference.
             error = max(difference, before / 4) if np.isfinite(before) else difference
     if error > _TOLERANCE:
         text = f"an error of about {error:.2g}" if np.isfinite(error) else "an unknown error"
@@ -67,7 +71,10 @@ def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion
 
 
 def _check_concave(medium: Medium, duration: float) -> None:
-    """Raise ValueError if the creep compliance is not concave: a row of springs then gives a wrong receding contact."""
+    """Raise ValueError if the creep compliance is not concave.
+
+    For such a medium, a row of springs gives a wrong receding contact.
+    """
     lags = np.linspace(0.0, duration, _LAGS + 1)
     rises = medium.creep_increment(lags[:-1], lags[1:])
     faster = np.diff(rises) > _BEND * np.abs(rises).max()
@@ -80,9 +87,9 @@ def _check_concave(medium: Medium, duration: float) -> None:
 
 
 def _difference(one: RowMotion, other: RowMotion, *, by_depth: bool) -> float:
-    """Return the largest difference of two motions: of the force if `by_depth` is true, else of the depth.
+    """Return the largest difference between two motions, relative to the largest value.
 
-    The difference is relative to the largest force or depth.
+    The difference is taken of the force if `by_depth` is true, and otherwise of the depth.
     """
     values = (one.force, other.force) if by_depth else (one.depth, other.depth)
     return float(np.nanmax(np.abs(values[0] - values[1])) / max(np.nanmax(np.abs(values[1])), np.finfo(float).tiny))
@@ -91,7 +98,7 @@ def _difference(one: RowMotion, other: RowMotion, *, by_depth: bool) -> float:
 def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
     """Return the motion extrapolated to steps of zero length.
 
-    coarse, fine : motions with long steps, and with steps of half their length
+    coarse, fine : motions with long steps, and with steps of half the length
     """
     return fine._replace(
         depth=2 * fine.depth - coarse.depth,
@@ -106,12 +113,12 @@ def _extrapolated(coarse: RowMotion, fine: RowMotion) -> RowMotion:
 def _with_fewer_springs(row: RowOfSprings) -> tuple[Array, Array, Integers]:
     """Merge neighbouring springs into at most _MOST_SPRINGS springs.
 
-    Return gaps and stiffnesses of the merged springs and, for each merged spring, the index in the row of the last
-    spring that it contains.
+    Return the gaps and the stiffnesses of the merged springs. Also return, for each merged spring, the index of the
+    last spring of the row that it contains.
     """
     if row.gap.size <= _MOST_SPRINGS:
         return row.gap, row.stiffness, np.arange(row.gap.size)
-    # From one merged spring to the next, the logarithm of the summed stiffness grows by equal steps.
+    # The logarithm of the summed stiffness increases by about the same step from each merged spring to the next.
     sums = np.log(np.cumsum(row.stiffness))
     edges = np.searchsorted(sums, np.linspace(sums[0], sums[-1], _MOST_SPRINGS + 1)[1:-1], side="right")
     starts = np.unique(np.append(0, edges))
@@ -122,9 +129,9 @@ def _with_fewer_springs(row: RowOfSprings) -> tuple[Array, Array, Integers]:
 
 
 def _refined(load: Load, parts: int) -> tuple[Array, Array, Array]:
-    """Return times and loads at the ends of the steps, and the indices of the samples among them.
+    """Divide each interval between samples of the load into `parts` steps.
 
-    parts : number of steps between two samples
+    Return times and loads at the ends of the steps, and the indices of the samples in these arrays.
     """
     share = np.arange(1, parts + 1) / parts
     times, values, place = [load.time[:1]], [load.values[:1]], [0]
@@ -156,7 +163,7 @@ def step_row(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMo
         pressed[n] = np.count_nonzero(overlap > _ROUNDING * abs(u))
         if compliance > 0:
             pressures[n] = overlap / compliance
-        elif not load.by_depth and n:  # the force steps, and the medium does not respond instantaneously
+        elif not load.by_depth and n:  # at a step of the force, a medium with J(0) = 0 does not move
             pressed[n] = pressed[n - 1]
         depth[n] = u
         force[n] = stiffness @ pressures[n] if load.by_depth else values[n]
@@ -182,7 +189,9 @@ def step_row(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMo
 
 
 def _depth_under(surface: Array, stiffness: Array, target: float) -> float:
-    """Return the depth u with Σ w (u − s)₊ = target, or the lowest s if the target is 0.
+    """Return the depth u at which the springs carry the force `target`, Σ w max(u − s, 0) = target.
+
+    If the target is 0, return the lowest s.
 
     surface, stiffness : position s and stiffness w of each spring, shape (springs,)
     """

@@ -1,4 +1,4 @@
-"""Elements of a map of heights, and their influence on each other, for direct integration in time."""
+"""Elements of a map of heights, and their influence coefficients, for direct integration in time."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,8 +18,8 @@ class MapElements(Elements):
 
     initial_gap : initial gap of each element [length]
     shape : numbers of rows and columns of the heights
-    units : factors that convert the reduced pressure Q = p d/(4π) of square elements of side d: the force is 4π d ΣQ,
-        and the pressure p = 4π Q/d. Lengths are in the unit of the indenter; see viscorough.contact.state.Units
+    units : factors that convert the reduced pressure Q = p d/(4π) of square elements of side d to the force 4π d ΣQ and
+        to the pressure p = 4π Q/d. Lengths are in the unit of the indenter; see viscorough.contact.state.Units
     """
 
     units: Units
@@ -29,7 +29,10 @@ class MapElements(Elements):
         return Halfspace(*self.shape, aspect=self.aspect)
 
     def deflection(self, load: Array) -> Array:
-        """Return K times `load`: the deflection of all elements due to a load (reduced pressure) on all elements."""
+        """Return the deflections K Q of all elements, with the matrix K of influence coefficients.
+
+        load : reduced pressures Q of all elements
+        """
         self._operator.load[self.row, self.column] = load
         return self._operator.apply()[self.row, self.column]
 
@@ -38,7 +41,7 @@ class MapElements(Elements):
 
         members : indices of these elements
 
-        Raises MemoryError if the memory is not available.
+        Raises MemoryError if there is not enough memory for the matrix.
         """
         memory.require(24 * members.size**2, f"direct integration with {members.size} elements in contact")
         row, column = self.row[members], self.column[members]
@@ -48,7 +51,7 @@ class MapElements(Elements):
 def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
     """Return the MapElements of an indenter with two-dimensional heights. Raises ValueError for other indenters.
 
-    caller : name of the function that was called by the user, at the start of the message
+    caller : name of the function that the user called, for the message
     """
     check_indenter(caller, indenter, 2)
     row, column = np.nonzero(np.isfinite(indenter.heights))

@@ -1,12 +1,12 @@
 """Direct integration of the viscous contact problem in time, without the correspondence with the elastic problem.
 
-The surface moves down at the velocity ẇ = (1/4πη) ∫ p/r dA. With elements of side d, Q = p d/(4πη), and the matrix K of
-influence coefficients, this is ẇ = K Q, and F/η = 4π d ΣQ.
+The surface moves down at the velocity ẇ = (1/4πη) ∫ p/r dA. For square elements of side d, let Q = p d/(4πη), and let K
+be the matrix of influence coefficients. Then ẇ = K Q, and the force is given by F/η = 4π d ΣQ.
 
 Between two contact events the contact set does not change, and its elements move with the indenter at the velocity v.
 So K Q = v on the set, and hence Q = v q with K q = 1 on the set. The velocity is v = F/(4π d η Σq), and the surface
 outside the set moves at v K q. Therefore depth, pressure impulse ∫Q dt and surface are linear in the impulse ∫F dt. The
-next contact event, the depth at which the next element touches, follows exactly.
+depth at which the next element touches (the next contact event) follows exactly.
 """
 
 from dataclasses import dataclass
@@ -80,8 +80,8 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     """Compute the penetration of a rigid indenter into a linearly viscous half-space, exactly from event to event.
 
     Every contact event adds one element to the contact set, and one row to the Cholesky factor of the influence matrix
-    of this set. The deflection of the surface follows from the impulse of the pressures. Only elements that can touch
-    next are evaluated, since no gap closes faster than the indenter moves.
+    of this set. The deflection of the surface follows from the impulse of the pressures. No gap closes faster than the
+    indenter moves, so only elements that can touch next are evaluated.
 
     Parameters
     ----------
@@ -93,15 +93,15 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     Returns
     -------
     Events
-        Contact events up to `until_fraction`. The computation needs 8 (until_fraction · elements)² bytes of memory, and
-        a time of third order in the number of elements in contact.
+        Contact events up to `until_fraction`. The computation needs 8 (until_fraction · elements)² bytes of memory. Its
+        time grows with the third power of the number of elements in contact.
 
     Raises
     ------
     ValueError
         For arguments out of range, and for heights so large that depths overflow.
     MemoryError
-        If this memory is not available.
+        If there is not enough memory.
     ConvergenceError
         If an element comes under tension. The contact could then open, which is impossible without adhesion and with
         F ≥ 0.
@@ -133,7 +133,9 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
 
 @njit(inner=True, fastmath=True)
 def _respond(influence, row, column, members, count, first, second, element):
-    """Return Σ_j K_ij first_j and Σ_j K_ij second_j at the element i, summed over the elements j in contact.
+    """Return Σ_j K_ij first_j and Σ_j K_ij second_j for the element i = `element`.
+
+    The sums include all elements j in contact.
 
     members, count : indices of the elements in contact, and their number
     """
@@ -148,9 +150,9 @@ def _respond(influence, row, column, members, count, first, second, element):
 
 @njit
 def _march(influence, row, column, initial_gap, most):
-    """Return impulse/(4π d), depth and Σq at every event, and the element under tension.
+    """Return impulse/(4π d), depth and Σq at every event, and the index of an element under tension.
 
-    This element is returned as its index in the contact set; −1 if no element is under tension.
+    The index is a position in the contact set; −1 if no element is under tension.
 
     initial_gap : initial gaps, in increasing order
     most : number of elements in contact at which the computation stops
@@ -160,8 +162,8 @@ def _march(influence, row, column, initial_gap, most):
     members = np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     inside = np.zeros(elements, np.bool_)
-    # The gap of an element was last evaluated at the depth `last_depth`, and was `last_gap`. Since then it has closed
-    # by no more than the increase of the depth.
+    # For each element: the gap that was last evaluated, and the depth of the indenter at that time. Since then the gap
+    # has closed by no more than the increase of the depth.
     last_gap, last_depth = initial_gap.copy(), np.zeros(elements)
     impulse, depth, resistance = np.zeros(most), np.zeros(most), np.zeros(most)
     element, depth_now, total = 0, 0.0, 0.0
@@ -181,7 +183,7 @@ def _march(influence, row, column, initial_gap, most):
             if not inside[i] and last_gap[i] + last_depth[i] < nearest:
                 nearest, element = last_gap[i] + last_depth[i], i
         depth_step, next_to_touch = np.inf, -1
-        # Evaluate first the element that probably touches next: its depth rules out most other elements.
+        # Evaluate the element first that probably touches next. Its depth of touch rules out most other elements.
         candidate = element
         for i in range(-1, elements):
             if i >= 0:

@@ -2,9 +2,9 @@
 
 While the contact set does not change, its elements move with the indenter. In every medium the motions y of the
 elements (see the module internal_variables) then satisfy y' = q u', with K q = 1 on the set. So the contact events
-depend on the motion only, not on the medium. They are the events of march_events, if the impulse divided by the
-viscosity is replaced by Z = 4πd Σy, the sum over all elements. Let W_i be 4πd times the sum over all elements of the
-internal variable w_i of branch i. The force is
+depend on the motion only, not on the medium. They are the events that march_events computes for a viscous medium, if
+the total motion Z = 4πd Σy of all elements replaces the impulse ∫F dt/η. Let W_i be 4πd times the sum over all elements
+of the internal variable w_i of branch i. The force is
 
     F = G∞ Z + Σ_i G_i W_i + η Z',    W_i' = Z' − W_i/τ_i.
 
@@ -13,12 +13,16 @@ This linear system with constant coefficients has modes r_j, which decay indepen
     Z' = J₀ F' + φ F + Σ_j κ_j r_j,    r_j' = F' − λ_j r_j.
 
 With a parallel dashpot η there is one mode, r = η Z', with λ = G∞/η and κ = 1/η. Without a dashpot, the modes are found
-as follows. The relaxed spring G∞ counts as a branch with the rate 0, and G₀ is the sum of all moduli. Let s be the unit
-vector with the components √(G_i/G₀), and R the diagonal matrix of the rates 1/τ_i. The forces in the branches, each
-divided by √G_i, are a vector with the component F/√G₀ along s. Its components perpendicular to s relax independently
-of F. With an orthonormal basis B of the space perpendicular to s, and the singular value decomposition √R B = U Σ Vᵀ,
-the rates of the modes are λ_j = Σ_j², and κ_j = (U_j · √R s)²/G₀. One-sided Jacobi rotations find this decomposition to
-rounding, also for relaxation times that are many decades apart. Matrix exponentials would not.
+in four steps:
+
+1. Count the relaxed spring G∞ as a branch with the rate 0, and let G₀ be the sum of all moduli.
+2. Let s be the unit vector with the components √(G_i/G₀), and R the diagonal matrix of the rates 1/τ_i. The forces in
+   the branches, each divided by √G_i, are a vector with the component F/√G₀ along s. Its components perpendicular to s
+   relax independently of F.
+3. Choose an orthonormal basis B of the space perpendicular to s, and find the singular value decomposition √R B = U Σ
+   Vᵀ. One-sided Jacobi rotations find it to rounding, even for relaxation times that are many decades apart. Matrix
+   exponentials would be less accurate.
+4. The rates of the modes are λ_j = Σ_j², and κ_j = (U_j · √R s)²/G₀.
 
 The contact grows as long as Z grows. This module uses neither the correspondence with the elastic problem nor the creep
 compliance of the medium, so that it is an independent check of both.
@@ -48,11 +52,11 @@ def integrate_events(
 ) -> Motion:
     """Integrate a contact that grows under a force, exactly from contact event to contact event; see `march`.
 
-    until_fraction : contact fraction up to which events are followed. This needs 8 (until_fraction · elements)² bytes
-        of memory
+    until_fraction : contact fraction up to which events are followed. The method needs 8 (until_fraction · elements)²
+        bytes of memory
 
-    Raises ValueError, with the first such time, if the contact recedes, and ConvergenceError if more elements touch
-    than `until_fraction` allows.
+    Raises ValueError if the contact recedes; the message states the first time. Raises ConvergenceError if more
+    elements touch than `until_fraction` allows.
     """
     relaxation, area, times, force = checked_input(indenter, medium, load)
     if load.by_depth:
@@ -82,11 +86,11 @@ def integrate_events(
 class _Modes(NamedTuple):
     """Coefficients of the equations of motion Z' = J₀ F' + φ F + Σ κ_j r_j, with modes r_j' = F' − λ_j r_j.
 
-    Z is the total motion of the elements under the force F, see the module docstring.
+    Z is the total motion of the elements under the force F (see the module docstring).
 
     instantaneous_compliance : J₀
     fluidity : φ
-    weights, rates : κ_j and λ_j of each mode, arrays of shape (modes,)
+    weights, rates : coefficients κ_j and decay rates λ_j of the modes, shape (modes,)
     """
 
     instantaneous_compliance: float
@@ -96,9 +100,9 @@ class _Modes(NamedTuple):
 
 
 def _modes(relaxation: RelaxationSpectrum) -> _Modes:
-    """Return the modes of a medium.
+    """Return the coefficients of the equations of motion of a medium.
 
-    The medium has either a parallel dashpot or Maxwell branches, with or without a parallel spring.
+    The medium has either a parallel dashpot or Maxwell branches, and may have a parallel spring.
     """
     viscosity, relaxed, moduli, times = relaxation
     if viscosity:
@@ -110,8 +114,8 @@ def _modes(relaxation: RelaxationSpectrum) -> _Modes:
         rates = 1 / times
     total = moduli.sum()
     unit = np.sqrt(moduli / total)
-    # The Householder reflection turns the unit vector to the first axis. So all its columns except the first are
-    # perpendicular to the unit vector.
+    # The Householder reflection turns the unit vector to the first axis. So all columns of its matrix, except the
+    # first, are perpendicular to the unit vector.
     mirror = unit + (np.arange(unit.size) == 0)
     basis = (np.eye(unit.size) - np.outer(mirror, mirror) / mirror[0])[:, 1:]
     if not basis.size:
@@ -127,9 +131,10 @@ def _modes(relaxation: RelaxationSpectrum) -> _Modes:
 
 
 def _total_motion(modes: _Modes, times: Array, force: Array) -> tuple[Array, Terms]:
-    """Return the total motion Z at the samples of the force, shape (times,), and a function for the terms of Z'.
+    """Return the total motion Z at the samples of the force, and a function for its rate Z' between the samples.
 
-    The force is linear between its samples. The function evaluates Z' between samples, see first_decrease.Terms.
+    The force is linear between its samples. Z has the shape (times,). The function returns the terms of Z', see
+    first_decrease.Terms.
     """
     instantaneous, fluidity, weights, rates = modes
     jumps, slopes = jumps_and_slopes(times, force)

@@ -27,8 +27,8 @@ from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter, check_indenter
 from viscorough.viscous.integration.elements import MapElements, elements_of_map
 
-# Largest number of iterations of the active-set method. An iteration may double the contact set, and may add this many
-# elements more.
+# Largest number of iterations of the active-set method. In one iteration, a contact set of n elements may grow by up to
+# n + _ADDED_AT_ONCE elements.
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
 # Rounding error of gaps, relative to the sum of initial gap, depth, and largest displacement of the surface so far.
 _ROUNDING = 1e-12
@@ -37,15 +37,15 @@ _ROUNDING = 1e-12
 def integrate_steps(
     indenter: Indenter, medium: Medium | float | str, load: Load, progress: Progress | None = None
 ) -> tuple[Motion, Array]:
-    """Integrate the contact in time by steps from sample to sample of the load; see `march`.
+    """Integrate the contact with one step in time from each sample of the load to the next; see `march`.
 
     Each step solves one contact problem. A Maxwell branch is integrated exactly if the surface moves linearly within
     the step. A parallel dashpot (Newtonian, Kelvin-Voigt) is integrated exactly if the pressures are constant within
-    the step. So the method is of second order in the length of the steps. Pressures are positive if the exact pressures
-    are, and the method is stable for steps of any length.
+    the step. So the error is of second order in the length of the steps. If the exact pressures are positive, so are
+    the computed pressures. The method is stable for steps of any length.
 
-    Returns the Motion, and a map of the pressure p at the last time, with the shape of the heights and nan outside the
-    indenter. If the force steps at the last time, this is the pressure after the step.
+    Returns the Motion, and a map of the pressure p at the last time. The map has the shape of the heights, and is nan
+    outside the indenter. If the force steps at the last time, this is the pressure after the step.
     """
     relaxation, area, times, values = checked_input(indenter, medium, load)
     elements = elements_of_map(indenter, "march")
@@ -79,10 +79,10 @@ def integrate_steps(
 
 
 def checked_input(indenter: Indenter, medium: Any, load: Load) -> tuple[RelaxationSpectrum, float, Array, Array]:
-    """Check the arguments of `march`. Return relaxation spectrum, area, times and load.
+    """Check the arguments of `march`, and return relaxation spectrum, area, times and values of the load.
 
-    The area in m² converts forces from N to consistent units by division. Times and load have the shape (times,); the
-    load is a depth, or a force in consistent units.
+    Forces in N are divided by the area, in m², to convert them to consistent units. Times and values have the shape
+    (times,); the values are depths, or forces in consistent units.
     """
     check_indenter("march", indenter, 2)
     if not isinstance(load, Load):
@@ -97,7 +97,8 @@ def checked_input(indenter: Indenter, medium: Any, load: Load) -> tuple[Relaxati
 def _mean_velocity(times: Array, depths: Array) -> Array:
     """Return the mean velocity in the interval after each time, shape (times,).
 
-    At the last time, and at the first of two equal times, this is the mean velocity in the interval before the time.
+    At the last time, and at the first of two equal times (a step), return the mean velocity in the interval before
+    instead.
     """
     lengths = np.diff(times)
     mean = np.divide(np.diff(depths), lengths, out=np.zeros(lengths.size), where=lengths > 0)
@@ -117,11 +118,11 @@ def check_overflow(values: Array) -> None:
 
 
 class _State:
-    """Present motions y, pressures Q and internal variables w_i of all elements; symbols: see the module docstring.
+    """Present motions y, pressures Q and internal variables w_i of all elements (see the module docstring).
 
     In a medium with a parallel dashpot, Q is the mean pressure in the last step. The array `touching`, shape
-    (elements,), is true for elements in contact. A step that presses on an element adds it to the contact. The element
-    leaves the contact when its gap opens.
+    (elements,), is true for elements in contact. A step that presses on an element brings the element into contact. The
+    element leaves the contact when its gap opens.
 
     by_depth : whether the load is a depth instead of a force
     """
@@ -137,20 +138,25 @@ class _State:
         self._of_factor = np.array([], int)  # elements whose influence matrix has the stored Cholesky factor
 
     def advance(self, length: float, load: float) -> None:
-        """Advance by one step of the given length to the given load, by a contact problem for the pressures Q.
+        """Advance the state by a step in time, and solve a contact problem for the pressures Q.
 
-        At the end of the step Q = `kept` + c (y − y₀), with the motion y₀ at its start and a stiffness c. With a
-        parallel dashpot, Q and a load that is a force are means over the step.
+        At the end of the step, Q = `kept` + c (y − y₀), where y₀ is the motion at the start of the step and c a
+        stiffness. With a parallel dashpot, Q is the mean pressure in the step, and a force is the mean force in the
+        step.
+
+        length : length of the step
+        load : depth or force at the end of the step
         """
         viscosity, relaxed, moduli, times = self._relaxation
         x = length / times
-        # At the end of the step, the internal variables are decay × (their values at its start) + gain × (y − y₀).
+        # An internal variable at the end of the step is decay × (its value at the start) + gain × (y − y₀).
         decay, gain = np.exp(-x), exprel(-x)
-        # With a dashpot, y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η)) exactly, if Q is constant in a step of length h.
+        # With a parallel dashpot and a constant Q in a step of length h, y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η))
+        # exactly.
         spring = viscosity / (length * exprel(-length * relaxed / viscosity)) if viscosity else relaxed
         stiffness = spring + moduli @ gain
         kept = relaxed * self.motion + (moduli * decay) @ self._branches
-        # At the end of the step, c times the gap is e + K Q − c u. Without pressures in this step it would be e − c u.
+        # At the end of the step, c × gap = e + K Q − c u, where e = K (c y₀ − kept) + c × initial gap.
         surface = self._elements.deflection(stiffness * self.motion - kept)
         initial_gap = stiffness * self._elements.initial_gap
         target = stiffness * load if self._by_depth else load / self._elements.units.force
@@ -170,7 +176,7 @@ class _State:
         self._largest = max(self._largest, abs(self._elements.deflection(self.motion)).max())
 
     def lift_to(self, depth: float) -> bool:
-        """Step the depth at the present time, without a motion of the surface, and return True.
+        """Step the depth of the indenter while the surface does not move, and return True.
 
         If the indenter would then overlap the surface, change nothing, and return False.
         """
@@ -190,7 +196,7 @@ class _State:
         load : the force F, or the velocity u' if the load is a depth
 
         In a medium with a parallel dashpot, Q follows from a contact problem for the rates of the elements in contact:
-        Q ≥ 0 and K y' − u' ≥ 0, of which at least one is zero at every element. Elements out of contact have Q = 0.
+        Q ≥ 0, K y' − u' ≥ 0, and Q (K y' − u') = 0 at every element. Elements out of contact have Q = 0.
         """
         viscosity, relaxed, moduli, _ = self._relaxation
         if viscosity == 0:
@@ -209,15 +215,15 @@ class _State:
         return self._solve(recovery, size, target, touching)[0]
 
     def _solve(self, free: Array, size: Array, target: float, start: Mask) -> tuple[Array, float, Array]:
-        """Solve the contact problem Q ≥ 0 and e + K Q − c u ≥ 0, of which at least one is zero at every element.
+        """Solve the contact problem Q ≥ 0, e + K Q − c u ≥ 0, and Q (e + K Q − c u) = 0 at every element.
 
-        Return Q, the depth c u, and the gap e + K Q − c u, with a stiffness c as in `advance`. Without a force the
-        indenter is placed at first contact. The active-set method releases elements under tension and adds elements
-        that overlap, until there are none of either kind.
+        Return Q, the scaled depth c u, and the scaled gap e + K Q − c u; `advance` explains the stiffness c. Without a
+        force the indenter is placed at first contact. The active-set method releases elements under tension and adds
+        elements that overlap the indenter, until there are no such elements.
 
-        free : e, which the gap would be without pressures and at depth 0
+        free : e, the scaled gap without pressures and at depth 0
         size : size of the terms of e, which determines the rounding error of the gap
-        target : c u if the load is a depth, ΣQ if it is a force
+        target : c u if the load is a depth, ΣQ if the load is a force
         start : first guess of the contact set
         """
         check_overflow(np.append(free, target))
@@ -229,15 +235,16 @@ class _State:
             overlaps = gap < -_ROUNDING * (size + abs(depth))
             if not overlaps.any():
                 return pressure, depth, gap
-            # Add only the elements with the deepest overlap: while too few elements carry a force, most others overlap.
+            # Add only the elements with the deepest overlap. While too few elements carry a force, most other elements
+            # overlap, although many of them will not be in contact.
             deepest = np.argsort(np.where(overlaps, gap, np.inf))
             members = np.union1d(members, deepest[: min(np.count_nonzero(overlaps), members.size + _ADDED_AT_ONCE)])
         raise ConvergenceError(f"march: no contact set found in {_MAX_ITERATIONS} iterations")
 
     def _solve_among(self, members: Integers, free: Array, target: float) -> tuple[Array, float, Integers]:
-        """Solve the contact problem of `_solve` among the elements `members`; all others stay out of contact.
+        """Solve the contact problem of `_solve` among the elements `members`; all other elements stay out of contact.
 
-        Return Q, c u, and the members that remain after members under tension are released.
+        Elements under tension are released. Return Q, c u, and the members that remain in contact.
         """
         pressure = np.zeros(free.size)
         if not self._by_depth and target <= 0:

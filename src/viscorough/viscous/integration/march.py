@@ -48,10 +48,10 @@ def march(
     -------
     Motion
         Motion at the samples of the load. An element comes into contact when it is pressed, and stays in contact until
-        its gap opens. Under no force the indenter rests on the surface. The contact then stays as it was if all its
-        elements still touch, as in a Newtonian medium; otherwise it is empty. The method "implicit" gives the mean
-        velocity in the step after each time, `receding_from` at the end of a step and, in media with a parallel
-        dashpot, the force just before each time.
+        its gap opens. Under no force the indenter rests on the surface. If all elements of the last contact still touch
+        the indenter then, as in a Newtonian medium, they count as in contact; otherwise no element does. With the
+        method "implicit", the velocity is the mean in the step after each time, and `receding_from` is the end of a
+        step. In media with a parallel dashpot, "implicit" gives the force just before each time.
 
     Raises
     ------

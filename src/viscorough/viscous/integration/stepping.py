@@ -1,11 +1,11 @@
 """Time stepping of the viscous problem, as in a simulation that solves one contact problem per time step.
 
 This module does not use the correspondence with the elastic problem. As in the module `events`, the impulse ∫F dt/η
-takes the place of the time. For a given contact set, the ratio of velocity and force does not depend on the force.
-Therefore steps of the impulse are valid for every force F(t) ≥ 0.
+replaces the time. For a given contact set, the ratio of velocity and force does not depend on the force. Therefore
+steps of the impulse are valid for every force F(t) ≥ 0.
 
-The explicit schemes keep the contact set during a step, so that elements that should come into contact in this step
-overlap the surface. The implicit scheme requires a contact without overlap at the end of the step.
+The explicit schemes keep the contact set during a step. So elements that should come into contact in this step overlap
+the surface at its end. The implicit scheme requires a contact without overlap at the end of the step.
 """
 
 import warnings
@@ -27,13 +27,14 @@ from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.elements import elements_of_map
 
-# Ratio of overlap and depth above which a warning is given. The relative error of the depth is about as large as this
-# ratio.
+# If the ratio of overlap and depth exceeds this number, a warning is given. The relative error of the depth is about as
+# large as this ratio.
 _WARN_OVERLAP = 0.01
-# Largest depth of explicit steps, as a share of the largest floating-point number of the precision of their fields.
+# Largest depth that the explicit schemes allow, as a share of the largest floating-point number in the precision of
+# their arrays.
 _LARGEST_SHARE = 1e-8
-# Newton's method for the depth of an implicit step ends when the relative error of the impulse is below this multiple
-# of the tolerance of the contact problem. The second number is the largest number of iterations.
+# Newton's method finds the depth of an implicit step. It ends when the relative error of the impulse is at most
+# _IMPULSE_ACCURACY times the tolerance of the contact problem, or after _MAX_NEWTON_ITERATIONS iterations.
 _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 0.1, 50
 
 
@@ -79,15 +80,14 @@ def march_steps(
     derivative with respect to the impulse. There are three schemes:
 
     - "explicit" (forward Euler) advances with u′ = 1/(4π d Σq) and w′ = u′ K q, where K q = 1 on the elements that
-    touch
-      or overlap the surface at the start of the step. Its error is of first order in the steps.
-    - "heun" advances with the mean of the velocities at the start of the step and at its end, as predicted by an
+      touch or overlap the surface at the start of the step. Its error is of first order in the steps.
+    - "heun" advances with the mean of two velocities: at the start of the step, and at its end as predicted by an
       explicit step. With equal steps it is more accurate than "explicit" (measured: `make speed`,
       results/tables/methods.csv). Its error is of first order, too, since the velocity jumps at contact events within a
       step.
-    - "implicit" (backward Euler) solves, in every step, the contact problem of the surface in its current shape with
-      the gaps e: ΔP ≥ 0 and e + KΔP − Δu ≥ 0, of which at least one is zero at every element, where 4π d ΣΔP is the
-      impulse of the step. This is exact for steps of any size, because the contact only grows.
+    - "implicit" (backward Euler) solves a contact problem in every step, for the surface in its current shape with the
+      gaps e: ΔP ≥ 0, e + KΔP − Δu ≥ 0, and ΔP (e + KΔP − Δu) = 0 at every element, where 4π d ΣΔP is the impulse of the
+      step. This is exact for steps of any size, because the contact only grows.
 
     Parameters
     ----------
@@ -156,12 +156,14 @@ def march_steps(
 class _Explicit:
     """State of surface and indenter in the explicit scheme.
 
-    Impulses are divided by 4π d. Fields are flat arrays on the grid, like the fields of GridSolver.
+    Impulses are divided by 4π d, with elements of side d. Fields such as the gap are flat arrays on the grid, as in
+    GridSolver.
     """
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
         elements = elements_of_map(indenter, "time steps")
-        # The relative error of Σq is about the square of the relative error of q.
+        # Pass the square of the tolerance, so that q is accurate to the tolerance itself. GridSolver needs only an
+        # accurate Σq, whose relative error is about the square of the relative error of q.
         self._grid = GridSolver((0, 0, *elements.shape), elements, tolerance**2, DEFAULT)
         self._tolerance = tolerance
         # The gap stays infinite at grid points without an element.
@@ -174,7 +176,7 @@ class _Explicit:
         self._solve_flat_punch()
 
     def step(self, impulse: float) -> None:
-        """Advance by one step of the given impulse."""
+        """Advance by one step of the given impulse/(4π d)."""
         depth_step = impulse / self.resistance
         self._check_depth(self.depth + depth_step)
         self._gap += depth_step * self._tangent_gap
@@ -204,8 +206,8 @@ class _Explicit:
     def _solve_flat_punch(self) -> None:
         """Compute q, K q − 1 and Σq, where K q = 1 on the contact set, and store them.
 
-        q is the pressure of a flat punch of the shape of the contact set. It cannot be negative at any element, so
-        ConvergenceError is raised if it is.
+        q is the pressure of a flat punch of the shape of the contact set. Raises ConvergenceError if q is negative at
+        an element, which is impossible for the exact q.
         """
         self.resistance = self._grid.solve_flat_punch(self._inside, self._tangent, self._tangent_gap)
         if self._tangent.min() < -self._tolerance * self._tangent.max():
@@ -213,13 +215,14 @@ class _Explicit:
 
 
 class _Heun(_Explicit):
-    """State in Heun's scheme, which advances with the mean of the velocities at both ends of a step.
+    """State of surface and indenter in Heun's scheme.
 
-    The velocity at the end of the step is predicted by an explicit step.
+    The scheme advances with the mean of the velocities at both ends of a step. An explicit step predicts the velocity
+    at the end of the step.
     """
 
     def step(self, impulse: float) -> None:
-        """Advance by one step of the given impulse."""
+        """Advance by one step of the given impulse/(4π d)."""
         self._check_depth(self.depth + impulse / self.resistance)
         start_velocity, start_gap = 1 / self.resistance, self._tangent_gap / self.resistance
         predicted = self._inside | (self._gap + impulse * start_gap <= 0)
@@ -232,7 +235,8 @@ class _Heun(_Explicit):
         self.depth += 0.5 * impulse * (start_velocity + 1 / self.resistance)
         self._gap += 0.5 * impulse * (start_gap + self._tangent_gap / self.resistance)
         touching = inside | (self._gap <= 0)
-        if np.any(predicted & ~touching):  # q is not zero at predicted elements that do not touch: restore the old q
+        # q is not zero at the predicted elements, but some do not touch: restore the old q
+        if np.any(predicted & ~touching):
             self._tangent, self._tangent_gap, self.resistance = start
         if not np.array_equal(touching, predicted):
             self._inside = touching
@@ -240,7 +244,7 @@ class _Heun(_Explicit):
 
 
 class _Implicit:
-    """State of surface and indenter in the implicit scheme; impulses are divided by 4π d."""
+    """State of surface and indenter in the implicit scheme; impulses are divided by 4π d, with elements of side d."""
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
         self._gap, self._tolerance = indenter.initial_gap, tolerance
@@ -248,7 +252,7 @@ class _Implicit:
         self.depth, self.resistance, self.count, self.overlap = 0.0, 0.0, 0, 0.0
 
     def step(self, impulse: float) -> None:
-        """Advance by one step of the given impulse. The change of depth in the step is found by Newton's method."""
+        """Advance by one step of the given impulse/(4π d). Newton's method finds the change of depth in the step."""
         solver = ContactSolver(Indenter(-self._gap, *self._spacings), self._tolerance)
         depth_step = impulse / (self.resistance or 1.0)
         for _ in range(_MAX_NEWTON_ITERATIONS):

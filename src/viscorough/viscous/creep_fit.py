@@ -4,23 +4,23 @@ While the contact grows, the elastic force F_el at the measured depth u equals t
 
     F_el(u(t))/G = Φ(t) = ∫₀ᵗ J(t − s) dF(s).
 
-After a step of the force to F, Φ = F J(t). For any other force, this is a Volterra equation of the first kind for the
-creep compliance J. Two families of J are fitted to the depth by least squares:
+After a step of the force from 0 to F, Φ = F J(t). For any other force, this is a Volterra equation of the first kind
+for the creep compliance J. Two families of J are fitted to the depth by least squares:
 
 1. Media of springs and dashpots: J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with unknown amounts J₀, φ, J_j ≥ 0. The grid
    of retardation times θ_j is refined around the times with J_j > 0. Few amounts of the best fit are positive, so that
    its residuals show the scatter of the record.
-2. All J that are concave and do not decrease; every medium that relaxes has such a J. The fit uses J = J₀ + Σ c_k
-   min(t, τ_k), with times τ_k (knots) and unknown amounts J₀, c_k ≥ 0. The creep response of min(t, τ) is I(t) − I(t −
-   τ), with the impulse I(t) = ∫₀ᵗ F dt. This family can pass through every row of a short or precise record, so its
-   residuals do not show the scatter.
+2. All J that are concave and do not decrease; every medium that relaxes has such a J. The fit uses
+   J = J₀ + Σ c_k min(t, τ_k), with times τ_k (knots) and unknown amounts J₀, c_k ≥ 0. The creep response of min(t, τ)
+   is I(t) − I(t − τ), with the impulse I(t) = ∫₀ᵗ F dt. This family can pass through every row of a short or precise
+   record, so its residuals do not show the scatter.
 
-The confidence intervals of J contain the J of the second family, and of all J that do not decrease, that fit the record
-well enough (`_Record.intervals`). They use the scatter of the first fit, or the scatter that the user stated.
+The confidence intervals of J contain every J that fits the record well enough: in the second family, and among all J
+that do not decrease (`_Record.intervals`). They use the scatter of the first fit, or the scatter that the user stated.
 
-A J of the second family is straight between the knots, which alone would shift the fit. A correction removes this
-shift. It is computed for the J of the first fit: its creep response minus the response of the straight lines that
-connect its values at the knots. The correction is added to the creep response of the second family.
+Straight lines between the knots alone would shift the fit of the second family. Therefore a correction is added to its
+creep response. The correction follows from the J that was fitted in the first family: it is the creep response of this
+J, minus the response of the straight lines between its values at the knots.
 """
 
 import numpy as np
@@ -158,7 +158,7 @@ def knots_of(load: Load, lags: Array) -> Array:
     lags : times of the rows, measured from the start of the load
     """
     knots = lags[lags > 0]
-    if load.values[0] == 0:  # under a ramp, the first row depends on J at earlier times, too
+    if load.values[0] == 0:  # after a ramp, the first row depends on J at earlier times, too
         return np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
     if knots.size > _KNOTS:  # keep times with about equal ratios
         spread = np.geomspace(knots[0], knots[-1], _KNOTS)
@@ -186,7 +186,7 @@ class _Record:
 
     def __init__(self, curve: LoadingCurve, depth: Array, signed: Array) -> None:
         self.curve, self.depth, self.signed = curve, depth, signed
-        self.creep, self.stiffness = elastic_force(curve, depth)  # F/G and k/G at the measured depth
+        self.creep, self.stiffness = elastic_force(curve, depth)  # F/G and k/G of the curve at the measured depths
 
     def fit(self, responses: Array, bend: Array | float = 0.0) -> tuple[Array, Array]:
         """Fit the amounts, and offset and drift, to the depth by the Gauss-Newton method.
@@ -260,7 +260,10 @@ class _Record:
         return low, high
 
     def shift(self, creep: Array) -> Array:
-        """Return the offset and drift that fit the measured depth best for a given creep response at the rows."""
+        """Return the offset and drift that fit the measured depth best for a given creep response.
+
+        creep : creep response at the rows of the record
+        """
         return np.linalg.lstsq(self.signed, self.depth - self._elastic(creep)[0])[0]
 
     def residual(self, creep: Array) -> Array:
@@ -314,8 +317,8 @@ def prony_series(instantaneous: float, fluidity: float, strengths: Array, times:
     strengths, times : J_j ≥ 0 and θ_j, shape (elements,)
 
     The conversion is exact. Let D = diag(0, ρ_j), and let b be the vector whose squared entries are φ and J_j ρ_j. The
-    relaxation rates are the eigenvalues λ of D + b bᵀ/J₀. With the eigenvectors q of norm 1, the moduli are (b·q)²/(λ
-    J₀²).
+    relaxation rates are the eigenvalues λ of D + b bᵀ/J₀. With the eigenvectors q of norm 1, the moduli are
+    (b·q)²/(λ J₀²).
     """
     kept = strengths > 0
     strengths, rates = strengths[kept], 1 / times[kept]

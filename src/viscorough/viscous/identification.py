@@ -32,10 +32,10 @@ from viscorough.viscous.record_fit import ROUNDING, RecordFit, Shift
 from viscorough.viscous.relaxation_fit import fit_force
 
 KINDS = ("table", "prony", "springpot")
-# A depth counts as decreasing if the mean of a few neighbouring rows lies below an earlier mean by more than 3 + √(2 ln
-# n) standard deviations of the difference, where n is the number of means. A standard deviation that is estimated from
-# the record is multiplied by 1 + 13/(rows - 4), because few rows do not determine it well. Among records that consist
-# of noise without creep, about one in ten thousand exceeds this limit.
+# A depth counts as decreasing if the mean of a few neighbouring rows lies below an earlier mean by more than
+# 3 + √(2 ln n) standard deviations of the difference, where n is the number of means. A standard deviation that is
+# estimated from the record is multiplied by 1 + 13/(rows - 4), because few rows do not determine it well. Among records
+# that consist of noise without creep, about one in ten thousand exceeds this limit.
 _LARGEST_DROP, _LARGER_FOR_FEW_ROWS = 3.0, 13.0
 # The curve before its first computed point is taken to be straight if the depth of this point is at most this share of
 # the largest depth.
@@ -253,7 +253,7 @@ def _checked_scatter(scatter: float | str | None, value_unit: str, unit: str) ->
 def _check_misfit(fit: RecordFit, measured: Array, factor: float) -> None:
     """Warn if the misfit of the medium is larger than the scatter explains.
 
-    factor : factor that converts numbers of the fit to the unit of the user's values, for the message
+    factor : factor that converts numbers of the fit to the unit of the user's values, for the text of the warning
     """
     size, values = np.abs(measured).max(), measured.size
     largest = _SMALL_MISFIT * size
@@ -295,7 +295,7 @@ def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
 def _check_first_level(curve: LoadingCurve, times: Array, depth: Array) -> None:
     """Raise ValueError if a depth lies before the first computed point of a curve that is not straight there.
 
-    The curve is taken to be straight there if the point lies at a tiny share of the largest depth.
+    The curve is taken to be straight there if the depth of the point is a tiny share of the largest depth.
     """
     undetermined = np.isnan(curve.at_force(curve.force[0] / 2)[0]) and curve.depth[0] > _FIRST_LEVEL * depth.max()
     if undetermined and (before := (depth < curve.depth[0]) & (depth != 0)).any():

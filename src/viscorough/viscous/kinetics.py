@@ -55,13 +55,12 @@ _SPREAD, _EARLY = 100, 1e-3
 # the shortest interval between two turns of the history (changes of its slope).
 _SHORTEST = 1e-6
 # Two slopes of a history count as equal if their relative difference is at most _SAME_SLOPE. If a sample follows a turn
-# of the history after a time t, the shortest interval between turns counts as at most _CLOSE · t.
+# of the history after a time t, `_shortest_interval` returns at most _CLOSE · t.
 _SAME_SLOPE, _CLOSE = 1e-6, 10.0
 # A motion that depends on the unknown curve before its first level gives a warning if the force at this level is more
 # than this share of the largest elastic force.
 _UNKNOWN_SHARE = 1e-2
-# The row is made to have exactly the force of the curve at depths where the history turns, but at most at this number
-# of depths.
+# Largest number of depths, where the history turns, at which the row is made to have exactly the force of the curve.
 _MOST_TURNS = 200
 
 
@@ -90,8 +89,8 @@ def kinetics(
         negative depth lifts the indenter above the plane of first contact.
     medium : Medium or float or str
         Medium, such as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian medium. If the curve's unit of length
-        is known, numbers are in Pa, s and Pa s, and a text such as "2 kPa s" is allowed. Otherwise units must be such
-        that F·t/η, or F divided by a modulus, is a length².
+        is known, moduli, times and viscosities are in Pa, s and Pa s, and a text such as "2 kPa s" is allowed.
+        Otherwise units must be such that F·t/η, or F divided by a modulus, is a length².
     times : array_like, optional
         Increasing times of the output, in s or with a unit; 0 or later for a constant load. The default for a Load is
         the times of its samples. The default for a constant force is a hundred times with equal ratios, while the creep
@@ -271,7 +270,7 @@ def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any
 
 
 def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, times: Any) -> tuple[Load, Array]:
-    """Return the load in consistent units if it is a constant from time 0 on, and the output times.
+    """Return a constant load from time 0 on as a Load in consistent units, and the output times.
 
     name, value : "force" or "depth", and the value of the constant
     times : output times, or None for the default times
@@ -347,7 +346,8 @@ def _shortest_interval(load: Load) -> float:
     """
     time, values = load.time, load.values
     lengths = np.diff(time)
-    slopes = np.divide(np.diff(values), lengths, out=np.full(lengths.size, np.nan), where=lengths > 0)  # nan at steps
+    # The slope is nan at a step of the load.
+    slopes = np.divide(np.diff(values), lengths, out=np.full(lengths.size, np.nan), where=lengths > 0)
     differ = ~(np.abs(np.diff(slopes)) <= _SAME_SLOPE * np.maximum(np.abs(slopes[1:]), np.abs(slopes[:-1])))
     turns = np.concatenate([[True], differ, [True]])
     latest = time[np.maximum.accumulate(np.where(turns, np.arange(time.size), 0))]
@@ -356,7 +356,7 @@ def _shortest_interval(load: Load) -> float:
 
 
 def _check_depths(curve: LoadingCurve, depths: Array) -> None:
-    """Raise ValueError if a depth lies beyond the end of a curve that does not end with complete contact."""
+    """Raise ValueError if a depth exceeds the last depth of a curve that ends before complete contact."""
     last = curve.depth[-1]
     if depths.max() > last * (1 + ROUNDING) and curve.contact_count[-1] < curve.elements:
         raise ValueError(
@@ -366,7 +366,7 @@ def _check_depths(curve: LoadingCurve, depths: Array) -> None:
 
 
 def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Array) -> None:
-    """Raise ValueError if the creep response exceeds the end of a curve that does not end with complete contact."""
+    """Raise ValueError if the creep response exceeds the last force of a curve that ends before complete contact."""
     beyond = ~(creep <= curve.force[-1] * (1 + ROUNDING))
     if beyond.any() and np.isfinite(row.limit):
         where, enough = int(np.argmax(beyond)), 1.01 * creep[np.isfinite(creep)].max()

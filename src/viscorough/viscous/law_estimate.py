@@ -1,8 +1,8 @@
 """Estimate depth and velocity of a rough indenter from the calibrated penetration law, without a simulation.
 
-In a medium with creep compliance J(t), a constant force F causes at time t the depth of an elastic contact whose force
-divided by the modulus G is F·J(t) (viscous.kinetics). With the rms height h, the diameter L, and the reduced force X =
-F·J(t)/(4hL), depth and velocity are
+In a medium with creep compliance J(t), the depth at time t under a constant force F is the depth of an elastic contact
+under the same force in a medium of modulus 1/J(t) (viscous.kinetics). With the rms height h, the diameter L, and the
+reduced force X = F·J(t)/(4hL), depth and velocity are
 
     u = h·D(X),    v = h·(J'(t)/J(t))·V(X).
 
@@ -46,6 +46,7 @@ def estimate(
     Returns
     -------
     Estimate
+        Depth and velocity at `times`, with intervals; nan at times at which the law does not hold.
 
     Raises
     ------

@@ -1,8 +1,8 @@
 """Least squares with non-negative unknowns, and extreme values of linear functions of these unknowns near the best fit.
 
 The best fit is the x ≥ 0 that minimises ‖A x − b‖². An x ≥ 0 is near the best fit if ‖A x − b‖² exceeds its minimum by
-at most distance². Among these x, a linear function r·x is largest (λ > 0) or smallest (λ < 0) at the minimiser of ½ ‖A
-x − b‖² − λ r·x. The multiplier λ is adjusted until the excess of ‖A x − b‖² equals distance². An active-set method
+at most distance². Among these x, a linear function r·x is largest (λ > 0) or smallest (λ < 0) at the minimiser of
+½ ‖A x − b‖² − λ r·x. The multiplier λ is adjusted until the excess of ‖A x − b‖² equals distance². An active-set method
 finds the minimiser for each λ (Lawson and Hanson 1974). It starts from the unknowns that were positive for the previous
 λ, because few of them change.
 
@@ -87,7 +87,8 @@ def extremes(
     columns, target = np.ascontiguousarray(reduced[:, :-1].T), np.ascontiguousarray(reduced[:, -1])
     best = nnls(columns.T, target, maxiter=30 * columns.shape[0])[0]
     functions = np.ascontiguousarray(functions / scale)
-    # First guess of λ: distance/‖y‖, with the shortest y that satisfies Aᵀ y = r. It is exact if no unknown is bounded.
+    # First guess of λ for a function r·x: distance/‖y‖, with the shortest y that satisfies Aᵀ y = r. This λ is exact if
+    # no unknown is bounded.
     multiplier = distance / np.linalg.norm(np.linalg.lstsq(columns, functions.T, rcond=1e-10)[0], axis=0)
     shift = np.append(np.zeros(given), bounds)
     low, high = (
@@ -174,9 +175,9 @@ def _minimise(columns, target, tilt, x):
 
 @njit(inner=True)
 def _unbounded(columns, target, tilt, members):
-    """Minimise ½ ‖A x − b‖² − tilt·x if only the unknowns `members` are not 0, and if they may have any sign.
+    """Return the values of the unknowns `members` that minimise ½ ‖A x − b‖² − tilt·x if all other unknowns are 0.
 
-    Return the values of these unknowns. The modified Gram-Schmidt method gives A = Q R for their columns.
+    The values may have any sign. The modified Gram-Schmidt method factorises the columns of these unknowns, A = Q R.
     """
     count = members.size
     basis, triangle = np.empty((count, target.size)), np.zeros((count, count))

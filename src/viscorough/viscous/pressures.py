@@ -38,12 +38,12 @@ from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.kinetics import row_motion
 
-# An interval between two elastic contacts is short if its relative increase of the force is at most _SHORT times the
-# tolerance of the contacts. A tolerance below _FINEST counts as _FINEST. In a short interval, the difference of the two
-# pressures would consist of their errors.
+# An interval between two elastic contacts is short if the relative increase of the force in the interval is at most
+# _SHORT times the tolerance of the contacts. A tolerance below _FINEST counts as _FINEST. In a short interval, the
+# difference of the two pressures would consist of their errors.
 _SHORT, _FINEST = 10.0, 1e-6
 # The loading curve is computed up to this multiple of the largest elastic force of the history. The motion by steps in
-# time (viscous.unilateral_sums) exceeds the largest force while its steps are still long.
+# time (viscous.unilateral_sums) exceeds the largest force as long as its steps are coarse.
 _BEYOND = 1.1
 # The state just after a time is computed slightly later. The delay is this share of the time since the start of the
 # load.

@@ -43,12 +43,12 @@ _ITERATIONS, _HALVINGS = 12, 6
 _STALLED = 1e-3
 # The refined grid of retardation times has this number of steps in one step of the first grid.
 _FINER = 4
-# Largest number of springs in the row. Neighbouring springs are merged.
+# Neighbouring springs of the row are merged until there are at most this number of springs.
 _SPRINGS = 1000
 # Smallest J₀, and smallest φ multiplied by the duration of the load, as shares of J at the end of the load. Both must
 # be above 0, because the motion needs the relaxation spectrum of the medium.
 _LEAST_SPRING, _LEAST_DASHPOT = 1e-6, 1e-7
-# A difference quotient changes one amount so that J at the end of the load changes by this share.
+# For a difference quotient, one amount is increased so that J at the end of the load grows by this share.
 _STEP = 1e-4
 
 
@@ -228,8 +228,8 @@ def _springpot(
 ) -> tuple[Springpot, Array]:
     """Return the springpot that fits the depth best, and the residuals of the depth.
 
-    time, compliance : times, and creep compliance J at these times of a fitted medium of springs and dashpots. The
-        first guess of the springpot is a power law that fits this J
+    time, compliance : creep compliance J at several times, from a fit of springs and dashpots. The first guess of the
+        springpot is a power law through this J
     """
     from scipy.optimize import least_squares  # this import takes long
     from scipy.special import gamma

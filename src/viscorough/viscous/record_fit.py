@@ -25,9 +25,8 @@ ROUNDING = 1e-9
 # fits, a record with a smaller scatter counts as exact.
 RESOLUTION = 5e-5
 # In a non-negative least-squares fit, each positive unknown reduces the number of degrees of freedom by _PER_AMOUNT.
-# The expected sum of squares corresponds to a number between 1 and 2 (Meyer and Woodroofe 2000). With 1.5 the
-# confidence intervals are not too narrow. If fewer than _LEAST_FREEDOM degrees of freedom are left, the scatter is not
-# determined.
+# The expected sum of squares corresponds to a value between 1 and 2 (Meyer and Woodroofe 2000); with 1.5 the confidence
+# intervals are not too narrow. If fewer than _LEAST_FREEDOM degrees of freedom are left, the scatter is not determined.
 _PER_AMOUNT, _LEAST_FREEDOM = 1.5, 2
 # Confidence level of all intervals.
 _LEVEL = 0.95
@@ -119,7 +118,8 @@ def distance_of(scatter: float, freedom: float, unknowns: int = 1) -> float:
     interval contains the value if the sum of squared residuals exceeds its minimum by at most distance².
 
     scatter, freedom : standard deviation of the record, and its number of degrees of freedom
-    unknowns : number of unknowns of the joint confidence region from which the interval follows; 1 for a single unknown
+    unknowns : number of unknowns of the joint confidence region whose extent is the interval; 1 for an interval of a
+        single unknown
     """
     return scatter * np.sqrt(unknowns * fdtri(unknowns, min(freedom, _MANY), _LEVEL))
 
@@ -129,8 +129,7 @@ def damped_step(
 ) -> tuple[Array, float, Any] | None:
     """Take a step of the Gauss-Newton method from `last` towards `aim`, and halve it until the fit is not worse.
 
-    Return the new unknowns, their sum of squared residuals, and their further results. Return None if all trial steps
-    make the fit worse.
+    Return the new unknowns, and the results of `evaluate` for them. Return None if all trial steps make the fit worse.
 
     evaluate : function of the unknowns that returns the sum of squared residuals and further results
     last, aim : unknowns before the step, and after a full step
@@ -149,7 +148,7 @@ def limit_early_times(low: Array, high: Array, time: Array, first: float) -> Non
     """Widen, in place, the intervals of J at times before the first row of the record that depends on J.
 
     At these times the record shows only that J does not decrease. So the lower ends become 0, and the upper ends become
-    the upper end at the time of this row.
+    equal to the upper end at the time of the first row that depends on J.
 
     low, high : ends of the intervals of J at the times `time`
     first : time of the first row that depends on J
@@ -176,5 +175,6 @@ def finer_times(found: Array, times: Array, finer: int = 10) -> Array:
     """
     step = np.log(times[-1] / times[-2])
     near = np.arange(-finer, finer + 1) / finer * step
-    # Neighbouring times give the same points except for rounding. Rounding the logarithms makes these points equal.
+    # Neighbouring times of `found` give some points twice, with different rounding errors. Round the logarithms to make
+    # these points equal.
     return np.exp(np.unique(np.round(np.add.outer(np.log(found), near), 9)))

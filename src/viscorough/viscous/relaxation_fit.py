@@ -1,8 +1,8 @@
 """Fit of a medium to the measured force on an indenter whose depth is known.
 
 The loading curve is replaced by an equivalent row of springs (viscous.springs). Let spring i have the stiffness k_i and
-touch at time t_i, and let the first n springs be in contact at time t. In a medium with the relaxation modulus ψ(t) =
-G∞ + Σ G_j exp(−t/τ_j) the force is
+touch at time t_i, and let the first n springs be in contact at time t. In a medium with the relaxation modulus
+ψ(t) = G∞ + Σ G_j exp(−t/τ_j) the force is
 
     F(t) = Σ_{i<n} k_i ∫_{t_i}^t ψ(t − s) du(s).
 
@@ -55,7 +55,7 @@ from viscorough.viscous.unilateral import law_of, move_row
 # share _STALLED, or if the root mean square of the residuals is below the share _EXACT of the largest force.
 _ITERATIONS, _STALLED, _EXACT = 8, 1e-2, 1e-10
 # Largest number of springs in the row, without and with a fit of the offset. With 5000 springs the relative error of
-# the force is 1e-5, and the relative error of its derivative is 1e-3.
+# the force is 1e-5, and the relative error of its derivative with respect to the depth is 1e-3.
 _SPRINGS, _FEWER_SPRINGS = 5000, 2000
 # Relaxation times of the branches that represent a parallel dashpot, divided by the time of the first row of the
 # record.
@@ -69,16 +69,16 @@ _KNOTS, _EARLIER = 120, 64
 _DRIFT_STEP = 2e-3
 # The first fits are made at these offsets of the depth, given as shares of the largest depth.
 _OFFSETS = np.linspace(-0.1, 0.1, 21)
-# New fits are then made at _FINER_OFFSETS offsets that just cover the confidence interval of the offset. This is
-# repeated until at least _RESOLVED of the offsets lie within the interval, but at most _REPLACEMENTS times are the
-# offsets replaced.
+# After the first fits, new fits are made at _FINER_OFFSETS offsets that just cover the confidence interval of the
+# offset. This is repeated, up to _REPLACEMENTS times in all, until at least _RESOLVED of the offsets lie within the
+# interval.
 _FINER_OFFSETS, _REPLACEMENTS, _RESOLVED = 15, 4, 5
 # If the offset is fitted, the refined grid of relaxation times has this number of steps in one step of the first grid.
 _FINER = 4
 # Number of bisections to find each end of the confidence interval of the offset.
 _BISECTIONS = 5
-# The confidence intervals of ψ are computed from the fits at up to this number of offsets within the interval of the
-# offset.
+# At most this number of fits, with offsets within the confidence interval of the offset, is used to compute the
+# confidence intervals of ψ.
 _INSIDE = 12
 # Largest number of trial steps in a Gauss-Newton iteration. If a step increases the sum of squares, the next trial step
 # has half the length.
@@ -254,8 +254,8 @@ def _intervals(
         target = record.force - fit.force + fit.columns @ fit.amounts + fit.signed @ fit.drift
         left = np.sqrt(distance**2 - (record.squares(fit) - squares.min()))
         low, high = extremes(fit.columns, target, values, left, fit.signed)
-        # Include the values of the fit itself. At an end of the interval of the offset, they are the only values that
-        # fit.
+        # Include the values of the fit itself. At an end of the interval of the offset, the interval contains no other
+        # values.
         lows.append(np.minimum(low, np.append(values @ fit.amounts, fit.drift)))
         highs.append(np.maximum(high, np.append(values @ fit.amounts, fit.drift)))
     low, high = np.min(lows, axis=0), np.max(highs, axis=0)
@@ -370,7 +370,7 @@ class _ForceRecord:
         return float(((self.force - fit.force) ** 2).sum())
 
     def _linearised(self, times: Array, amounts: Array, offset: float, drift: Array) -> _Fit:
-        """Return a _Fit with the force that these unknowns give at the rows of the record, and with its derivatives."""
+        """Return a _Fit: force at the rows of the record, and its derivatives with respect to amounts and drift."""
         path, force, in_contact = self._force(times, amounts, offset, drift)
         columns = self._columns(path, times, in_contact)
         signed = np.empty((force.size, drift.size))
@@ -420,8 +420,8 @@ class _ForceRecord:
     def _columns(self, path: _Path, times: Array, in_contact: Integers) -> Array:
         """Return the forces in media that consist of one spring, or of one branch, of modulus 1.
 
-        The shape is (rows, 1 + times), with a row for each row of the record. The first column is the force of the
-        spring; then follows a branch for each relaxation time.
+        The shape is (rows, 1 + times), with a row for each row of the record. The first column is for the spring, and
+        each further column is for a branch with one of the relaxation times.
 
         in_contact : number of springs in contact at each row of the record
         """

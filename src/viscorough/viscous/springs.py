@@ -181,7 +181,7 @@ def _below_all(depth, force):
     count = 0
     for i in range(depth.size):
         if i > 0 and depth[i] <= depth[corners[count - 1]]:
-            continue  # within rounding, this point has the depth of the last corner
+            continue  # this point has the same depth as the last corner, within rounding
         while count > 1:
             a, b = corners[count - 2], corners[count - 1]
             before = (force[b] - force[a]) / (depth[b] - depth[a])

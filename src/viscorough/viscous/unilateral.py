@@ -22,8 +22,8 @@ event to event:
 
        u' ΣW = J₀ F' + φ₀ F + Σ_j J_j λ_j R_j,    Σ_i W_i w_ib = φ₀ τ_b F + Σ_j J_j λ_j/(r_b − λ_j) R_j.
 
-3. A spring that is released at deflection y recovers: y(t) = y + Σ_j J_j ρ_j (1 − exp(−λ_j t)). The remainders ρ_j =
-   Σ_b G_b r_b/(r_b − λ_j) w_b are the R_j of this spring alone, divided by W_i. They decay by exp(−λ_j t), and are
+3. A spring that is released at deflection y recovers: y(t) = y + Σ_j J_j ρ_j (1 − exp(−λ_j t)). Its remainders are
+   ρ_j = Σ_b G_b r_b/(r_b − λ_j) w_b: the R_j of this spring alone, divided by W_i. They decay by exp(−λ_j t), and are
    evaluated only when this spring can touch next.
 4. The force of the last spring in contact is a sum of exponentials and a parabola in time, and so is the overlap of the
    indenter with the first free spring. The first time when such a function becomes positive is bracketed by bounds of
@@ -46,8 +46,8 @@ from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 # Rounding error of a force or an overlap, relative to the size of its terms. A spring is released only if its tension
 # exceeds this error, and touches only if its overlap does.
 _ROUNDING = 1e-14
-# The time of an event is a zero of a function f. Newton's method ends when |f| is at most this multiple of its rounding
-# error.
+# The time of an event is a zero of a function f. Newton's method ends when |f| is at most this multiple of the rounding
+# error of f.
 _CLOSE = 0.2
 # An event counts as simultaneous with the sample before it if it follows within this share of the time of the sample.
 # In the first interval between samples, this is a share of the length of the interval.
@@ -177,8 +177,8 @@ def law_of(relaxation: RelaxationSpectrum, retardation: RetardationSpectrum) -> 
         remainders, branches = np.zeros((decays.size, 0)), np.zeros((0, decays.size))
     else:
         apart = rates - decays[:, None]
-        # If a relaxation rate equals a retardation rate within rounding, the modulus of the branch is negligible. Its
-        # coefficients are set to 0.
+        # If a relaxation rate equals a retardation rate within rounding, the modulus of the branch is negligible, and
+        # its coefficients are set to 0.
         inverse = np.divide(1.0, apart, out=np.zeros_like(apart), where=apart != 0)
         remainders, branches = relaxation.moduli * rates * inverse, np.ascontiguousarray((flows[:, None] * inverse).T)
     return Law(
@@ -229,8 +229,8 @@ def _second_mean(x):
 def _evaluate(s, value, slope, bend, first, second, rates):
     """Return f(s), f'(s), and upper bounds of f'' and −f'' that hold at all later times.
 
-    f(s) = value + slope s + bend s² + Σ_k ∫x_k ds from 0 to s, where x_k' = second_k − rates_k x_k and x_k(0) =
-    first_k.
+    f(s) = value + slope s + bend s² + Σ_k ∫x_k ds, where each x_k satisfies x_k' = second_k − rates_k x_k and x_k(0) =
+    first_k. The integral starts at 0.
     """
     f, rate = value + s * (slope + s * bend), slope + 2 * bend * s
     up, down = max(2 * bend, 0.0), max(-2 * bend, 0.0)
@@ -271,7 +271,7 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
         h = b - a
         curved = 0.5 * up * h * h
         # In the interval from a to b, of length h, f has three upper bounds: a parabola through each end, and the chord
-        # plus max(−f'') h²/8. If one of them is not positive in the interval, there is no event.
+        # plus max(−f'') h²/8. If one of them is nowhere positive, there is no event in the interval.
         if (
             max(fa, fa + da * h + curved) <= 0
             or max(fb, fb - db * h + curved) <= 0
@@ -326,8 +326,8 @@ def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
 def _release(row, law, state, t, u, force, rate, count, by_depth, first):
     """Return value, slope and rounding error of −φ, the tension of the last spring in contact.
 
-    The spring is released when −φ becomes positive; `_first_crossing` finds this time. Its further arguments are the
-    amplitudes `first` of the exponentials in −φ, which are set here in place.
+    The spring is released when −φ becomes positive. To find this time, `_first_crossing` also needs the amplitudes of
+    the exponentials in −φ; they are written to `first`.
     """
     top, gap = count - 1, row.gaps[count - 1]
     since = t - state.joined[top]
@@ -380,7 +380,10 @@ def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
 
 @njit(inner=True)
 def _let_go(row, law, state, t, u, count):
-    """Release the last of `count` springs in contact, store its state, and return the number of springs that stay."""
+    """Release the last of `count` springs in contact and store its state.
+
+    Return the new number of springs in contact.
+    """
     top = count - 1
     if np.isnan(state.receding[0]):
         state.receding[0] = t
@@ -470,9 +473,9 @@ def _balanced(row, law, state, t, u, force, count):
 def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
     """Return force and velocity at time t.
 
-    Under a prescribed force, `remainders` is set to the R_j in place, except in a medium with a parallel dashpot. The
-    R_j of this medium is advanced from event to event instead: computed from u and F, it would lose all digits when
-    creep has almost ended.
+    Under a prescribed force, `remainders` is set to the R_j in place. In a medium with a parallel dashpot, it keeps the
+    value that was advanced from event to event. Computed from u and F, this value would lose all digits when creep has
+    almost ended.
     """
     stiffness = row.stiffness[count]
     if by_depth:
@@ -638,8 +641,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 _remainders_in_contact(row, law, state, t, u, f, count, remainders)
         else:
             rate, f = (load[k] - before) / length, before
-            # `passed` is the time since the start of the interval. It resolves the time of an event soon after the
-            # start, which t would not resolve.
+            # `passed` is the time since the start of the interval. Soon after the start it distinguishes times that are
+            # equal in t within rounding.
             passed, started, events, at, pauses = 0.0, False, 0, 0.0, 0
             while True:
                 now, speed = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
@@ -669,9 +672,9 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     started = True
                     velocity[k - 1] = speed
                     # Replace force and contact at the last sample by their values just after it. Under a prescribed
-                    # depth this is right only in media with a parallel dashpot, whose force jumps with the velocity. In
-                    # other media, the fast branches that replace a springpot release springs soon after the sample, but
-                    # not at the sample.
+                    # depth this is done only in media with a parallel dashpot, whose force jumps with the velocity. In
+                    # other media the fast branches that replace a springpot may release springs soon after the sample,
+                    # although not at the sample.
                     if law.viscosity > 0 or not by_depth:
                         force[k - 1], in_contact[k - 1] = now, count
                         largest[k - 1] = count >= state.most[0]

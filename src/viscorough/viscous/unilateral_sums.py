@@ -28,7 +28,7 @@ _TOLERANCE = 1e-4
 # Largest numbers of steps and of springs. The cost is steps² × springs.
 _MOST_STEPS, _MOST_SPRINGS = 3000, 400
 # To check that J is concave, the time is divided into _LAGS equal intervals. The rise of J in an interval may exceed
-# the rise in the interval before it only by rounding: by the share _BEND of the largest rise.
+# the rise in the interval before it by at most the share _BEND of the largest rise, which allows for rounding.
 _LAGS, _BEND = 256, 1e-9
 # An overlap of indenter and spring below this share of the depth does not count as contact.
 _ROUNDING = 1e-13
@@ -73,7 +73,7 @@ def move_row_by_sums(row: RowOfSprings, medium: Medium, load: Load) -> RowMotion
 def _check_concave(medium: Medium, duration: float) -> None:
     """Raise ValueError if the creep compliance is not concave.
 
-    For such a medium, a row of springs gives a wrong receding contact.
+    In such a medium, the motion of a row of springs is wrong if the contact recedes.
     """
     lags = np.linspace(0.0, duration, _LAGS + 1)
     rises = medium.creep_increment(lags[:-1], lags[1:])
@@ -89,7 +89,7 @@ def _check_concave(medium: Medium, duration: float) -> None:
 def _difference(one: RowMotion, other: RowMotion, *, by_depth: bool) -> float:
     """Return the largest difference between two motions, relative to the largest value.
 
-    The difference is taken of the force if `by_depth` is true, and otherwise of the depth.
+    Forces are compared if `by_depth` is true, and depths otherwise.
     """
     values = (one.force, other.force) if by_depth else (one.depth, other.depth)
     return float(np.nanmax(np.abs(values[0] - values[1])) / max(np.nanmax(np.abs(values[1])), np.finfo(float).tiny))
@@ -118,7 +118,7 @@ def _with_fewer_springs(row: RowOfSprings) -> tuple[Array, Array, Integers]:
     """
     if row.gap.size <= _MOST_SPRINGS:
         return row.gap, row.stiffness, np.arange(row.gap.size)
-    # The logarithm of the summed stiffness increases by about the same step from each merged spring to the next.
+    # From each merged spring to the next, the logarithm of the summed stiffness increases by about the same amount.
     sums = np.log(np.cumsum(row.stiffness))
     edges = np.searchsorted(sums, np.linspace(sums[0], sums[-1], _MOST_SPRINGS + 1)[1:-1], side="right")
     starts = np.unique(np.append(0, edges))

@@ -51,7 +51,7 @@ class MapElements(Elements):
 def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
     """Return the MapElements of an indenter with two-dimensional heights. Raises ValueError for other indenters.
 
-    caller : name of the function that the user called, for the message
+    caller : name of the function that the user called, for the error message
     """
     check_indenter(caller, indenter, 2)
     row, column = np.nonzero(np.isfinite(indenter.heights))

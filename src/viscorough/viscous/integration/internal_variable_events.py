@@ -19,9 +19,9 @@ in four steps:
 2. Let s be the unit vector with the components √(G_i/G₀), and R the diagonal matrix of the rates 1/τ_i. The forces in
    the branches, each divided by √G_i, are a vector with the component F/√G₀ along s. Its components perpendicular to s
    relax independently of F.
-3. Choose an orthonormal basis B of the space perpendicular to s, and find the singular value decomposition √R B = U Σ
-   Vᵀ. One-sided Jacobi rotations find it to rounding, even for relaxation times that are many decades apart. Matrix
-   exponentials would be less accurate.
+3. Choose an orthonormal basis B of the space perpendicular to s, and find the singular value decomposition
+   √R B = U Σ Vᵀ. One-sided Jacobi rotations find it to rounding, even for relaxation times that are many decades apart.
+   Matrix exponentials would be less accurate.
 4. The rates of the modes are λ_j = Σ_j², and κ_j = (U_j · √R s)²/G₀.
 
 The contact grows as long as Z grows. This module uses neither the correspondence with the elastic problem nor the creep
@@ -55,8 +55,8 @@ def integrate_events(
     until_fraction : contact fraction up to which events are followed. The method needs 8 (until_fraction · elements)²
         bytes of memory
 
-    Raises ValueError if the contact recedes; the message states the first time. Raises ConvergenceError if more
-    elements touch than `until_fraction` allows.
+    Raises ValueError if the contact recedes; the message states the time when this begins. Raises ConvergenceError if
+    more elements touch than `until_fraction` allows.
     """
     relaxation, area, times, force = checked_input(indenter, medium, load)
     if load.by_depth:
@@ -143,7 +143,8 @@ def _total_motion(modes: _Modes, times: Array, force: Array) -> tuple[Array, Ter
     for k, (length, slope) in enumerate(zip(np.diff(times), slopes, strict=True)):
         x = rates * length
         gain = length * exprel(-x)  # ∫exp(−λt) dt from 0 to length
-        # ∫(1 − exp(−λt))/λ dt from 0 to length, without cancellation for small x and without overflow for large x.
+        # The next line computes ∫(1 − exp(−λt))/λ dt from 0 to length, without cancellation for small x and without
+        # overflow for large x, where x = λ length.
         with np.errstate(divide="ignore", invalid="ignore"):
             gains = np.where(x > 1, (length - gain) / rates, 0.5 * length**2 * hyp1f1(1, 3, -np.minimum(x, 1)))
         at_once = instantaneous * (force[k + 1] - force[k])

@@ -141,8 +141,8 @@ class _State:
         """Advance the state by a step in time, and solve a contact problem for the pressures Q.
 
         At the end of the step, Q = `kept` + c (y − y₀), where y₀ is the motion at the start of the step and c a
-        stiffness. With a parallel dashpot, Q is the mean pressure in the step, and a force is the mean force in the
-        step.
+        stiffness. With a parallel dashpot, Q is the mean pressure in the step, and a prescribed force is the mean force
+        in the step.
 
         length : length of the step
         load : depth or force at the end of the step
@@ -156,7 +156,8 @@ class _State:
         spring = viscosity / (length * exprel(-length * relaxed / viscosity)) if viscosity else relaxed
         stiffness = spring + moduli @ gain
         kept = relaxed * self.motion + (moduli * decay) @ self._branches
-        # At the end of the step, c × gap = e + K Q − c u, where e = K (c y₀ − kept) + c × initial gap.
+        # At the end of the step, c × gap = e + K Q − c u, where e = K (c y₀ − kept) + c × initial gap. `surface` is the
+        # first term of e.
         surface = self._elements.deflection(stiffness * self.motion - kept)
         initial_gap = stiffness * self._elements.initial_gap
         target = stiffness * load if self._by_depth else load / self._elements.units.force

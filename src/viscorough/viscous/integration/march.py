@@ -1,4 +1,4 @@
-"""Direct integration of the viscoelastic contact problem in time."""
+"""Direct integration of the viscoelastic contact problem in time, by steps or from contact event to contact event."""
 
 from viscorough.basics.types import Progress
 from viscorough.media.load import Load
@@ -48,10 +48,10 @@ def march(
     -------
     Motion
         Motion at the samples of the load. An element comes into contact when it is pressed, and stays in contact until
-        its gap opens. Under no force the indenter rests on the surface. If all elements of the last contact still touch
-        the indenter then, as in a Newtonian medium, they count as in contact; otherwise no element does. With the
-        method "implicit", the velocity is the mean in the step after each time, and `receding_from` is the end of a
-        step. In media with a parallel dashpot, "implicit" gives the force just before each time.
+        its gap opens. Under no force the indenter rests on the surface. The previous contact then remains if all its
+        elements still touch, as in a Newtonian medium; otherwise no element counts as in contact. With the method
+        "implicit", the velocity is the mean in the step after each time, and `receding_from` is the end of a step. In
+        media with a parallel dashpot, "implicit" gives the force just before each time.
 
     Raises
     ------

@@ -162,8 +162,8 @@ class _Explicit:
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
         elements = elements_of_map(indenter, "time steps")
-        # Pass the square of the tolerance, so that q is accurate to the tolerance itself. GridSolver needs only an
-        # accurate Σq, whose relative error is about the square of the relative error of q.
+        # Pass the square of the tolerance, so that q is accurate to `tolerance`. GridSolver applies its tolerance to
+        # Σq, whose relative error is about the square of the relative error of q.
         self._grid = GridSolver((0, 0, *elements.shape), elements, tolerance**2, DEFAULT)
         self._tolerance = tolerance
         # The gap stays infinite at grid points without an element.
@@ -235,7 +235,7 @@ class _Heun(_Explicit):
         self.depth += 0.5 * impulse * (start_velocity + 1 / self.resistance)
         self._gap += 0.5 * impulse * (start_gap + self._tangent_gap / self.resistance)
         touching = inside | (self._gap <= 0)
-        # q is not zero at the predicted elements, but some do not touch: restore the old q
+        # some predicted elements do not touch, so their q should be 0: restore the old q
         if np.any(predicted & ~touching):
             self._tangent, self._tangent_gap, self.resistance = start
         if not np.array_equal(touching, predicted):

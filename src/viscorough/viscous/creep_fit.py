@@ -235,13 +235,13 @@ class _Record:
     def intervals(
         self, amounts: Array, responses: Array, bend: Array, values: Array, distance: float
     ) -> tuple[Array, Array]:
-        """Return the lower ends, and the upper ends, of the confidence intervals.
+        """Return the lower ends and the upper ends of the confidence intervals of J, offset and drift.
 
         Each array starts with the ends for J, followed by offset and drift (as far as they are fitted). An interval
-        contains all values for which the best fit has a sum of squared residuals of at most the minimum plus distance².
-        The fits are made in two families: all concave J, and all J that do not decrease. An interval extends from the
-        smaller lower end to the larger upper end of the two families. The second family is needed because concave fits
-        of an almost straight J, as in a fluid, lie above this J.
+        contains a value if the sum of squared residuals of the best fit with this value exceeds the minimum by at most
+        distance². The fits are made in two families: all concave J, and all J that do not decrease. An interval extends
+        from the smaller lower end to the larger upper end of the two families. The second family is needed because
+        concave fits of an almost straight J, as in a fluid, lie above this J.
 
         amounts : amounts that `fit` returned for concave J
         responses, bend : arguments with which `fit` was called

@@ -57,8 +57,8 @@ _SHORTEST = 1e-6
 # Two slopes of a history count as equal if their relative difference is at most _SAME_SLOPE. If a sample follows a turn
 # of the history after a time t, `_shortest_interval` returns at most _CLOSE · t.
 _SAME_SLOPE, _CLOSE = 1e-6, 10.0
-# A motion that depends on the unknown curve before its first level gives a warning if the force at this level is more
-# than this share of the largest elastic force.
+# A motion that depends on the unknown curve before its first level (computed point) gives a warning if the force at
+# this level is more than this share of the largest elastic force.
 _UNKNOWN_SHARE = 1e-2
 # Largest number of depths, where the history turns, at which the row is made to have exactly the force of the curve.
 _MOST_TURNS = 200
@@ -413,7 +413,7 @@ def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> t
     creep : creep response Φ
     """
     first, last = curve.force[0], curve.force[-1]
-    # Rounding must not move a force at the first or last level out of the range of the curve.
+    # Rounding must not move a force at the first or last computed point out of the range of the curve.
     inside = np.where(np.abs(creep - first) <= ROUNDING * first, first, np.clip(creep, 0.0, last))
     depth, stiffness = curve.at_force(inside)
     beyond = creep > last * (1 + ROUNDING)
@@ -457,8 +457,8 @@ def _without_discretisation(
         if creep is not None:
             rate[exact] = creep.rate[exact]
         with np.errstate(invalid="ignore"):
-            # An indenter at rest has the velocity 0, even before the first level of the curve, where the stiffness is
-            # nan.
+            # An indenter at rest has the velocity 0, even before the first computed point of the curve, where the
+            # stiffness is nan.
             at_rate = np.where(rate == 0, 0.0, rate / stiffness)
         depth, velocity = np.where(corrected, at_curve, depth), np.where(corrected, at_rate, velocity)
     unknown = (count > 0) & (front > 0) & (front < row.first_depth) & (force > 0)

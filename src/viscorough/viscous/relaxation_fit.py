@@ -238,8 +238,8 @@ def _intervals(
 
     fits : fits at one or more offsets, in increasing order
     time : times of the intervals of ψ, shape (times,)
-    distance : an interval contains all values whose best fit exceeds the smallest sum of squared residuals by at most
-        distance²; nan for no intervals
+    distance : an interval contains a value if the sum of squared residuals of the best fit with this value exceeds the
+        minimum by at most distance²; nan for no intervals
     """
     fitted = record.fits_offset + fits[0].drift.size
     if np.isnan(distance):
@@ -446,7 +446,7 @@ class _ForceRecord:
 
 
 def _prony(fit: _Fit) -> Prony:
-    """Return the medium of a fit as a Prony series. Raises ValueError if no branch has an amount above 0."""
+    """Return the medium of a fit as a Prony series. Raises ValueError if all branches have the modulus 0."""
     branches = fit.amounts[1:] > 0
     moduli, times = fit.amounts[1:][branches], fit.times[branches]
     if not branches.any():

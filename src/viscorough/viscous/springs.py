@@ -38,7 +38,7 @@ _DEVIATION, _FINEST = 0.03, 1e-7
 _STIFFNESS_STEP = 2e-3
 # Largest number of chords between two levels (computed points), and approximate largest number of chords in total.
 _MOST_CHORDS, _MOST_SPRINGS = 2000, 100_000
-# Number of chords that replace the power law before the first level.
+# Number of chords that replace the power law before the first level (computed point) of the curve.
 _EARLY_CHORDS = 64
 # A load may exceed the end of the loading curve by this share, because of rounding.
 ROUNDING = 1e-10

@@ -229,8 +229,8 @@ def _second_mean(x):
 def _evaluate(s, value, slope, bend, first, second, rates):
     """Return f(s), f'(s), and upper bounds of f'' and −f'' that hold at all later times.
 
-    f(s) = value + slope s + bend s² + Σ_k ∫x_k ds, where each x_k satisfies x_k' = second_k − rates_k x_k and x_k(0) =
-    first_k. The integral starts at 0.
+    f(s) = value + slope s + bend s² + Σ_k ∫x_k ds, integrated from 0 to s. Each x_k has x_k(0) = first_k and
+    x_k' = second_k − rates_k x_k.
     """
     f, rate = value + s * (slope + s * bend), slope + 2 * bend * s
     up, down = max(2 * bend, 0.0), max(-2 * bend, 0.0)

@@ -245,7 +245,7 @@ class _State:
     def _solve_among(self, members: Integers, free: Array, target: float) -> tuple[Array, float, Integers]:
         """Solve the contact problem of `_solve` among the elements `members`; all other elements stay out of contact.
 
-        Elements under tension are released. Return Q, c u, and the members that remain in contact.
+        Elements under tension are released. Return Q, the scaled depth c u, and the members that remain in contact.
         """
         pressure = np.zeros(free.size)
         if not self._by_depth and target <= 0:

@@ -176,7 +176,7 @@ class _Explicit:
         self._solve_flat_punch()
 
     def step(self, impulse: float) -> None:
-        """Advance by one step of the given impulse/(4π d)."""
+        """Advance by one step; `impulse` is the impulse of the step divided by 4π d."""
         depth_step = impulse / self.resistance
         self._check_depth(self.depth + depth_step)
         self._gap += depth_step * self._tangent_gap
@@ -222,7 +222,7 @@ class _Heun(_Explicit):
     """
 
     def step(self, impulse: float) -> None:
-        """Advance by one step of the given impulse/(4π d)."""
+        """Advance by one step; `impulse` is the impulse of the step divided by 4π d."""
         self._check_depth(self.depth + impulse / self.resistance)
         start_velocity, start_gap = 1 / self.resistance, self._tangent_gap / self.resistance
         predicted = self._inside | (self._gap + impulse * start_gap <= 0)
@@ -252,7 +252,10 @@ class _Implicit:
         self.depth, self.resistance, self.count, self.overlap = 0.0, 0.0, 0, 0.0
 
     def step(self, impulse: float) -> None:
-        """Advance by one step of the given impulse/(4π d). Newton's method finds the change of depth in the step."""
+        """Advance by one step; `impulse` is the impulse of the step divided by 4π d.
+
+        Newton's method finds the change of depth in the step.
+        """
         solver = ContactSolver(Indenter(-self._gap, *self._spacings), self._tolerance)
         depth_step = impulse / (self.resistance or 1.0)
         for _ in range(_MAX_NEWTON_ITERATIONS):

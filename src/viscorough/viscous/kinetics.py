@@ -341,8 +341,8 @@ def _spectra(medium: Medium, load: Load) -> Any:
 def _shortest_interval(load: Load) -> float:
     """Return the shortest interval between two successive turns of a history.
 
-    At a turn, the slope of the history changes, or a step begins or ends. A sample within the interval reduces the
-    result only if the time between the turn and the sample is shorter than a tenth of the interval (see _CLOSE).
+    At a turn, the slope of the history changes, or a step begins or ends. A sample soon after any turn also limits the
+    result: the result is at most _CLOSE times the time from the turn to the sample.
     """
     time, values = load.time, load.values
     lengths = np.diff(time)

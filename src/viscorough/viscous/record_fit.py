@@ -33,7 +33,8 @@ _LEVEL = 0.95
 # If the scatter is known, the number of degrees of freedom is infinite. This number is used instead of infinity.
 _MANY = 1e9
 # The grid of retardation or relaxation times of a fit begins at the first time of the record divided by BEYOND, and
-# ends at the last time multiplied by BEYOND. After a first fit, it is refined around the times with positive amounts.
+# ends at the last time multiplied by BEYOND. It has about _TIMES_PER_DECADE times per decade. After a first fit, it is
+# refined around the times with positive amounts.
 BEYOND, _TIMES_PER_DECADE = 3.0, 10
 
 

@@ -45,7 +45,7 @@ def reading(path: FilePath, needed: str) -> Iterator[None]:
     Libraries raise errors of many kinds for a damaged file. Pipes and devices are refused: opening a pipe would wait
     for a writer, and a device may have no end. MemoryError passes, since it is no fault of the file.
 
-    needed : end of the message, which states the content that is needed, such as "a whole NetCDF file is needed"
+    needed : end of the message, which states what the file must contain, such as "a whole NetCDF file is needed"
     """
     try:
         mode = os.stat(path).st_mode
@@ -62,8 +62,8 @@ def reading(path: FilePath, needed: str) -> Iterator[None]:
 def check_output(path: FilePath) -> Path:
     """Return the path with symbolic links resolved, so that the target of a link is replaced and not the link.
 
-    Raises ValueError if the folder is missing or not writable, if the path exists but is not a regular file, and if
-    the path cannot be written as text, which the NetCDF library needs.
+    Raises ValueError if the folder is missing or not writable, if the path exists but is not a regular file, and if the
+    path cannot be encoded as text, as the NetCDF library requires.
     """
     target, folder = Path(os.path.realpath(path)), Path(path).parent
     try:
@@ -92,14 +92,14 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
     temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
     for leftover in target.parent.glob(f"{glob.escape(stem)}.*.part"):
         process = leftover.name.removeprefix(stem).split(".")[1]
-        # OSError: another process has removed the file. OverflowError: the number is too large for a process number.
+        # OSError: another process has removed the file. OverflowError: no process can have this number.
         with contextlib.suppress(OSError, OverflowError):
             if process.isdecimal() and not psutil.pid_exists(int(process)):
                 leftover.unlink()
     try:
         yield temporary
         with open(temporary, "rb") as file:
-            os.fsync(file.fileno())  # a full or remote disk may report its failure only here
+            os.fsync(file.fileno())  # a full or remote disk may report an error only here
         if target.exists():
             temporary.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(temporary, target)
@@ -111,9 +111,10 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
 
 
 def _error_of_plain_writing(path: FilePath) -> OSError | None:
-    """Append bytes to a file, and return the OSError that this raises; None if it succeeds.
+    """Try to append bytes to a file. Return the OSError, or None if writing succeeds.
 
-    The error shows the true cause of a failure: the NetCDF library reports a full disk as a missing permission.
+    This error shows why an earlier attempt to write failed: the NetCDF library reports a full disk as a missing
+    permission.
     """
     try:
         with open(path, "ab") as file:
@@ -127,10 +128,10 @@ def _error_of_plain_writing(path: FilePath) -> OSError | None:
 
 @functools.cache
 def _place() -> str:
-    """Return a name for the system or container in which this process runs and process numbers are unique.
+    """Return a name for the system or container in which this process runs. Process numbers are unique there.
 
-    Containers, and systems that share a disk, may have the same host name. On Linux the name therefore includes the
-    identifiers of the start of the system and of the namespace of process numbers.
+    Containers, and systems that share a disk, may have the same host name. On Linux the name therefore depends on two
+    further identifiers: of the last start of the system, and of the namespace of process numbers.
     """
     identity = [platform.node()]
     with contextlib.suppress(OSError):

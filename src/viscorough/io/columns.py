@@ -13,17 +13,19 @@ from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import path_named, reading
 from viscorough.io.heights import npy_array
 
-# Heading of a column whose last word is a common unit, such as t_ms.
+# Pattern of a heading of a column that ends with a common unit, such as t_ms.
 _LAST_WORD = re.compile(
     r"(?:.*[\s_:;])?((?:[kMmunpµμ]|kilo|milli|micro|nano)?(?:[sN]|sec|seconds?|newtons?)"
     r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1|[munµμ]m)"
 )
 _LOAD, _TIME = (re.compile(rf"(?:{names})(?![^\W\d_])", re.IGNORECASE) for names in ("force|depth|f|u", "time|t"))
-# A cell that matches is no heading: a number, nan, infinity, or a text that starts with a digit. "1N" is a mistake.
+# Pattern of a cell that is no heading: nan, infinity, or a text that starts like a number. A cell such as "1N" is
+# therefore refused as a faulty number and does not become a heading.
 _LIKE_A_NUMBER = re.compile(r"\s*[-+]?(?:\.?\d|(?:nan|inf|infinity)\s*$)", re.IGNORECASE)
 _LETTER = re.compile(r"[^\W\d_]")
 _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
-# Spreadsheets mark missing numbers by texts such as #N/A, which look like comments.
+# Pattern of a row with a missing number. Spreadsheets mark missing numbers by texts such as #N/A, which look like
+# comments.
 _MISSING = re.compile(r"#[A-Z][^\s,]*,\s*[-+.\d]")
 
 
@@ -68,7 +70,7 @@ def _rows_and_factors(path: FilePath, result_units: Iterable[str], length_unit: 
     else:
         heading = above[-1] if above and _TWO_NAMES.fullmatch(above[-1]) else None
     if heading is not None and heading.count(",") > 1 and {row.count(",") for row in rows} == {heading.count(",")}:
-        # Read only the first two columns. Other columns may have empty fields, such as unknown ends of an interval.
+        # Read only the first two columns. Other columns may have empty fields, for example if an interval is unknown.
         heading, *rows = (",".join(row.split(",")[:2]) for row in [heading, *rows])
     table = np.loadtxt(rows, delimiter=",", ndmin=2) if rows else np.empty((0, 0))
     for comment in comments:
@@ -107,7 +109,7 @@ def _unit_in(heading: str) -> str | None:
 
 
 def _is_different_unit(text: str, unit: str) -> bool:
-    """Return True if a text is a different unit of the same dimension as `unit`."""
+    """Return True if a text is a unit of another size than `unit` but of the same dimension, such as ms and s."""
     with contextlib.suppress(ValueError):
         return units.factor(text, unit) != 1
     return False

@@ -1,4 +1,4 @@
-"""Convert contacts to the content of NetCDF files: maps with the coordinates of their points, and numbers."""
+"""Convert contacts to the content of NetCDF files: maps with coordinates, and numbers such as depth and force."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -18,13 +18,13 @@ COMMENT = (
     "of an element is the sum of sqrt(dx dy)/(4 pi) K pressure, K Love's influence coefficients. In contact, the gap "
     "is zero within residual times depth. Patches are regions in contact that are connected by sides of elements."
 )
-# Maps of a contact: {name: (long_name, power of the unit of length)}.
+# Maps of a contact: {name: (long_name, n)}. The unit of a map is the unit of length to the power n.
 MAPS = {
     "pressure": ("pressure over shear modulus p/G", 0),
     "gap": ("gap between the deformed surface and the indenter", 1),
     "contact": ("whether an element is in contact", 0),
 }
-# Numbers of a contact: {name: (long_name, power of the unit of length)}.
+# Variables with a single number for each contact: {name: (long_name, n)}, with n as in MAPS.
 NUMBERS = {
     **{name: OVER_LEVELS[name] for name in ("depth", "force", "stiffness", "contact_fraction")},
     "contact_area": ("area of the elements in contact", 2),
@@ -33,28 +33,29 @@ NUMBERS = {
     "largest_pressure": ("largest pressure over shear modulus", 0),
     "residual": OVER_LEVELS["residual"],
 }
-# Further numbers of a contact if the shear modulus is given: {name: (long_name, unit)}.
+# Additional variables with a single number for each contact, if the shear modulus is given: {name: (long_name, unit)}.
 NUMBERS_WITH_MODULUS = {
     **WITH_MODULUS,
     "mean_normal_pressure": ("mean normal pressure p", "Pa"),
     "largest_normal_pressure": ("largest normal pressure p", "Pa"),
 }
-# Further map of a contact if the shear modulus is given: {name: (long_name, unit)}.
+# Additional map of a contact, if the shear modulus is given: {name: (long_name, unit)}.
 _MAP_WITH_MODULUS = {"normal_pressure": ("normal pressure p", "Pa")}
 PATCHES = {"patches": ("number of patches of contact", 0), "patch_area": ("area of a patch", 2)}
 # Store maps in single precision if the tolerance is at least this: the solver then uses single precision, too.
 _SINGLE_FROM = 1e-4
-# Store maps in single precision only if their numbers are in this range. Single precision ends at 1e-38 and 3e38.
+# Store maps in single precision only if their numbers are in this range. Single precision reaches from 1e-38 to 3e38.
 _SINGLE_RANGE = (1e-25, 1e30)
 
 
 def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = None) -> Content:
     """Convert contacts of one indenter to the content of a NetCDF file.
 
-    The maps MAPS and heights have the dimensions (y, x), with coordinates that count from the centre of the map. The
-    numbers are NUMBERS and `patches`, the number of contact patches. `patch_area` has the dimension `patch`: it holds
-    the areas of the patches in decreasing order, and nan beyond the last patch. If there are several contacts, all
-    these variables have `level` as first dimension, except for heights.
+    The variables MAPS and `heights` have the dimensions (y, x). The coordinates y and x are 0 at the centre of the map.
+    The variables NUMBERS and `patches` (number of contact patches) are single numbers. `patch_area` has the dimension
+    `patch` and lists the areas of the patches in decreasing order, filled up with nan. For several contacts, all these
+    variables except `heights` have the first dimension `level`, with one level for each contact. If the contacts have a
+    shear modulus, the variables NUMBERS_WITH_MODULUS and a map of normal pressures are added.
 
     heights : heights of the indenter, shape (rows, columns) [length]; None to leave them out
     """

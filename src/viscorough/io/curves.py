@@ -18,13 +18,13 @@ COMMENT = (
     "force is F/G, stiffness is d(F/G)/du. With viscosity for G and impulse for F it is the viscous solution."
 )
 _NEEDED = "a loading curve of viscorough indent is needed"
-# Relative differences up to this are ignored, since another program may have stored numbers in single precision.
+# Ignore relative differences up to this size, since another program may have stored the numbers in single precision.
 _ROUNDING = 1e-6
-# Contact count and stiffness may decrease from one level to the next by at most this multiple of the tolerance. Between
-# close levels, errors of the solver let them decrease by up to the tolerance.
+# From one level (computed contact) to the next, contact count and stiffness may decrease by at most this multiple of
+# the tolerance. Errors of the solver can cause decreases between close levels, up to about the tolerance.
 _LOST = 10
-# Variables of a curve, with one value for each level, that is, for each computed contact: {name: (long_name, power of
-# the unit of length)}.
+# Variables of a curve with one value for each level (computed contact): {name: (long_name, n)}. The unit of a variable
+# is the unit of length to the power n.
 OVER_LEVELS: dict[str, tuple[str, int]] = {
     "depth": ("depth of indentation u", 1),
     "force": ("normal force over shear modulus F/G", 2),
@@ -33,13 +33,13 @@ OVER_LEVELS: dict[str, tuple[str, int]] = {
     "contact_fraction": ("share of the indenter's elements in contact", 0),
     "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
 }
-# Further variables of a curve with estimated grid errors: {name: (long_name, power of the unit of length)}.
+# Additional variables of a curve with estimated grid errors: {name: (long_name, n)}, with n as in OVER_LEVELS.
 ABOUT_GRID: dict[str, tuple[str, int]] = {
     "grid_error": ("estimated relative error of the velocity due to the spacing of the map", 0),
     "force_grid_error": ("estimated relative error of the force at a depth due to the spacing of the map", 0),
     "area_change": ("relative change of the contact area when the spacing of the map is halved", 0),
 }
-# Further variables of a curve or contact if the shear modulus is given: {name: (long_name, unit)}.
+# Additional variables of a curve or contact, if the shear modulus is given: {name: (long_name, unit)}.
 WITH_MODULUS = {"normal_force": ("normal force F", "N"), "normal_stiffness": ("normal stiffness k = dF/du", "N m-1")}
 # Variables that are fields of LoadingCurve. The contact fraction is no field: it follows from the contact count.
 STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]
@@ -50,7 +50,7 @@ PER_CURVE = {
     "tolerance": (float, "relative accuracy asked for"),
     "method": (str, "how the curve was obtained"),
 }
-# Further global attributes, stored only if they differ from the defaults of LoadingCurve: {name: type}.
+# Global attributes that are stored only if they differ from the defaults of LoadingCurve: {name: type}.
 OPTIONAL: dict[str, type] = {"mean_grid_error": float, "mean_area_change": float, "sampling": int, "choice": str}
 # Least allowed values of attributes in OPTIONAL; the least allowed value of all other attributes is 0.
 OPTIONAL_LEAST = {"mean_area_change": -1.0, "sampling": 1}
@@ -78,7 +78,7 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
 
 
 def curve_from_content(content: Content) -> LoadingCurve:
-    """Return the LoadingCurve in the content of a NetCDF file that curve_to_content made.
+    """Convert the content of a NetCDF file, made by curve_to_content, to a LoadingCurve.
 
     Raises ValueError, which names the file, if the content holds no curve, if the units of other variables contradict
     the unit of the depth, and if the numbers contradict each other by more than the tolerance of the curve.
@@ -111,14 +111,14 @@ def _checked_curve(content: Content) -> LoadingCurve:
 
 
 def _length_unit(content: Content) -> str:
-    """Return the unit of the depth, "1" if the Content states none.
+    """Return the unit of the depth; "1" if the Content states no unit for it.
 
     Raises ValueError if the unit of another variable is not the required power of the unit of the depth.
     """
     stated = {name: variable.attributes.get("units", units.UNKNOWN) for name, variable in content.variables.items()}
     length = stated["depth"]
     if length != units.UNKNOWN:
-        units.metres(str(length))  # raises ValueError if it is not a length
+        units.metres(str(length))  # raises ValueError unless this is a unit of length
     for name, (_, power) in (OVER_LEVELS | ABOUT_GRID).items():
         needed = unit_power(length, power)
         if stated.get(name, needed) != needed:
@@ -129,7 +129,7 @@ def _length_unit(content: Content) -> str:
 
 
 def _check_contact(curve: LoadingCurve) -> None:
-    """Raise ValueError unless the numbers of a curve can belong to a growing contact, within the curve's tolerance.
+    """Raise ValueError if the numbers of a curve contradict a growing contact by more than the curve's tolerance.
 
     While the contact grows, the force F(u) is a convex function of the depth u. The mean slope ΔF/Δu between two levels
     therefore lies between the stiffnesses at these levels.
@@ -144,7 +144,7 @@ def _check_contact(curve: LoadingCurve) -> None:
         too_soft = force_steps < np.append(0, stiffness[:-1]) * depth_steps - slack
         too_stiff = force_steps > stiffness * depth_steps + slack
     no_count = (count != np.rint(count)) | (count < 1) | (count > curve.elements)
-    no_residual = ~((curve.residual >= 0) & (curve.residual <= tolerance))  # also True for nan
+    no_residual = ~((curve.residual >= 0) & (curve.residual <= tolerance))  # True for nan, too
     wrong = {
         f"contact_count must be a whole number from 1 to {curve.elements}": no_count,
         "contact_count must not decrease": np.diff(count, prepend=0) < -_LOST * tolerance * count,
@@ -174,10 +174,10 @@ def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
 def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
     """Combine loading curves into the content of one NetCDF file, with the dimensions (realization, level).
 
-    Grid errors are left out.
+    A realization is one curve, a level one computed contact. Curves with fewer levels are filled up with nan. The
+    variables `levels` (number of levels) and PER_CURVE have one value for each curve. Grid errors are left out.
 
-    Values beyond the last level of a curve are nan. The variables `levels` (number of levels) and PER_CURVE have one
-    value for each realization. Raises ValueError for an empty list, and for curves in different units of length.
+    Raises ValueError for an empty list, and for curves in different units of length.
     """
     if not curves:
         raise ValueError("curves: there is none; at least one is needed")
@@ -197,7 +197,7 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
 
 
 def unstack_curves(content: Content) -> list[LoadingCurve]:
-    """Return the loading curves in the content of a NetCDF file that stack_curves made.
+    """Convert the content of a NetCDF file, made by stack_curves, to loading curves.
 
     Raises the errors of curve_from_content.
     """
@@ -208,6 +208,6 @@ def unstack_curves(content: Content) -> list[LoadingCurve]:
         variables = {name: Variable(("level",), v.values[i, :levels], v.attributes) for name, v in stacked.items()}
         attributes = content.attributes | {name: values[i] for name, values in per_curve.items()}
         curve = curve_from_content(Content(variables, attributes, content.path))
-        # stack_curves stores counts as floats, since values beyond the last level are nan.
+        # stack_curves stores counts as floats, since it fills up shorter curves with nan.
         curves.append(dataclasses.replace(curve, contact_count=curve.contact_count.astype(int)))
     return curves

@@ -26,8 +26,8 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
 
     Every data variable needs the attribute `long_name`, and `units` unless it holds text. The attributes Conventions,
     source ("viscorough <version>") and history are added, and large numeric arrays are compressed. The file does not
-    depend on the time and place of writing. In CF a coordinate cannot be text: if the labels of a dimension x are
-    texts, they are written as a variable x with the dimension x_index.
+    depend on the time and place of writing. The CF conventions forbid coordinates of texts. If the labels of a
+    dimension x are texts, they are therefore written as a variable x with the dimension x_index.
 
     Raises ValueError for a path that cannot be written, OSError if writing fails.
     """
@@ -36,7 +36,7 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     numeric = {name: variable for name, variable in ds.variables.items() if variable.dtype.kind in "fi"}
     encoding = {name: netcdf.compression(variable.size) for name, variable in numeric.items()}
     for name in numeric.keys() & ds.coords.keys():
-        encoding[name]["_FillValue"] = None  # in CF no value of a coordinate may be missing
+        encoding[name]["_FillValue"] = None  # the CF conventions forbid missing values in a coordinate
     ds = ds.drop_encoding().assign_attrs(netcdf.global_attributes())
     with netcdf.written_with_digest(path) as temporary:
         ds.to_netcdf(temporary, engine="netcdf4", encoding=encoding)

@@ -13,16 +13,17 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-# Name of the global attribute with the digest of all other content of the file.
+# Name of the global attribute that holds the digest. The digest covers everything else in the file.
 ATTRIBUTE = "content_sha256"
-# Number of values read at a time, 32 MiB in double precision, so that a large map need not fit into memory twice.
+# At most this many values are read at a time, 32 MiB in double precision. Large maps are thus not copied as a whole.
 _VALUES_AT_A_TIME = 2**22
 
 
 def add_digest(file: netCDF4.Dataset) -> None:
-    """Add the digest, as the attribute `ATTRIBUTE`, to a file that is open for writing and is otherwise complete.
+    """Add the digest, as the attribute `ATTRIBUTE`, to an open file that is otherwise complete.
 
-    The name of the digest is added to the attribute `history`, so that a file that has lost its digest is refused.
+    A note about the digest is added to the attribute `history`. check_digest refuses a file that has the note but has
+    lost its digest.
     """
     file.setncattr("history", f"{file.getncattr('history')}, with {ATTRIBUTE}")
     file.setncattr(ATTRIBUTE, content_digest(file))
@@ -50,11 +51,12 @@ def check_digest(file: netCDF4.Dataset) -> None:
 def content_digest(file: netCDF4.Dataset) -> str:
     """Return the SHA-256 of the content of an open file without `ATTRIBUTE`, as 64 hexadecimal digits.
 
-    The digest depends neither on the order in the file nor on the byte order of the machine. The input of SHA-256
-    consists of lines of JSON and of stored values. For each group, sorted by path, a line contains its path, dimensions
-    and attributes. For each variable of the group, sorted by name, a line contains its name, type, dimensions, shape
-    and attributes. The stored values of the variable follow its line, as little-endian numbers, or each as a line of
-    JSON if they are texts.
+    The digest depends neither on the order of names in the file nor on the byte order of the machine. SHA-256 is
+    computed from the following input, for each group, sorted by path:
+
+    - a line of JSON with path, dimensions and attributes of the group,
+    - for each variable of the group, sorted by name: a line of JSON with its name, type, dimensions, shape and
+      attributes, followed by its stored values as little-endian numbers, or as one line of JSON for each text.
     """
     digest = hashlib.sha256()
 
@@ -84,7 +86,10 @@ def _groups(group: netCDF4.Dataset) -> Iterator[netCDF4.Dataset]:
 
 
 def _attributes(owner: netCDF4.Dataset | netCDF4.Variable) -> list[Any]:
-    """Return [name, type, shape, value] of every attribute of a group or variable; numbers as hexadecimal bytes."""
+    """Return [name, type, shape, value] for each attribute of a group or variable, except for the digest.
+
+    The value is a text or a list of texts. Numbers are given as the hexadecimal digits of their bytes.
+    """
     listed: list[Any] = []
     for name in sorted(set(owner.ncattrs()) - {ATTRIBUTE}):
         value = np.asarray(owner.getncattr(name))
@@ -96,7 +101,7 @@ def _attributes(owner: netCDF4.Dataset | netCDF4.Variable) -> list[Any]:
 
 
 def _parts(variable: netCDF4.Variable) -> Iterator[NDArray[Any]]:
-    """Yield the stored values of a variable in parts of whole rows, with about _VALUES_AT_A_TIME values at most."""
+    """Yield the stored values of a variable, some rows at a time: at most _VALUES_AT_A_TIME values, or a single row."""
     variable.set_auto_maskandscale(False)
     rows = variable.shape[0] if variable.ndim else 1
     step = max(1, _VALUES_AT_A_TIME * rows // max(1, variable.size))

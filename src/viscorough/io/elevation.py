@@ -32,7 +32,7 @@ def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Sca
     in its .msk file excludes it.
 
     kind : name of the format in GDAL, a value of FORMATS or "GTiff"
-    channel : number of the band, or of the page of a TIFF file, from 0; needed if the file has several
+    channel : number of the band, or of the page of a TIFF file, from 0. Needed if the file has several bands or pages
 
     Raises a one-line ValueError for coordinates in degrees, for pictures, and if rasterio is not installed.
     """
@@ -47,7 +47,9 @@ def read_elevation(path: FilePath, kind: str, channel: str | None = None) -> Sca
 
 
 def units_of_prj(path: FilePath) -> tuple[str, str]:
-    """Return the units (of positions, of heights) that the .prj file of an ESRI grid states, "1" for an unstated unit.
+    """Return (unit of positions, unit of heights) from the .prj file of an ESRI grid; "1" for a unit that is missing.
+
+    path : file of the ESRI grid
 
     Raises ValueError for coordinates in degrees, and for a reference system that GDAL cannot interpret.
     """
@@ -59,8 +61,8 @@ def units_of_prj(path: FilePath) -> tuple[str, str]:
 def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]:
     """Yield the rasterio dataset of a file, or of a page of the file.
 
-    kind : name of the format in GDAL
-    page : name of the page in GDAL; None for the file itself
+    kind : GDAL's name of the format
+    page : GDAL's name of the page; None for the file itself
     """
     try:
         import rasterio
@@ -69,7 +71,7 @@ def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]
         raise ValueError(f"{path}: {text}") from error
     with contextlib.ExitStack() as stack:
         with _decoding(path):
-            # rasterio warns about maps without coordinates, which are read as well.
+            # Maps without coordinates are allowed, so the warnings of rasterio about them are ignored.
             stack.enter_context(warnings.catch_warnings(action="ignore"))
             # The path is absolute, since GDAL could take a name without a folder for an address or for options.
             file = stack.enter_context(rasterio.open(page or os.path.abspath(path), driver=kind))
@@ -119,7 +121,7 @@ def _scan(path: FilePath, file: Any, band: int) -> Scan:
     unit = vertical if unit == units.UNKNOWN else unit
     if file.transform.is_identity:
         return Scan(heights, unit)
-    # From a point to the next, the position (x, y) changes by (a, d) along a row and by (b, e) along a column.
+    # Between neighbouring points, the position (x, y) changes by (a, d) along a row and by (b, e) along a column.
     a, b, c, d, e, f = file.transform[:6]
     dx, dy = math.hypot(a, d), math.hypot(b, e)
     if abs(a * b + d * e) > _RIGHT_ANGLE * dx * dy:
@@ -137,7 +139,8 @@ def _heights(file: Any, band: int) -> NDArray[Any]:
     if stored.dtype.kind not in "iuf":
         return stored
     heights = stored.astype(stored.dtype if stored.dtype.kind == "f" else np.float64)
-    if (nodata := file.nodatavals[band - 1]) is not None:  # GDAL ignores this value if there is a mask
+    # GDAL ignores the value for missing data if the file has a mask; here both count.
+    if (nodata := file.nodatavals[band - 1]) is not None:
         with np.errstate(over="ignore"):
             is_measured &= heights != np.asarray(nodata).astype(heights.dtype)
     scale, offset = file.scales[band - 1], file.offsets[band - 1]
@@ -147,12 +150,17 @@ def _heights(file: Any, band: int) -> NDArray[Any]:
 
 
 def _units(system: Any) -> tuple[str, str]:
-    """Return the units (of positions, of heights) in a reference system of rasterio, "1" for an unstated unit."""
+    """Return (unit of positions, unit of heights) of a coordinate reference system; "1" for a unit that is not stated.
+
+    system : rasterio.crs.CRS, or None for a file without a reference system
+
+    Raises ValueError for coordinates in degrees and for an incomplete system.
+    """
     if system is None:
         return units.UNKNOWN, units.UNKNOWN
     definition = system.to_dict(projjson=True)
     if definition["type"] == "EngineeringCRS" and definition["name"] == "unnamed":
-        # GDAL returns metres for such an incomplete system, although the file may state another unit.
+        # GDAL assumes metres for an incomplete reference system, although the file may state another unit.
         text = "its coordinate reference system is incomplete, so that the unit of x and y is not certain"
         raise ValueError(f"{text}; a complete one is needed, as 'rio edit-info --crs EPSG:CODE FILE' writes into it")
     lateral = vertical = units.UNKNOWN
@@ -165,7 +173,7 @@ def _units(system: Any) -> tuple[str, str]:
 
 
 def _axes(definition: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the axes of a reference system, given as PROJJSON, including the axes of all its parts."""
+    """Return the axes of a coordinate reference system, given as PROJJSON, including the axes of all its parts."""
     if definition["type"] == "BoundCRS":
         return _axes(definition["source_crs"])
     if definition["type"] == "CompoundCRS":
@@ -174,7 +182,7 @@ def _axes(definition: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def _unit(unit: str | dict[str, Any]) -> str:
-    """Convert a unit of length in PROJJSON to a text for units.length_unit. Raises ValueError for degrees."""
+    """Convert a unit of length as PROJJSON states it to a text such as "0.3048 m". Raises ValueError for degrees."""
     if unit == "metre":
         return "m"
     if isinstance(unit, dict) and unit["type"] == "LinearUnit":

@@ -8,10 +8,10 @@ from viscorough.basics.types import Array, Integers
 
 # Two positions count as the same if their distance is at most this share of the range of all positions.
 _MERGED = 1e-6
-# Largest distance of a point from its place on the grid, relative to the spacing of the grid.
+# A position may differ from the nearest position on an equally spaced grid by at most this share of the spacing.
 _OFF_GRID = 0.05
-# If it is not certain that rows are points x, y, z, they are taken for points of a grid only if they fill at least this
-# share of the grid, and if there are at least this many rows.
+# A table of three columns may hold points x, y, z or a map of heights. If this is not certain, its rows count as points
+# only if they fill at least this share of a grid, and if there are at least this many rows.
 _LEAST_SHARE, _LEAST_POINTS = 0.5, 9
 
 
@@ -19,8 +19,8 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
     """Return (heights, (dx, dy)) of points on a grid of equal spacing.
 
     points : x, y, z, shape (points, 3)
-    required : True if the points are certainly x, y, z. For points that form no grid, ValueError is raised if this is
-        True, and None is returned if this is False
+    required : True if the rows of `points` certainly are x, y, z; ValueError is then raised if they form no grid. False
+        if they may also be heights; None is then returned unless they clearly form a grid
 
     The heights have the shape (rows, columns), with y increasing from row to row and x from column to column. They are
     nan at missing points.
@@ -38,7 +38,8 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
         if not required and len(points) < max(_LEAST_POINTS, _LEAST_SHARE * columns * rows):
             raise ValueError("few of its points")
         if not required and min(np.bincount(column).max(), np.bincount(row).max()) == 1:
-            raise ValueError("no two points in a row or column")  # such as columns x, z and number of a profile
+            # The table may be a profile with the columns x, z and number of the point.
+            raise ValueError("no two points in a row or column")
     except ValueError as fault:
         if required:
             raise ValueError(f"points x, y, z form no grid of equal spacing ({fault}); a grid is needed") from None
@@ -51,8 +52,8 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
 def even_spacing(positions: Array) -> float | None:
     """Return the distance between positions that rise or fall in equal steps; None for other positions.
 
-    Each position may deviate by its rounding error, which is one unit of the last digit, but by no more than a
-    twentieth of the distance.
+    Each position may deviate by one unit of its last printed digit (rounding), but by no more than a twentieth of the
+    distance.
     """
     with np.errstate(invalid="ignore", over="ignore"):
         step = abs(positions[-1] - positions[0]) / max(positions.size - 1, 1)
@@ -65,7 +66,7 @@ def even_spacing(positions: Array) -> float | None:
 def _last_digit(numbers: Array) -> float:
     """Return the size of one unit in the last printed digit of numbers, such as 0.01 for 1.25 and 3.5.
 
-    All numbers were printed with the same number of decimals, or with the same number of digits.
+    It is assumed that all numbers were printed with equally many decimals, or with equally many significant digits.
     """
     decimals = [Decimal(repr(number)).normalize() for number in numbers.tolist()]
     digits, places = zip(*(number.as_tuple()[1:] for number in decimals), strict=True)
@@ -74,9 +75,10 @@ def _last_digit(numbers: Array) -> float:
 
 
 def _axis(positions: Array) -> tuple[Integers, int, float]:
-    """Return (index of each position, number of indices, spacing) along an axis on which positions are equally spaced.
+    """Return (grid index of each position, number of grid points, spacing) along one axis of a grid.
 
-    Positions may be rounded, may occur repeatedly, and may be missing. Raises ValueError if the spacing is not equal.
+    Positions may be rounded and repeated, and some grid points may have no position. Raises ValueError if the positions
+    do not fit an equally spaced grid.
     """
     different = np.unique(positions)
     with np.errstate(over="ignore"):

@@ -1,9 +1,9 @@
 """Read the header of a text file: spacing of the points, units of lengths, names of columns.
 
 A statement is a line "key: value" or "key = value". The unit of a length follows the number, or is in brackets after
-the key. Keys are compared without spaces, hyphens, underscores and case. Unknown keys are ignored, so that "Camera
-pixel size" is not taken for the spacing of the points. But a unit of length whose meaning is not certain is refused,
-and so is every line with two possible meanings.
+the key. Spaces, hyphens, underscores and capitals in keys do not matter. Unknown keys are ignored, so that "Camera
+pixel size" is not taken for the spacing of the points. But a unit is refused if it is not certain to which lengths it
+belongs, and so is every line with two possible meanings.
 """
 
 import re
@@ -14,12 +14,13 @@ from viscorough.basics import units
 from viscorough.basics.argument_names import argument, spelled
 
 Spacing = tuple[float, float]
-# Statements of a header: {role, a key of _ROLES: [(line, unit in brackets after the key, value)]}.
+# Statements "key (unit): value" of a header, sorted by their meaning: {role (a key of _ROLES): [(line, unit, value)]}.
 Stated = dict[str, list[tuple[str, str, str]]]
 
-# Two statements of the same spacing agree if their relative difference is at most this.
+# Two statements of the same spacing may differ by at most this share.
 _AGREEMENT = 1e-3
-# An extent and a spacing agree if their relative difference is at most this. Both are often rounded to few digits.
+# The stated extent of the map and the extent that follows from a stated spacing may differ by at most this share. Both
+# are often rounded to few digits.
 _ROUNDING = 5e-3
 
 _NUMBER = r"[+-]?(?:\d+(?:[.,]\d+|\.)?|[.,]\d+)(?:[eE][+-]?\d+)?"
@@ -41,7 +42,8 @@ _DEGREES = {"lon", "lat", "longitude", "latitude"}
 
 _STEP = "pixelsize pixelspacing pointspacing samplespacing spacing pixelgröße pixelabstand"
 _STEPS = f"{_STEP} step stepsize pitch increment d"
-# {role of a statement: spellings of its key}. A key names its axis first or last: "x pixel size" or "pixel size x".
+# Statements that a header may make: {role, that is, the meaning of the statement: keys with this meaning}. Keys are in
+# lower case and without spaces. A key names its axis first or last: "xpixelsize" or "pixelsizex".
 _ROLES = {
     "step x": {f"x{key}" for key in _STEPS.split()} | {f"{key}x" for key in _STEPS.split()} | {"deltax", "pixelwidth"},
     "step y": {f"y{key}" for key in _STEPS.split()} | {f"{key}y" for key in _STEPS.split()} | {"deltay", "pixelheight"},
@@ -57,7 +59,7 @@ _ROLES = {
     "channel": {"channel", "kanal", "canal", "datachannel"},
 }
 _ROLE_OF = {key: role for role, keys in _ROLES.items() for key in keys}
-# {role of a length: axes along which the length applies}; 0 is x, 1 is y.
+# Axes to which a stated length applies: {role of the statement (a key of _ROLES): axes}, where 0 is x and 1 is y.
 _AXES = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,)}
 
 
@@ -65,10 +67,11 @@ class Header(NamedTuple):
     """Units and spacing that a header states.
 
     unit : unit of the heights; "1" if it is not stated
-    spacing : (dx, dy), with nan for a direction that is not stated; None if no direction is stated
+    spacing : (dx, dy), the distances between columns and between rows. A distance that is not stated is nan; None if
+        both are missing
     lateral_unit : unit of the spacing, or of positions x and y; "1" if it is not stated
-    columns : names of the columns in the order of the table, such as ("x", "y", "z"), or ("x", "z") for a profile; ""
-        for other columns; None if no heading names the columns
+    columns : names of the columns in the order of the table, such as ("x", "y", "z"), or ("x", "z") for a profile.
+        Columns with other quantities have the name "". None if no heading names the columns
     """
 
     unit: str
@@ -89,12 +92,12 @@ class _Columns(NamedTuple):
 
 
 class _Length(NamedTuple):
-    """Length along an axis that a line of the header states.
+    """Length that a line of the header states for one axis: the spacing of the points or the extent of the map.
 
     line : the line of the header
     axis : 0 for x, 1 for y
     is_extent : True for an extent of the map, False for a spacing
-    number : the length in its unit
+    number : the length, in the following unit
     unit : unit of the length; "" if it is not stated
     """
 
@@ -116,7 +119,7 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str, prof
 
     lines : lines above the table, and comments in and below the table
     shape : rows and columns of the table
-    decimal : decimal mark of the table; if it is a comma, "1,234" is a number below two
+    decimal : decimal mark of the table. If it is a comma, "1,234" is read as 1.234
     profile_columns : number of columns of the table if it holds a profile, whose points lie along x; 0 for a map
 
     Raises ValueError for statements that contradict each other or have two meanings, and for the heading of a profile
@@ -136,7 +139,7 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str, prof
 
 
 def _statements(lines: Sequence[str]) -> tuple[Stated, list[str]]:
-    """Return the statements in lines by their roles, and the lines that are no statements.
+    """Separate statements from other lines of a header. Return ({role: statements}, other lines).
 
     Raises ValueError for a factor by which the heights must be multiplied, and for a unit of length if the line does
     not state to which lengths the unit belongs.
@@ -161,7 +164,7 @@ def _statements(lines: Sequence[str]) -> tuple[Stated, list[str]]:
 
 
 def _role(key: str) -> str:
-    """Return the role (a key of `_ROLES`) of the key of a statement; "" for an unknown key."""
+    """Return the meaning of a key as a key of `_ROLES`, such as "step x" for "Pixel Size X"; "" for an unknown key."""
     compact = re.sub(r"[\s_.-]+", "", key.lower())
     return _ROLE_OF.get(re.sub(r"(unité?|einheit)(?:s|en)", r"\1", compact), "")
 
@@ -173,7 +176,7 @@ def _unit_text(value: str) -> str:
 
 
 def _agreed(texts: Iterable[str]) -> str:
-    """Return the unit on which all texts agree, as the first of them spells it; "" if all texts are empty.
+    """Return the unit that all texts state, in the spelling of the first text; "" if all texts are empty.
 
     Raises ValueError if two texts are different units.
     """
@@ -185,15 +188,15 @@ def _agreed(texts: Iterable[str]) -> str:
 
 
 def _spacing(stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str) -> tuple[Spacing | None, str]:
-    """Return ((dx, dy), unit) of the points from the stated spacings and extents.
+    """Return ((dx, dy), unit), the spacing of the points, from the stated spacings and extents of the map.
 
     stated : statements of the header
     shape : rows and columns of the table
-    lateral : unit that the header states for all lengths along x and y; "" if it states none
+    lateral : unit that the header states for all lengths along x and y; "" if it states no such unit
     decimal : decimal mark of the table
 
-    The spacing is nan for a direction that is not stated, and None if no direction is stated. The unit is `lateral` if
-    the header states it, otherwise "m" if the lengths have units, and "" if no unit is stated.
+    A distance dx or dy that is not stated is nan; the spacing is None if both are missing. The returned unit is
+    `lateral` if the header states it. Otherwise it is "m" if the lengths have units, and "" if they have none.
     """
     points = shape[::-1]
     steps: list[list[float]] = [[], []]
@@ -208,7 +211,8 @@ def _spacing(stated: Stated, shape: tuple[int, ...], lateral: str, decimal: str)
         have_units.add(bool(unit))
         number = length.number * units.metres(unit) / units.metres(lateral or "m") if unit else length.number
         (extents if length.is_extent else steps)[length.axis].append(number)
-    if not (any(steps) or all(extents)):  # a statement "height" without "width" may be a height of the surface
+    # The statement "height" without the statement "width" may be a height of the surface.
+    if not (any(steps) or all(extents)):
         return None, lateral
     if len(have_units) > 1:
         raise ValueError("the header states units for some of the lengths only; one for all, or none, is needed")
@@ -220,7 +224,7 @@ def _lengths(stated: Stated, decimal: str) -> Iterator[_Length]:
     """Yield the spacings and extents that a header states. Raises ValueError if one length has two different units."""
     for role, axes in _AXES.items():
         for line, bracket, value in stated[role]:
-            is_pair = role == "step" and value.count(" x ") == 1  # for example "0.5 um x 0.8 um"
+            is_pair = role == "step" and value.count(" x ") == 1  # such as "0.5 um x 0.8 um" for dx and dy
             for axis, text in zip(axes, value.split(" x ") if is_pair else [value] * len(axes), strict=True):
                 number, unit = _length(line, text, decimal)
                 if unit and bracket and unit != bracket:
@@ -229,9 +233,13 @@ def _lengths(stated: Stated, decimal: str) -> Iterator[_Length]:
 
 
 def _length(line: str, value: str, decimal: str) -> tuple[float, str]:
-    """Convert the text `value` of a length to (number, unit); the unit is "" if none is stated.
+    """Convert the text of a length, such as "0.5 um", to (number, unit); the unit is "" if none is stated.
 
-    Raises ValueError, which quotes the line, for a text that is no length. A comma with two meanings is an error, too.
+    line : line of the header with this length, for messages
+    value : text of the length
+    decimal : decimal mark of the table
+
+    Raises ValueError for a text that is no length, and for a comma that may separate decimals or thousands.
     """
     match = _LENGTH.fullmatch(value)
     if match is None:
@@ -244,7 +252,7 @@ def _length(line: str, value: str, decimal: str) -> tuple[float, str]:
 
 
 def _agreed_step(axis: int, steps: Sequence[float], extents: Sequence[float], count: int) -> float:
-    """Return the spacing along an axis from the statements about the axis; nan if there is no statement.
+    """Return the spacing along an axis from the lengths that the header states for it; nan if it states none.
 
     axis : 0 for x, 1 for y
     steps, extents : stated spacings, and stated extents of the map, along the axis
@@ -272,7 +280,7 @@ def names_profile(lines: Iterable[str], count: int) -> bool:
 
 
 def _heading(line: str) -> str:
-    """Return a line without comment marks and quotation marks, with units attached to the names of columns."""
+    """Return a line without comment marks, quotation marks and spaces before units: "x[um]" for "# x [um]"."""
     return re.sub(r"\s+(?=[\[(/])|(?<=/)\s+", "", line.strip("#%/;,!| \t").replace('"', ""))
 
 
@@ -282,13 +290,13 @@ def _cells(heading: str) -> list[str]:
 
 
 def _heading_of_columns(lines: Sequence[str], count: int, is_profile: bool) -> _Columns | None:
-    """Return the columns that the heading among the lines names; None if no line is a heading.
+    """Find the line that is the heading of a table, and return the columns that it names; None without such a line.
 
     count : number of columns of the table
     is_profile : True if the table holds a profile with columns x and z, False for a map with columns x, y and z
 
-    Raises ValueError for units that are not lengths, for positions in degrees, for a second heading, for lines that may
-    be headings in another form, and for the heading of a profile above a map.
+    Raises ValueError for units that are not lengths, for positions in degrees, for a second heading, for a line that
+    resembles a heading but is not recognised, and for the heading of a profile above a map.
     """
     found = None
     for line in lines:
@@ -304,9 +312,9 @@ def _heading_of_columns(lines: Sequence[str], count: int, is_profile: bool) -> _
 
 
 def _columns(heading: str, count: int, is_profile: bool) -> _Columns | None:
-    """Return the columns that a text names as a heading of `count` columns; None if the text is no such heading.
+    """Read a text as the heading of `count` columns, and return the columns; None if the text is no such heading.
 
-    Raises ValueError for the heading of a profile above a map.
+    Raises ValueError if the text is the heading of a profile but the table is a map.
     """
     cells = _cells(heading)
     if len(cells) != count:
@@ -333,12 +341,13 @@ def _check_no_heading(text: str, count: int, is_profile: bool) -> None:
 
 
 def _map_columns(cells: Sequence[str]) -> _Columns | None:
-    """Return the columns of a heading that names x, y and z in any order; None for cells that do not name all three.
+    """Return the columns of a heading that names x, y and z in any order; None for another heading.
 
-    The heading may name other columns as well.
+    cells : names in the heading, perhaps with units. Names of further columns are allowed
     """
     matches = [_COLUMN.fullmatch(cell) for cell in cells]
-    if [m and m[1].lower() for m in matches] == ["x", "y", None]:  # the third column is z under another name
+    # A third column beside x and y holds z under another name.
+    if [m and m[1].lower() for m in matches] == ["x", "y", None]:
         matches[2] = _COLUMN.fullmatch(re.sub(r"^[^\W\d_][^\[(/_]*", "z", cells[2]))
     names = tuple(match[1].lower() if match else "" for match in matches)
     if sorted(filter(None, names)) != ["x", "y", "z"]:
@@ -348,9 +357,11 @@ def _map_columns(cells: Sequence[str]) -> _Columns | None:
 
 
 def _profile_columns(cells: Sequence[str]) -> _Columns | None:
-    """Return the columns of a heading that names positions x and heights z of a profile; None for other cells.
+    """Return the columns of a heading that names positions x and heights z of a profile; None for another heading.
 
-    Positions or heights may also be named y.
+    In a heading of two names, y means positions beside z, and heights beside x.
+
+    cells : names in the heading, perhaps with units
     """
     matches = [_PROFILE_COLUMN.fullmatch(cell) for cell in cells]
     names = [next(name for name in "xyz" if match[name]) if match else "" for match in matches]

@@ -61,11 +61,11 @@ def read_heights(
         Unit of positions x and y, and of a spacing in plain numbers, such as "mm", if it is not the unit of the
         heights.
     channel : str, optional
-        Name or number (from 0) of the map in a file with several maps. By default the variable `heights` of a NetCDF
-        file is read, and the first channel with heights of an instrument's file.
+        Name or number (from 0) of the map in a file with several maps. The default is the variable `heights` in a
+        NetCDF file, and the first channel with heights in a file of an instrument.
     scale : float or str or units.Quantity, optional
-        Conversion factor of the numbers in a file without a unit of length, such as "0.053 nm" per count of a detector,
-        or "53 nm" per radian if the file states radians.
+        Factor that converts the numbers in a file to heights, if these numbers have no unit of length. Examples are
+        "0.053 nm" per count of a detector, or "53 nm" per radian if the file states radians.
     preparation : Any
         Keyword arguments of viscorough.prepare.
 
@@ -163,7 +163,7 @@ def read_line(
 def surface_to_content(indenter: Indenter) -> netcdf.Content:
     """Convert an Indenter to the content of a NetCDF file: heights with the dimensions (y, x), or (x) for a line.
 
-    The coordinates y and x count from the centre of the map or line.
+    The coordinates y and x are 0 at the centre of the map or line.
     """
     axes = {"x": indenter.spacing} if indenter.heights.ndim == 1 else {"y": indenter.row_spacing, "x": indenter.spacing}
     unit = indenter.length_unit
@@ -197,14 +197,15 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
         )
     number = positive(argument("scale"), number)
     if scan.heights.dtype.kind not in "iuf":
-        return scan  # heights that are no numbers; the Indenter refuses such heights
+        return scan  # Indenter refuses heights that are no numbers
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
 def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
-    """Read heights, spacing and units from a file, as a Scan, with the reader for the suffix of the file.
+    """Read heights, spacing and units from a file, as a Scan. The suffix of the file selects the reader.
 
-    is_map : True if the user gives both dx and dy. A text of one or two rows or columns is then a map, not a profile
+    is_map : True if the user gives both dx and dy. A text file with one or two rows or columns is then read as a map;
+        otherwise it is refused, since it may hold a profile
     """
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
@@ -215,7 +216,7 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
         return read_tiff(path, channel)
     if suffix in elevation.FORMATS:
         return elevation.read_elevation(path, elevation.FORMATS[suffix], channel)
-    # A binary file with the suffix of a text is in the format of an instrument.
+    # A binary file with the suffix of a text file is in the format of an instrument, which is read at the end.
     if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):
         if channel is not None:
             raise ValueError(f"{argument('channel')} {channel}: a file of this kind holds one map; leave it out")
@@ -226,9 +227,9 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
 
 
 def _with_units_of_prj(scan: Scan, path: FilePath) -> Scan:
-    """Add the units that the .prj file of an ESRI grid states to its Scan. Return other Scans unchanged.
+    """Return the Scan of an ESRI grid with the units that its .prj file states; return other Scans unchanged.
 
-    path : text file of the Scan; the .prj file has the same name with another suffix
+    path : text file from which the Scan was read. The .prj file has the same name with the suffix .prj or .PRJ
     """
     if scan.corners is None or not any(Path(path).with_suffix(end).exists() for end in (".prj", ".PRJ")):
         return scan
@@ -276,9 +277,9 @@ def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Sca
 
 
 def _leading(variable: netCDF4.Variable, dimensions: int) -> str:
-    """Return the leading dimensions that have more than one value, as text such as "time (3)"; "" if there are none.
+    """Return a text that lists the leading dimensions longer than 1, such as "time (3)"; "" if there are none.
 
-    dimensions : number of the last dimensions, which belong to a map or line and are not leading
+    dimensions : number of trailing dimensions, which belong to the map (2) or line (1); all others are leading
     """
     lengths = zip(variable.dimensions[:-dimensions], variable.shape[:-dimensions], strict=True)
     return ", ".join(f"{name} ({length})" for name, length in lengths if length != 1)
@@ -293,10 +294,10 @@ def _unit_of(variable: netCDF4.Variable) -> str:
 def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
     """Return (name, positions, unit) of the variable with the positions along a dimension; None if there is none.
 
-    This variable is the coordinate, which has the name of the dimension. Without a coordinate, it is the only variable
-    of numbers whose only dimension is this dimension.
+    The coordinate with the name of the dimension is chosen first. Without a coordinate, a variable of numbers is chosen
+    if no other variable has this dimension alone.
 
-    heights : name of the variable of heights, which is not considered
+    heights : name of the variable of heights, which is never chosen
     """
     variables = {name: each for name, each in file.variables.items() if each.dimensions == (dimension,)}
     along = [name for name, each in variables.items() if np.dtype(each.dtype).kind in "iuf" and name != heights]
@@ -307,9 +308,9 @@ def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tup
 def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str] | None) -> tuple[Any, ...]:
     """Return ((dx, dy), unit) from the positions of rows and columns; (None, "1") without positions.
 
-    rows, columns : (name, positions, unit) from `_positions_along`. Positions that only number the points do not count
+    rows, columns : (name, positions, unit) from `_positions_along`. Positions that only number the points are ignored
 
-    Raises ValueError if only the rows or only the columns have positions, and if a unit is stated for one of them only.
+    Raises ValueError if rows have positions but columns have none, or the reverse; and likewise for units.
     """
     stated = [axis for axis in (columns, rows) if axis is not None and not _are_indices(*axis[1:])]
     if not stated:

@@ -1,4 +1,4 @@
-"""Read maps of heights in the file formats of instruments with SurfaceTopography, if it is installed."""
+"""Read maps of heights from files of instruments, with the package SurfaceTopography if it is installed."""
 
 import io
 import re
@@ -21,7 +21,7 @@ from viscorough.io.scan import Scan
 _ARRAY_FORMATS = ("npy", "npz", "mat", "h5")
 # Numbers of at least this magnitude, such as -1.8e308, mark missing points. No height in any unit is as large.
 _LARGEST_HEIGHT = 1e30
-# Sides of the field that an instrument measures are between these lengths in metres. Other sides suggest a wrong unit.
+# A field that an instrument measures has sides between these lengths [m]. Other lengths suggest a wrong unit.
 _LEAST_SIDE, _LARGEST_SIDE = 1e-8, 1.0
 # Several formats use each of these suffixes. The error that the reader of one format raises may thus be misleading.
 _SHARED_SUFFIXES = ("asc", "csv", "dat", "txt", "xyz", "zip")
@@ -39,7 +39,7 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 
     Raises a one-line ValueError for unknown formats, line scans and channels without heights.
     """
-    # Ignore warnings about optional packages and the layout of files, which users cannot change.
+    # Ignore warnings of SurfaceTopography about optional packages and the layout of files: users cannot act on them.
     with (
         reading(path, "a file of heights is needed"),
         warnings.catch_warnings(action="ignore"),
@@ -48,7 +48,8 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         if file.format() == "gwy" and not file.channels:
             return _gwyddion_scan(path, file, channel)
         chosen, others = _choose(file, channel)
-        # SurfaceTopography needs a size. If the file states none, this size is a dummy, and no spacing is returned.
+        # SurfaceTopography needs the lengths of the sides of a map. If the file does not state them, the numbers of
+        # points are passed as dummies, and no spacing is returned.
         size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
         topography = chosen.topography(**size)
         heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
@@ -72,7 +73,7 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 
 
 def _opened(path: FilePath) -> Any:
-    """Return a SurfaceTopography reader of a file, for the format that its content or its suffix indicates.
+    """Return a SurfaceTopography reader for a file, whose format is found from its content or from its suffix.
 
     Raises ValueError for an unknown format. If the content indicates no format, the reader for the suffix raises an
     error that states the fault.
@@ -95,18 +96,20 @@ def _opened(path: FilePath) -> Any:
         if not kinds or suffix in _SHARED_SUFFIXES:
             raise ValueError("no known format") from error
         return open_topography(source, format=kinds[0])
-    if file.format() == "hgt":  # every file of a suitable size is recognised as this format
+    # SurfaceTopography takes every file of a suitable size for this format.
+    if file.format() == "hgt":
         raise ValueError("no known format")
     if file.format() in kinds or _maps(file) or not kinds:
         return file
-    file.close()  # the content suits several formats, and the format found is not the format of the suffix
+    # The format that the content suggests is not a format of the suffix and gives no map. Try the format of the suffix.
+    file.close()
     return open_topography(source, format=kinds[0])
 
 
 def _with_plain_revision(path: FilePath) -> Any:
-    """Return a source for SurfaceTopography: the path, or for an x3p file its content with a corrected revision.
+    """Return the path as text, or the content of an x3p file with its revision spelled with a hyphen.
 
-    The revision in an x3p file may be spelled with a dash. In the returned content it has a hyphen: ISO5436 - 2000.
+    Some x3p files spell their revision with a dash. SurfaceTopography needs the spelling "ISO5436 - 2000".
     """
     if Path(path).suffix.lower() != ".x3p" or not zipfile.is_zipfile(path):
         return str(path)
@@ -128,10 +131,10 @@ def _maps(file: Any) -> list[Any]:
 
 
 def _choose(file: Any, name: str | None) -> tuple[Any, list[str]]:
-    """Return the channel of a file to read, and the names of the other channels with heights.
+    """Return (channel to read, names of the other channels with heights).
 
-    name : name or number of the channel; None for the first channel with heights. The names of other channels are
-        returned only for None
+    name : name or number of the channel to read; None for the first channel with heights. If `name` is given, no other
+        channels are returned
     """
     maps = _maps(file)
     called = [channel for channel in maps if name in (channel.channel_id, channel.name, str(channel.index))]
@@ -157,8 +160,8 @@ def _holds_heights(channel: Any) -> bool:
 def _nms_spacing(spacing: tuple[float, float], unit: str, shape: tuple[int, ...]) -> tuple[float, float]:
     """Return the spacing of a NanoFocus file. The header states the spacing in nanometres or in millimetres.
 
-    SurfaceTopography assumes millimetres. Fields of confocal microscopes are far smaller than 1 m, and a spacing in
-    nanometres that is read as millimetres gives a field far above 1 m.
+    SurfaceTopography assumes millimetres. Fields of confocal microscopes are far smaller than 1 m. If the assumption
+    gives a field above 1 m, the spacing must be in nanometres.
     """
     if max(np.multiply(spacing, shape[::-1])) * units.metres(unit) <= _LARGEST_SIDE:
         return spacing
@@ -174,13 +177,13 @@ def _check_field(path: FilePath, spacing: tuple[float, float], unit: str, shape:
         warnings.warn(f"{path}: {text}: check the unit of the spacing", AccuracyWarning, stacklevel=3)
 
 
-# ---- Gwyddion fields whose heights or lengths have no unit; SurfaceTopography ignores such fields
+# ---- Gwyddion fields in which heights or lateral lengths have no unit; SurfaceTopography ignores such fields
 
 
 def _gwyddion_scan(path: FilePath, file: Any, name: str | None) -> Scan:
-    """Return, as a Scan, the heights and spacing of a Gwyddion field whose heights or lengths have no unit.
+    """Return heights and spacing, as a Scan, of a Gwyddion field in which heights or lateral lengths have no unit.
 
-    If the lengths have no unit, the Scan has no spacing.
+    If the lateral lengths have no unit, the Scan has no spacing.
 
     file : reader of SurfaceTopography for the file at `path`
     name : name or number of the field; needed if the file holds several fields
@@ -208,14 +211,15 @@ def _gwyddion_scan(path: FilePath, file: Any, name: str | None) -> Scan:
 
 
 def _gwyddion_unit(field: dict[str, Any], axes: str) -> str:
-    """Return the unit of heights (axes "z") or of lengths (axes "xy") of a Gwyddion field; "1" if it is not stated."""
+    """Return the unit of heights (axes "z") or lateral lengths (axes "xy") of a Gwyddion field; "1" if not stated."""
     return field.get(f"si_unit_{axes}", {}).get("GwySIUnit", {}).get("unitstr", "").strip() or units.UNKNOWN
 
 
 def _gwyddion_numbers(path: FilePath, field: dict[str, Any]) -> Array:
     """Read the numbers of a Gwyddion field as an array of shape (rows, columns).
 
-    The file holds the count of the numbers in 4 bytes, and then the numbers in double precision.
+    At the offset of the field, the file holds 4 bytes with the count of the numbers, and then the numbers in double
+    precision.
     """
     shape = field["yres"], field["xres"]
     return np.fromfile(path, "<f8", shape[0] * shape[1], offset=field["data"]["offset"] + 4).reshape(shape)

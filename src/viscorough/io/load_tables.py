@@ -1,9 +1,10 @@
 """Write and read tables with one row for each load of each file of heights.
 
-The columns are depth, force, stiffness, contact area, pressures and, on request, grid errors, in the units of
-viscorough.basics.units.result_units: um, um2, and with a modulus N, N/m and MPa. A file that could not be evaluated has
-one row with the error and without numbers. Every row has a digest of its file and of the settings. Thanks to the
-digests, a table can be continued: rows of unchanged files are taken from the table instead of being computed again.
+The columns are depth, force, stiffness, contact area, pressures and, on request, grid errors. Lengths are in um and
+areas in um2. If the shear modulus is given, forces are in N, stiffnesses in N/m and pressures in MPa (see
+viscorough.basics.units.result_units). A file that could not be evaluated has one row with the error and without
+numbers. Every row has a digest of its file and of the settings. Thanks to the digests, a table can be continued: rows
+of unchanged files are taken from the table instead of being computed again.
 """
 
 import csv
@@ -26,7 +27,7 @@ from viscorough.results.contact_maps import Contact
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# Quantities in tables: {quantity: key of units.result_units for its unit, or None for counts and shares}.
+# Quantities in tables and their units: {quantity: key of units.result_units, or None for counts and shares}.
 _MEASURES = {
     "depth": "length",
     "force": "force",
@@ -40,10 +41,11 @@ _MEASURES = {
     "patches": None,
     **dict.fromkeys(ABOUT_GRID),
 }
-# {quantity: name of its column if a modulus is given}: F, k and p then replace F/G, k/G and p/G.
+# If the shear modulus G is given, the columns hold F, k and p instead of F/G, k/G and p/G: {quantity: name of its
+# column}.
 _WITH_MODULUS = {"force": "normal_force", "stiffness": "normal_stiffness"}
 _WITH_MODULUS |= {"mean_pressure": "mean_normal_pressure", "largest_pressure": "largest_normal_pressure"}
-# Quantities in a table of contacts, and quantities in a table of loading curves.
+# Quantities in a table of contacts (_CONTACT_QUANTITIES) and in a table of loading curves (_CURVE_QUANTITIES).
 _CONTACT_QUANTITIES = [name for name in _MEASURES if name not in ("contact_count", *ABOUT_GRID)]
 _CURVE_QUANTITIES = [
     "depth",
@@ -54,13 +56,13 @@ _CURVE_QUANTITIES = [
     "contact_area",
     "mean_pressure",
 ]
-# Columns of whole numbers.
+# Columns that hold whole numbers.
 _COUNTS = ("contact_count", "patches")
-# Users may prescribe these quantities. Texts therefore show them with six digits.
+# Quantities that users may prescribe. In texts they have six digits, all other quantities have four.
 _PRESCRIBED = ("depth", "force", "normal_force")
-# Number of hexadecimal digits of a digest that are kept.
+# A digest in a table is shortened to this number of hexadecimal digits.
 _DIGEST_DIGITS = 16
-# Columns of texts: {name: meaning}.
+# Columns that hold texts: {name: meaning}.
 _TEXTS = {
     "file": "file of heights",
     "error": "why the file has no numbers; empty if it has",
@@ -70,7 +72,8 @@ _TEXTS = {
 _MEANINGS = {
     name: text for name, (text, _) in (OVER_LEVELS | ABOUT_GRID | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()
 }
-# Columns of a table of contacts with a modulus and with grid errors: {column: (meaning, unit, or None for texts)}.
+# All columns of a table of contacts, if the shear modulus is given and grid errors are requested: {column: (meaning,
+# unit)}. The unit is None for texts.
 SI_COLUMNS: dict[str, tuple[str, str | None]] = {
     "file": (_TEXTS["file"], None),
     **{
@@ -83,23 +86,23 @@ SI_COLUMNS: dict[str, tuple[str, str | None]] = {
     },
     **{name: (text, None) for name, text in _TEXTS.items() if name != "file"},
 }
-# GDAL reads companion files together with a file of heights. The name of a companion file is the name of the file of
-# heights, in which the suffix is replaced by a suffix in _COMPANIONS, or to which an ending in _ADDED is appended.
+# GDAL reads companion files together with a file of heights such as map.asc. In their names, a suffix in _COMPANIONS
+# replaces the suffix (map.prj), or an ending in _ADDED is appended (map.asc.msk).
 _COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")
 
 Row = dict[str, float | int]
-Rows = tuple[Sequence[Row], dict[str, str]]  # rows of a table, and {column: unit}
+Rows = tuple[Sequence[Row], dict[str, str]]  # (rows of a table, {column: unit})
 
 
 class LoadRows(NamedTuple):
-    """Rows of one file of heights in a table.
+    """Rows of a table of contacts that belong to one file of heights, one row for each load.
 
     file : name of the file
     digest : digest of the file and the settings; "" if the file cannot be read
-    rows : {column: number} for each load; empty if the file could not be evaluated
-    units : {column: unit} of the rows
-    error : reason for missing rows, or ""
-    warnings : doubts about the numbers, or ""
+    rows : one {column: number} for each load; empty if the file could not be evaluated
+    units : {column: unit}
+    error : reason why there are no rows; "" if there are rows
+    warnings : doubts about the numbers; "" if there are none
     """
 
     file: str
@@ -111,7 +114,7 @@ class LoadRows(NamedTuple):
 
 
 def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] | None = None) -> Rows:
-    """Return the rows of a table, one for each contact, and {column: unit}.
+    """Return (rows of a table, one for each contact; {column: unit}).
 
     grid_errors : {quantity in io.curves.ABOUT_GRID: its value for each contact}; None for a table without grid errors
     """
@@ -123,8 +126,9 @@ def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] 
 
 
 def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float | None) -> Rows:
-    """Return the rows of a table, one for each level of the loading curve of an indenter, and {column: unit}.
+    """Return (rows of a table, one for each computed contact of a loading curve; {column: unit}).
 
+    indenter : indenter of the curve, whose spacing gives the contact area
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known; None if it is not given
     """
     area = curve.contact_count * curve.sampling**2 * indenter.spacing * indenter.row_spacing
@@ -135,7 +139,10 @@ def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float 
 
 
 def _rows(values: dict[str, Any], length_unit: str, shear_modulus: float | None) -> Rows:
-    """Convert {quantity: numbers of the solver} to the rows of a table, in the units of units.result_units."""
+    """Convert results of the solver to (rows of a table, {column: unit}), in the units of units.result_units.
+
+    values : {quantity: its value for each row}
+    """
     read, stated = units.result_units(length_unit, shear_modulus), {}
     columns: dict[str, list[float | int]] = {}
     for quantity, numbers in values.items():
@@ -150,13 +157,14 @@ def _rows(values: dict[str, Any], length_unit: str, shear_modulus: float | None)
 
 
 def _rounded(number: float) -> float:
-    """Round a number to 15 digits, so that a force of 5 uN is 5e-06 N after its conversion to F/G and back."""
+    """Round a number to 15 digits. A force of 5 uN is thus exactly 5e-06 N after a conversion to F/G and back."""
     return float(f"{number:.15g}")
 
 
 def text_of_row(row: Row, stated: dict[str, str]) -> str:
-    """Return the numbers of a contact, given as a row of a table, as one line of text.
+    """Return one line of text with the main numbers of a contact.
 
+    row : row of a table of contacts
     stated : {column: unit} of the table
     """
 
@@ -175,7 +183,7 @@ def text_of_row(row: Row, stated: dict[str, str]) -> str:
 
 
 def digest_of_scan(path: FilePath, settings: str) -> str:
-    """Return a digest of a file of heights, of further files that GDAL reads with this file, and of the settings.
+    """Return a digest of a file of heights, of its companion files (such as .prj and .hdr), and of the settings.
 
     settings : text that states the version of viscorough, the command and its options
 
@@ -194,9 +202,9 @@ def digest_of_scan(path: FilePath, settings: str) -> str:
 
 
 def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
-    """Return the rows of files, sorted by name, with one unit in each column.
+    """Sort the results of files by file name, and ensure that each column of their rows has a single unit.
 
-    If some files state a unit of length, each file without a unit gets an error instead of its rows.
+    If some files state a unit of length and others do not, the others get an error instead of their rows.
     """
     listed = sorted(results, key=lambda result: result.file)
     if len({result.units["depth"] for result in listed if result.rows}) < 2:
@@ -209,13 +217,14 @@ def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
 
 
 def lines_of_files(results: Iterable[LoadRows]) -> list[dict[str, Any]]:
-    """Return the lines of a table as {column: value}: a line for each load of a file, or one line with its error."""
+    """Return the lines of a table, each as {column: value}: one for each row, and one for each file without rows."""
     return [row | {name: getattr(result, name) for name in _TEXTS} for result in results for row in result.rows or [{}]]
 
 
 def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
-    """Convert the rows of files, as `with_one_unit` returns them, to the content of a table.
+    """Convert the results of files to the content of a table.
 
+    results : results of `with_one_unit`
     attributes : further global attributes of the content
     """
     stated = next((result.units for result in results if result.rows), {})
@@ -229,15 +238,17 @@ def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
 
 
 def _column(values: list[Any], meaning: str, **attributes: str) -> Variable:
-    column: Array = np.empty(len(values), dtype=object)  # of objects, since nan would turn whole numbers into floats
+    # In an array of objects, whole numbers stay whole numbers; nan would turn them into floats in another array.
+    column: Array = np.empty(len(values), dtype=object)
     column[:] = values
     return Variable(("row",), column, {"long_name": meaning, **attributes})
 
 
 def finished_rows(path: FilePath) -> dict[str, LoadRows]:
-    """Read a table that `load_table` made, and return {name of a file: its rows}, without files that had an error.
+    """Read a table of contacts that was written earlier, and return {name of a file of heights: its rows}.
 
-    Return {} for a file that is no such table, or that another program changed beyond recognition.
+    Files of heights with an error are left out. Return {} if `path` is missing or is no table of contacts, for example
+    because another program has changed its form.
     """
     found: dict[str, LoadRows] = {}
     try:

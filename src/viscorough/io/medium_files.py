@@ -20,8 +20,8 @@ from viscorough.media import kinds
 from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.media.medium import Medium
 
-# {kind of medium in a YAML file: class}. The other keys of the file are the parameters of the class, except for a creep
-# table, which is in a separate file.
+# Media that a YAML file may hold: {value of the key `kind`: class}. The other keys of the file are the parameters of
+# the class. The numbers of a creep table are in a separate file, which the key `file` names.
 KINDS: dict[str, Any] = {
     "newtonian": kinds.Newtonian,
     "maxwell": kinds.Maxwell,
@@ -36,7 +36,7 @@ _COMPLIANCE: dict[str, tuple[str, int | str]] = {
     "time": ("time since a step of the force", "s"),
     "compliance": ("creep compliance J", "1/Pa"),
 }
-# All columns of the table of an identified medium: {measured quantity: {name: (meaning, unit)}}.
+# All columns of the table of an identified medium: {measured quantity, depth or force: {name: (meaning, unit)}}.
 _TABLES: dict[str, Quantities] = {
     "depth": _COMPLIANCE
     | {
@@ -93,13 +93,13 @@ def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
 def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, folder: Path = Path()) -> Medium:
     """Return the medium that a mapping describes.
 
-    mapping : `kind`, one of KINDS, and all parameters of this kind. Young's moduli (kinds.YOUNG) may replace the moduli
-        in shear; `poisson` is then an optional key. The key `file` of a creep table names a file with the columns time
-        and compliance, in s and 1/Pa or in the units of its heading
+    mapping : the key `kind`, one of KINDS, and all parameters of this kind. Shear moduli may be replaced by Young's
+        moduli (kinds.YOUNG); `poisson` is then an optional key. For a creep table, the key `file` names a file with the
+        columns time and compliance. They are in s and 1/Pa, unless the heading of the file states other units
     length_unit : unit of length of the indenter. If it is known, plain moduli are in Pa, viscosities in Pa s and times
         in s, and values may have units ("2 MPa"), except for a springpot. If it is "1", all values are plain numbers in
         consistent units of the user's choice
-    folder : folder to which the name of the file of a creep table is relative
+    folder : folder in which the file of a creep table is searched if its name is relative
 
     Raises a one-line ValueError for an unknown kind or key, missing keys, and values out of range.
     """
@@ -123,7 +123,7 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
 
 
 def creep_table_of(path: FilePath) -> Path | None:
-    """Return the path of the creep table that a YAML file names, whether it exists or not; None for other media."""
+    """Return the path of the creep table that the YAML file of a medium names, or None. The table need not exist."""
     name = _mapping(path).get("file")
     return Path(path).parent / name if isinstance(name, str) and name and "\0" not in name else None
 
@@ -132,9 +132,9 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     """Write an IdentifiedMedium as YAML for `read_medium`, atomically.
 
     A creep table is written to a second file in the same folder, with the suffix .csv. The table has the columns time,
-    compliance, low and high. low and high are the ends of the interval of the compliance; they are empty if the scatter
-    of the record is unknown. If the force was measured, the table also has the column relaxation_modulus, and low and
-    high are the ends of its interval.
+    compliance, low and high. low and high are the ends of the 95 % interval of the compliance; they are empty if the
+    scatter of the record is unknown. If the force was measured, the table also has the column relaxation_modulus, and
+    low and high are the ends of the interval of the relaxation modulus.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     Raises
     ------
     ValueError
-        For a path that is not .yaml or cannot be written.
+        For a path that does not end in .yaml or .yml, or cannot be written.
     OSError
         If writing fails.
 
@@ -181,7 +181,8 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
 def identified_to_content(identified: IdentifiedMedium) -> Content:
     """Convert an IdentifiedMedium to the content of a table, with one row for each time.
 
-    The columns are the creep compliance, the relaxation modulus if the force was measured, and an interval (_TABLES).
+    The columns are the time, the creep compliance, the relaxation modulus if the force was measured, and the ends of a
+    95 % interval (see `_TABLES`).
     """
     quantities = _TABLES[identified.measured]
     values = {name: getattr(identified, name) for name in quantities}
@@ -190,7 +191,9 @@ def identified_to_content(identified: IdentifiedMedium) -> Content:
 
 
 def check_medium_file(path: FilePath) -> Path:
-    """Return the path of the creep table that belongs to a YAML file to be written: the same name with .csv.
+    """Return the path at which the creep table of a YAML file is written: the same name with the suffix .csv.
+
+    path : path of the YAML file
 
     Raises ValueError if the suffix of the YAML file is neither .yaml nor .yml.
     """
@@ -216,7 +219,10 @@ def _mapping(path: FilePath) -> dict[str, Any]:
 
 
 def _values(key: str, value: object, length_unit: str) -> Any:
-    """Convert a value that a YAML file states for a key, or a list of values, to an argument for the class."""
+    """Convert the value of a key in a YAML file, or a list of values, to an argument for the class of the medium.
+
+    Raises ValueError for a value with a unit if `length_unit` is "1", since the unit of length is then not known.
+    """
     if isinstance(value, list):
         return [_values(f"{key}[{i}]", entry, length_unit) for i, entry in enumerate(value)]
     if isinstance(value, str):

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from viscorough.law.estimate import Estimate
 
 
-# Variables with one value for each time: {name: (long_name, unit as in io.netcdf.Quantities)}.
+# Variables with one value for each time: {name: (long_name, unit)}, with units as in io.netcdf.Quantities.
 _QUANTITIES: Quantities = {
     **OVER_LEVELS,
     "time": ("time since the load was applied", "time"),
@@ -22,7 +22,7 @@ _QUANTITIES: Quantities = {
     "velocity": ("velocity of penetration du/dt", "velocity"),
     "force": ("force F at that time", "N"),
 }
-# An estimate has three variables for each quantity: {suffix of the name of a variable: meaning}.
+# An estimate has three variables for depth and three for velocity: {end of the name of the variable: meaning}.
 _STATISTICS = {
     "": "mean over surfaces",
     "_low": "lower end of the interval of 95 % of single surfaces",
@@ -31,7 +31,7 @@ _STATISTICS = {
 
 
 def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
-    """Convert an Estimate to the content of a NetCDF file; values are nan at times at which the law does not hold."""
+    """Convert an Estimate to the content of a NetCDF file. Values are nan at times when the law does not hold."""
     quantities = {name: _QUANTITIES[name] for name in ("time", "x")}
     for name, text, unit in (("depth", "depth of penetration u", 1), ("velocity", *_QUANTITIES["velocity"])):
         quantities |= {name + suffix: (f"{text}, {statistic}", unit) for suffix, statistic in _STATISTICS.items()}

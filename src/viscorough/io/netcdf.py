@@ -16,8 +16,9 @@ from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.digest import add_digest, check_digest
 from viscorough.io.unpacking import STORAGE, unpacked
 
-# {name of a variable: (long_name, unit)}. The unit is a power of the unit of length, "time" (always in s), "velocity",
-# or an SI unit such as "N", which becomes "1" if the unit of length is not known.
+# {name of a variable: (long_name, unit)}. The unit is one of the following: a number n for the unit of length to the
+# power n, "time" (always in s), "velocity", or an SI unit such as "N", which becomes "1" if the unit of length is not
+# known.
 Quantities = Mapping[str, tuple[str, int | str]]
 # Variables of at least this many values are compressed. For smaller variables, the chunks that compression needs take
 # more room than compression saves.
@@ -50,10 +51,12 @@ class Content(NamedTuple):
 def described(
     dimensions: tuple[str, ...], values: Mapping[str, Any], quantities: Quantities, length_unit: str
 ) -> dict[str, Variable]:
-    """Return {name: Variable} with the given dimensions, each with the long_name and the unit of its quantity.
+    """Return {name: Variable}: arrays with their dimensions, long names and units.
 
+    dimensions : names of the dimensions of all arrays
     values : {name: array}
     quantities : {name: (long_name, unit)}, see `Quantities`
+    length_unit : unit of length; "1" if it is not known
     """
     spelled: dict[int | str, str] = {power: unit_power(length_unit, power) for power in (0, 1, 2)}
     spelled |= {"time": "s", "velocity": "s-1" if length_unit == "1" else f"{length_unit} s-1"}
@@ -66,7 +69,7 @@ def described(
 
 
 def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: str) -> dict[str, Variable]:
-    """Return the coordinates of the points of a map or line, {dimension: Variable}, counted from the centre.
+    """Return the coordinates of the points of a map or line, {dimension: Variable}; they are 0 at the centre.
 
     spacings : {dimension: distance between neighbouring points}, in the order of `shape`
     unit : unit of the spacings and coordinates
@@ -99,10 +102,10 @@ def compression(size: int) -> dict[str, Any]:
 
 @contextmanager
 def written_with_digest(path: FilePath) -> Iterator[Path]:
-    """Yield a temporary path at which the caller writes a NetCDF file; the file is then completed and replaces `path`.
+    """Yield a temporary path for a NetCDF file, add a digest to the written file, and move the file to `path`.
 
-    The caller writes the file with global_attributes. The digest of the content (io.digest), which `opened` checks, is
-    added here. Raises the errors of atomic_write.
+    The caller writes the file at the temporary path, with global_attributes. `opened` checks the digest (io.digest)
+    when the file is read. Raises the errors of atomic_write.
     """
     with atomic_write(path) as temporary:
         yield temporary
@@ -125,7 +128,7 @@ def write(content: Content, path: FilePath) -> None:
                 if dimension not in file.dimensions:
                     file.createDimension(dimension, size)
             kind = str if values.dtype.kind in "UO" else values.dtype
-            # In CF no value of a coordinate may be missing, so coordinates get no fill value.
+            # The CF conventions forbid missing values in a coordinate, so coordinates get no fill value.
             fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None
             stored = file.createVariable(name, kind, dimensions, fill_value=fill, **compression(values.size))
             stored.setncatts(attributes)
@@ -136,7 +139,7 @@ def write(content: Content, path: FilePath) -> None:
 def opened(path: FilePath, *, checked: bool = True) -> Iterator[netCDF4.Dataset]:
     """Yield the netCDF4.Dataset of a file. Every fault of the file becomes a one-line ValueError.
 
-    checked : True to read the whole file, and to refuse a file whose content does not match its digest (io.digest)
+    checked : True to read the whole file and compare its content with its digest (io.digest)
     """
     with reading(path, "a whole NetCDF file is needed"), netCDF4.Dataset(path) as file:
         if checked:

@@ -23,13 +23,13 @@ from viscorough.io.saving import Result, to_content
 from viscorough.io.suffixes import FIGURES, check_suffix
 
 Variables = dict[str, Variable]
-# Metadata without dates, so that the same result gives the same file.
+# Metadata of figures have no dates, so that the same result gives the same file.
 _METADATA: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 # Colours of Okabe and Ito, which people with any colour vision can distinguish.
 _BLUE, _VERMILION = "#0072b2", "#d55e00"
-# A curve of fewer points is drawn with a marker at each point.
+# A curve of fewer points than this is drawn with a marker at each point.
 _FEW = 40
-# If the upper end of a logarithmic axis divided by the lower end is less than this, ticks at powers of ten are too few.
+# If the ratio of the ends of a logarithmic axis is smaller than this, ticks at powers of ten only would be too few.
 _FEW_DECADES = 80
 # Colours end at this percentile of the pressures in contact, since single elements may have far larger pressures.
 _PERCENTILE = 99
@@ -49,11 +49,11 @@ _SYMBOLS = {
     "compliance": "J",
     "relaxation_modulus": r"\psi",
 }
-# {name of a variable: label of its axis}.
+# Labels of axes: {name of the variable: label}.
 _LABELS = {name: f"{name.replace('_', ' ')} ${symbol}$" for name, symbol in _SYMBOLS.items()}
 _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x": "$x$", "y": "$y$"}
 _LABELS |= {"normal_force": "force $F$", "normal_stiffness": "stiffness $k$", "normal_pressure": "pressure $p$"}
-# {name of a number of a contact: label of this number in the text above the maps}.
+# Numbers in the text above the maps of a contact: {name of the number: label in the text}.
 _STATE = {"depth": "$u$", "force": "$F/G$", "normal_force": "$F$", "largest_normal_pressure": "largest $p$"}
 _STATE |= {"contact_fraction": "contact fraction", "corrected_contact_area": "corrected contact area"}
 _STATE |= {"patches": "patches"}
@@ -75,13 +75,13 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     Returns
     -------
     Figure
-        Figure of matplotlib. Maps have the first row at the top. Coordinates are taken from the file or count from the
+        Figure of matplotlib. Maps have the first row at the top. Coordinates are taken from the file, or are 0 at the
         centre. Colours of pressures end at the 99th percentile.
 
     Raises
     ------
     ValueError
-        For a suffix that is not allowed, and for a Content that holds no such result.
+        For a suffix that is not allowed, and for a Content that holds none of these results.
 
     Examples
     --------
@@ -102,11 +102,12 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
 
 
 def kind_of(content: Content) -> tuple[Callable[[Variables], Figure], Variables]:
-    """Return the function that draws a Content, and the variables of numbers for this function.
+    """Choose the function that draws a Content. Return the function and its argument, the variables that hold numbers.
 
     Raises ValueError for a Content that no function can draw.
     """
-    if set(STORED) <= set(content.variables):  # the Content has a loading curve, which is checked here
+    # If the Content has a loading curve, its conversion to a LoadingCurve raises ValueError for contradictory numbers.
+    if set(STORED) <= set(content.variables):
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
     dimensions = {name: variable.dimensions for name, variable in numbers.items()}
@@ -150,7 +151,7 @@ def _fields(variables: Variables) -> Figure:
 
 
 def _with_modulus(variables: Variables, name: str) -> str:
-    """Return the name of the variable in N, N/m or Pa, if there is one since a modulus was given; otherwise `name`."""
+    """Return the name of the variable in N, N/m or Pa, such as normal_force, if it exists; otherwise `name`."""
     return f"normal_{name}" if f"normal_{name}" in variables else name
 
 
@@ -180,12 +181,15 @@ def _in_readable_units(variables: Variables) -> Variables:
 
 
 def _stated_unit(variables: Variables, name: str) -> str:
-    """Return the unit of a variable as its file states it; "1" if there is no such variable."""
+    """Return the unit of a variable as its file states it; "1" if the variable or its unit is missing."""
     return str(variables[name].attributes.get("units", "1")) if name in variables else "1"
 
 
 def _state(variables: Variables, index: int) -> str:
-    """Return the numbers of the contact with this index as a text, with F instead of F/G if a modulus was given."""
+    """Return a text with the main numbers of one contact; the force is F if the shear modulus was given, else F/G.
+
+    index : number of the contact, from 0
+    """
     texts = []
     for name, symbol in _STATE.items():
         if name in variables and variables[name].values.size > index and _with_modulus(variables, name) == name:
@@ -219,7 +223,7 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
 
 
 def _motion(variables: Variables) -> Figure:
-    """Draw depth and velocity against time. If force or depth decreases, draw the figure of `_loop` instead."""
+    """Draw depth and velocity against time. If force or depth decreases, call `_loop` instead."""
     time = variables["time"].values
     if not (np.diff(time) >= 0).all():
         raise ValueError("time must not decrease; a file that viscorough wrote is needed")
@@ -231,7 +235,7 @@ def _motion(variables: Variables) -> Figure:
     figure, axes = _panels(len(names))
     for panel, name in zip(axes, names, strict=True):
         ends = [variables[key] for end in ("low", "high") if (key := f"{name}_{end}") in variables]
-        if len(ends) == 2:  # the variables of an estimate, which has an interval
+        if len(ends) == 2:  # an estimate has an interval with two ends
             panel.fill_between(time, ends[0].values, ends[1].values, color=_BLUE, alpha=0.25, linewidth=0)
         _curve(panel, time, variables[name].values)
         _label(panel, variables, "time", name, name)
@@ -240,7 +244,8 @@ def _motion(variables: Variables) -> Figure:
 
 def _loop(variables: Variables) -> Figure:
     """Draw depth and force against time, and force against depth, on linear axes."""
-    variables = variables | {"normal_force": variables["force"]}  # for the label F, since the label of `force` is F/G
+    # The force of a motion is F. The name normal_force gives it the label F; the name force would give the label F/G.
+    variables = variables | {"normal_force": variables["force"]}
     pairs = [
         ("time", "depth", "depth"),
         ("time", "normal_force", "force"),
@@ -263,16 +268,16 @@ def _compliance(variables: Variables) -> Figure:
 def _relaxation(variables: Variables) -> Figure:
     figure, (modulus, compliance) = _panels(2)
     _with_interval(modulus, variables, "relaxation_modulus")
-    after = variables["time"].values > 0  # the axes are logarithmic
+    after = variables["time"].values > 0  # logarithmic axes cannot show the time 0
     _curve(compliance, variables["time"].values[after], variables["compliance"].values[after])
     _label(compliance, variables, "time", "compliance", "compliance")
     return figure
 
 
 def _with_interval(panel: Axes, variables: Variables, name: str) -> None:
-    """Draw compliance or relaxation modulus of a medium against time, with its interval, on logarithmic axes."""
+    """Draw compliance or relaxation modulus of a medium against time, with its 95 % interval, on logarithmic axes."""
     time, values, low, high = (variables[key].values for key in ("time", name, "low", "high"))
-    after = (time > 0) & (values > 0)  # the axes are logarithmic
+    after = (time > 0) & (values > 0)  # logarithmic axes show positive numbers only
     least = values[after].min() / 10 if after.any() else 0.0
     ends = np.maximum(low[after], least), np.minimum(high[after], 10 * values[after])
     panel.fill_between(time[after], *ends, color=_BLUE, alpha=0.25, linewidth=0)
@@ -299,10 +304,14 @@ def _panels(count: int, width: float = 3.1, height: float = 2.7) -> tuple[Figure
 
 
 def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
-    """Draw the positive values of a curve on logarithmic axes."""
+    """Draw the positive values of a curve on logarithmic axes.
+
+    thin : True for a thin, transparent line, if many curves share the axes
+    """
     shown = (x > 0) & (y > 0)
     axes.set(xscale="log", yscale="log")
-    axes.tick_params(which="minor", labelbottom=False, labelleft=False)  # empty labels of minor ticks would take room
+    # Labels of minor ticks are empty but would take room.
+    axes.tick_params(which="minor", labelbottom=False, labelleft=False)
     look = {"linewidth": 0.5, "alpha": 0.5} if thin else {"marker": "o" if shown.sum() < _FEW else ""}
     axes.plot(x[shown], y[shown], color=_BLUE, **look)
 
@@ -311,7 +320,8 @@ def _label(axes: Axes, variables: Variables, x: str, y: str, title: str) -> None
     axes.set(xlabel=_label_of(variables, x), ylabel=_label_of(variables, y), title=title.replace("_", " "))
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        if axis.get_scale() == "log" and high < _FEW_DECADES * low:  # ticks only at powers of ten would be too few
+        # Add ticks at 2 and 5 times the powers of ten.
+        if axis.get_scale() == "log" and high < _FEW_DECADES * low:
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
             axis.set_major_formatter("{x:.3g}")
 
@@ -322,7 +332,7 @@ def _label_of(variables: Variables, name: str) -> str:
 
 
 def _unit(variable: Variable) -> str:
-    """Return the unit of a variable in common spelling: µm², µm/s, N/m; "1" without a unit."""
+    """Return the unit of a variable in common spelling, such as µm², µm/s or N/m; "1" without a unit."""
     unit = str(variable.attributes.get("units") or "1").replace("um", "µm")
     unit = re.sub(r"(?<=[^\W\d])-?\d", lambda power: power[0].translate(_SUPERSCRIPTS), unit)
     return re.sub(r" (s|m)⁻¹", r"/\1", unit)
@@ -330,8 +340,8 @@ def _unit(variable: Variable) -> str:
 
 _X = {"x": ("x",)}
 _XY = _X | {"y": ("y",)}
-# (function that draws a Content, {variable that the function needs: its dimensions}). `kind_of` chooses the first
-# function whose variables are all in the Content.
+# Functions that draw figures, each with the variables that it needs: (function, {name of the variable: dimensions}).
+# `kind_of` chooses the first function whose variables are all in the file.
 _KINDS: tuple[tuple[Callable[[Variables], Figure], dict[str, tuple[str, ...]]], ...] = (
     (_fields, {"pressure": ("y", "x"), **_XY}),
     (_fields, {"pressure": ("level", "y", "x"), **_XY}),

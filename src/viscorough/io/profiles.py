@@ -14,9 +14,9 @@ from viscorough.io.headers import names_profile, read_header
 from viscorough.io.scan import Scan
 from viscorough.io.text import Table, decoded_lines, is_own_table, parsed
 
-# A profile has at least this many points: in two rows of two numbers, x and z could be rows or columns.
+# A profile has at least this many points. With two points, x and z could be the rows or the columns of the table.
 _LEAST_POINTS = 3
-# The distance of positions agrees with the spacing in a header if the relative difference is at most this.
+# The distance between positions and the spacing that the header states may differ by at most this share.
 _STEPS_AGREE = 1e-3
 
 
@@ -25,7 +25,7 @@ def read_profile(path: FilePath) -> Scan:
 
     A single column or row holds heights; two columns or rows hold x and z. If a heading names x and z, columns may have
     any order, and columns other than x and z are ignored. Positions 0, 1, 2, … or 1, 2, 3, … without a unit and a name
-    only number the points, and state no spacing.
+    only number the points, so no spacing follows from them.
 
     Raises a one-line ValueError unless the file can be recognised as a profile.
     """
@@ -59,7 +59,7 @@ def holds_profile(path: FilePath) -> bool:
 
     A profile has one or two rows or columns, or a heading that names columns x and z.
 
-    Raises a one-line ValueError if the file does not certainly hold a table.
+    Raises a one-line ValueError unless the file certainly holds a table.
     """
     lines = decoded_lines(path)
     if lines[0].startswith("Zygo XYZ Data File") or str(path).lower().endswith(".xyz"):
@@ -73,9 +73,9 @@ def holds_profile(path: FilePath) -> bool:
 def _positions_and_heights(table: Table, columns: tuple[str, ...] | None) -> tuple[Array | None, Array]:
     """Return (positions x, heights) of the points in a table; positions are None if the table holds heights only.
 
-    columns : names of the columns in their heading; None if there is no heading
+    columns : names of the columns in the heading; None if there is no heading
 
-    Raises ValueError for a table of another shape, and for columns whose meaning is not certain.
+    Raises ValueError for a table that does not have the shape of a profile, and for columns of uncertain meaning.
     """
     values = table.values
     if columns is not None:
@@ -102,7 +102,7 @@ def _check_not_named(table: Table) -> None:
 
 
 def _counts_points(x: Array) -> bool:
-    """Return True if positions are 0, 1, 2, … or 1, 2, 3, …."""
+    """Return True if positions only number the points: 0, 1, 2, … or 1, 2, 3, …."""
     return any(np.array_equal(x, np.arange(first, first + x.size)) for first in (0, 1))
 
 

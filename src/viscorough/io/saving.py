@@ -1,4 +1,4 @@
-"""Write results to files in the formats of the command line, and read loading curves from such files."""
+"""Write results to files in the formats that the command line uses, and read loading curves from such files."""
 
 from viscorough.basics.types import FilePath
 from viscorough.io import netcdf, tables
@@ -20,9 +20,9 @@ WRITERS = {".nc": netcdf.write, ".csv": tables.write}
 
 
 def save(result: Result, path: FilePath) -> None:
-    """Write a result to a file, in the format of the command line.
+    """Write a result to a file, in a format that the command line uses, too.
 
-    The file appears whole or not at all.
+    The file is written as a whole or not at all.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
 
 
 def to_content(result: Result) -> netcdf.Content:
-    """Convert a result to the content of the file that `save` writes. Raises TypeError for other objects."""
+    """Convert a result to the content of the file that `save` writes. Raises TypeError for other types of objects."""
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
     if isinstance(result, Motion):
@@ -109,5 +109,5 @@ def to_content(result: Result) -> netcdf.Content:
 
 
 def write_content(content: netcdf.Content, path: FilePath) -> None:
-    """Write the content of a file as NetCDF, or as a table if the path ends in .csv. Raises the errors of `save`."""
+    """Write a Content as NetCDF, or as a table if the path ends in .csv. Raises the errors of `save`."""
     WRITERS[check_suffix(path, RESULTS)](content, path)

@@ -13,21 +13,21 @@ from viscorough.surfaces.indenter import Indenter
 Distance = float | units.Quantity
 # A spacing that the user gives agrees with the spacing in the file if the relative difference is at most this.
 _AGREEMENT = 1e-3
-# Largest deviation from equal spacing that counts as rounding of coordinates, relative to the spacing.
+# Coordinates count as equally spaced if, apart from rounding, each step differs from the mean by at most this share.
 _UNIFORMITY = 1e-2
 
 
 class Scan(NamedTuple):
     """Heights of a map or line, with their spacing and units as a file states them. Larger heights are higher.
 
-    heights : shape (rows, columns), where x runs along a row and y from row to row, or (points,) for a line; nan or
-        masked at points that were not measured
-    unit : unit of the heights, as the file spells it; "1" if the file states none
-    spacing : (dx, dy), distances between neighbouring columns and rows, with nan for a direction that is not stated;
-        None if no direction is stated
-    spacing_unit : unit of the spacing, or of positions x and y, as the file spells it; "1" if the file states none
-    corners : (left, bottom, right, top), x and y of the outermost points in a format without units that may hold
-        longitudes and latitudes; nan if the file does not state the corners, None for other formats
+    heights : map of shape (rows, columns), where x runs along a row and y from row to row, or line of shape (points,).
+        Points that were not measured are nan or masked
+    unit : unit of the heights, as the file spells it; "1" if the file states no unit
+    spacing : (dx, dy), the distance between neighbouring columns and the distance between neighbouring rows. A distance
+        that the file does not state is nan; None if both are missing
+    spacing_unit : unit of the spacing and of positions x and y, as the file spells it; "1" if the file states no unit
+    corners : (left, bottom, right, top), x and y of the outermost points, if x and y have no unit and may be longitudes
+        and latitudes; None otherwise. A corner that the file does not state is nan
     """
 
     heights: np.ndarray
@@ -47,12 +47,11 @@ def to_indenter(
 ) -> Indenter:
     """Convert a Scan to an Indenter, with spacings in the unit of the heights.
 
-    spacing : one distance, or (dx, dy), each a number in the unit of the heights or a quantity for units.with_unit.
+    spacing : one distance, or (dx, dy). Each is a plain number or has a unit, such as "0.2 um" (see units.with_unit).
         Needed if the file states no spacing; otherwise it must agree with the file
-    unit : unit of the heights, and of a spacing in plain numbers. Needed if the file states no unit; otherwise it must
-        agree with the file
-    lateral_unit : unit of the spacing in the file, and of a spacing in plain numbers, if this unit differs from the
-        unit of the heights. It must agree with the file
+    unit : unit of the heights. Needed if the file states no unit; otherwise it must agree with the file
+    lateral_unit : unit of x and y in the file, if the file does not state it; otherwise it must agree with the file. It
+        is also the unit of a `spacing` in plain numbers, whose default is the unit of the heights
     dimensions : 2 for a map, 1 for a line
 
     Raises ValueError if file and arguments contradict each other, if spacing or unit is missing, for a unit that is not
@@ -138,16 +137,17 @@ def _unit_of_heights(scan: Scan, given: str | None) -> str:
 
 
 def _stated_unit(in_file: str) -> str | None:
-    """Return the unit of length that a file states, or None. Raises ValueError for a unit that is not one of length."""
+    """Return the unit of length that a file states; None if it states no unit. Raises ValueError for other units."""
     return None if in_file.strip() in ("", units.UNKNOWN) else units.length_unit(in_file)
 
 
 def _agreed_unit(name: str, lengths: str, in_file: str, given: str | None) -> str:
-    """Return the unit that the file or the user's argument states; "1" if neither states one.
+    """Return the unit that the file or an argument of the user states; "1" if neither states a unit.
 
     name : name of the argument
-    lengths : words for the lengths that have this unit, for the message
-    in_file : unit in the file; given : value of the argument, or None
+    lengths : words for the lengths with this unit in the message, such as "heights"
+    in_file : unit in the file
+    given : value of the argument, or None
 
     Raises ValueError if file and argument state different units.
     """
@@ -164,7 +164,8 @@ def _stated_spacing(scan: Scan, length_unit: str, is_given: bool) -> tuple[float
     """Return the spacing (dx, dy) that the file states, in the unit of the heights; (nan, nan) if none is stated.
 
     length_unit : unit of the heights
-    is_given : True if the user gives a spacing, which then replaces a spacing without a unit in the file
+    is_given : True if the user gives a spacing. If only the heights in the file have a unit, the spacing in the file is
+        then ignored
     """
     if scan.spacing is None:
         return np.nan, np.nan
@@ -198,7 +199,7 @@ def uniform_spacing(name: str, positions: Array) -> float:
         steps = np.diff(positions)
         mean = (positions[-1] - positions[0]) / (positions.size - 1)
         largest = np.abs(positions).max()
-        # Positions that single precision represents exactly may have been rounded to single precision.
+        # If single precision represents all positions exactly, they may have been rounded to single precision.
         in_single = np.array_equal(positions, positions.astype(np.float32))
         rounding = float(np.spacing(largest.astype(np.float32))) if in_single else 4 * np.spacing(largest)
     is_uniform = mean != 0 and np.isfinite(mean) and np.abs(steps - mean).max() <= _UNIFORMITY * abs(mean) + rounding

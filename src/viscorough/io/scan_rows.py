@@ -1,4 +1,4 @@
-"""Compute the rows of a file of heights in a table (io.load_tables): contacts, grid errors, or an error."""
+"""Compute the rows of a table of contacts (io.load_tables) that belong to one file of heights, or report an error."""
 
 import warnings
 from collections.abc import Callable
@@ -20,11 +20,11 @@ from viscorough.surfaces.indenter import Indenter
 
 # If grid errors are computed as well, the computation of the contacts counts as this share of the progress.
 _SHARE_OF_CONTACTS = 0.3
-# The curve for grid errors has further levels at these multiples of the force of each load. A grid error is a mean over
-# half a decade of forces, since the difference of two curves at a single force can be zero by chance.
+# For grid errors, contacts at these multiples of the force of each load are computed as well. A grid error is a mean
+# over half a decade of forces, since the difference of two curves at a single force can be zero by chance.
 _FORCES_BELOW = (10**-0.5, 10**-0.25)
-# A further level is left out if its force and the force of another level differ by less than this share: the results
-# at these levels would differ by less than the tolerance.
+# An additional contact is left out if its force differs from the force of another contact by less than this share: the
+# results of both contacts would differ by less than the tolerance.
 _LEAST_DIFFERENCE = 0.02
 
 
@@ -38,9 +38,11 @@ def rows_at_loads(
     progress: Progress | None = None,
     **how: Any,
 ) -> Rows:
-    """Return the rows of a table, one for each load, and {column: unit}. Raises the errors of `contact_at`.
+    """Compute the contact at each load. Return (rows of a table, one for each load; {column: unit}).
 
-    force, depth : increasing forces [N, or length² without a modulus] or depths [length]; one of the two is needed
+    Raises the errors of `contact_at`.
+
+    force, depth : increasing forces [N, or length² without a modulus] or depths [length]; give one of the two
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known
     grid_error : True for the columns grid_error, force_grid_error and area_change
     progress : function called with the finished share of the computation
@@ -65,7 +67,7 @@ def _curve_with_grid_errors(indenter: Indenter, contacts: list[Contact], **how: 
 
 
 def _with_forces_below(forces: Array) -> Array:
-    """Return the forces, together with the forces of further levels (_FORCES_BELOW), in increasing order."""
+    """Return the given forces and the lower forces for grid errors (_FORCES_BELOW), in increasing order."""
     levels = list(forces)
     for candidate in np.multiply.outer(forces, _FORCES_BELOW).ravel():
         if all(abs(candidate - level) > _LEAST_DIFFERENCE * level for level in levels):
@@ -76,11 +78,11 @@ def _with_forces_below(forces: Array) -> Array:
 def evaluated(
     scan: LoadRows, path: Path, read: Callable[[], Indenter], evaluate: Callable[[Indenter], Rows]
 ) -> LoadRows:
-    """Evaluate a file, and return its rows and warnings, or the error that reading or evaluating the file raised.
+    """Read and evaluate a file of heights. Return `scan` with the rows and warnings, or with the error that occurred.
 
-    scan : LoadRows with the name and the digest of the file, to which the results are added
+    scan : LoadRows with the name and the digest of the file
     path : path of the file. It is removed from messages, since the table has a column with the name of the file
-    read : function that returns the indenter
+    read : function that reads the file and returns the indenter
     evaluate : function of the indenter that returns the rows and {column: unit}
     """
     with warnings.catch_warnings(record=True) as caught:
@@ -89,7 +91,8 @@ def evaluated(
             scan = scan._replace(rows=rows, units=units)
         except REPORTED as error:
             scan = scan._replace(error=_without_path(message(error), path))
-        except Exception as error:  # a fault of viscorough, which need not occur with other files
+        # Any other error is a fault of viscorough. It is reported, too, since other files may be evaluated without it.
+        except Exception as error:
             scan = scan._replace(error=f"{type(error).__name__}: {_without_path(message(error), path)}")
     texts = dict.fromkeys(_without_path(str(warning.message), path) for warning in caught)
     return scan._replace(warnings="; ".join(texts))

@@ -1,4 +1,4 @@
-"""List the suffixes of output files, {suffix: kind of file}, and check a suffix before anything is computed."""
+"""List the allowed suffixes of output files, {suffix: kind of file}, and check a suffix before a computation."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # the module `types` imports numpy, which takes long
+if TYPE_CHECKING:  # importing `types` at run time would import numpy, which takes long
     from viscorough.basics.types import FilePath
 
 RESULTS = {".nc": "NetCDF", ".csv": "table"}

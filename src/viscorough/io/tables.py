@@ -1,8 +1,8 @@
 """Write the content of a NetCDF file with one dimension as a CSV table, for spreadsheets and other programs.
 
 The first lines start with "#": a line "# name: value" for each global attribute, with texts in quotation marks, and a
-line "# column name: meaning" for each column. Then follow a header with the names and units of the columns, such as
-"depth (um)", and a row for each level, in full precision. The field of a missing value is empty.
+line "# column name: meaning" for each column. The next line names the columns and their units, such as "depth (um)".
+All other lines are rows of numbers in full precision. The field of a missing value is empty.
 """
 
 import csv

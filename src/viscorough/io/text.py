@@ -1,12 +1,12 @@
 """Read maps of heights from text files: matrices, ESRI ASCII grids, and columns x, y, z of the points of a grid.
 
-A table of one or two rows or columns may be a profile (io.profiles). It is a map only if the user gives the spacings
-in both directions.
+A table of one or two rows or columns may be a profile (io.profiles). It is read as a map only if the user gives the
+spacings in both directions.
 
-Lines before the first row of numbers are a header. Lines that start with #, %, //, ! or ; are comments, but a ; starts
-a row if semicolons delimit the table. Header and comments may state spacing and units (io.headers). Every row has the
-same number of cells, and only comments are left out. A file is refused if its delimiter, its decimal mark or the number
-of its cells is not certain.
+Lines before the first row of numbers are a header. Lines that start with #, %, //, ! or ; are comments. If semicolons
+delimit the columns, however, a line that starts with ; is a row. Header and comments may state spacing and units
+(io.headers). All rows must have the same number of cells, and no row is skipped. A file is refused if its delimiter,
+its decimal mark or its number of cells is not certain.
 """
 
 import io
@@ -32,20 +32,22 @@ _MISSING = (
 _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
 _ALMOST_A_NUMBER = re.compile(rf"[^\w\s]*\s?\d.*|{_MISSING}", re.IGNORECASE)
-_HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # start of a comment, but not of a mark such as #N/A or #DIV/0!
+# Pattern of # at the start of a comment. In marks of missing numbers, such as #N/A and #DIV/0!, it starts no comment.
+_HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"
 _COMMENT = re.compile(rf"[ \t]*(?:[%;!]|//|{_HASH})", re.IGNORECASE)
 _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
-_QUOTED = re.compile(r'"([^".]*|[^",]*)"')  # a quoted cell has commas or points, as decimal marks, but not both
+# Pattern of a cell in quotation marks that has commas or points as decimal marks, but not both, such as "1,5".
+_QUOTED = re.compile(r'"([^".]*|[^",]*)"')
 _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
-# Characters of numbers and delimiters. Other characters in the rows are marks of missing points.
+# Characters of plain numbers and delimiters. Rows with other characters are searched for marks of missing points.
 _PLAIN = b"0123456789.,;+-eE \t\n"
 _ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
-# Characters that no text contains. Under DOS, \x1a ends a text.
+# Control characters that occur in no text file. \x1a is none of them, since it ends text files of DOS.
 _CONTROLS = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))
-# A row or column of at least this many numbers in equal steps is taken for positions and not for heights.
+# A row or column at an edge of a table holds positions if at least this many numbers rise or fall in equal steps.
 _LEAST_LABELS = 6
-# A row or column of at least this many numbers that rise or fall in unequal steps is taken for positions, too.
+# In a table that may be a profile, at least this many numbers that rise or fall in unequal steps are positions, too.
 _LEAST_POSITIONS = 10
 # A profile has at most this many columns: x, z, a second quantity, and the number of the point.
 _MOST_PROFILE_COLUMNS = 4
@@ -59,7 +61,7 @@ class Table(NamedTuple):
     comments : comments between and below the rows
     delimiter : delimiter of the cells; None for white space
     decimal : decimal mark
-    separated : number of the first line with a row that empty lines separate from the rows above; 0 without such a row
+    separated : line number of the first row that empty lines separate from the rows above; 0 without such a row
     esri : {key: number} in the header of an ESRI grid; empty for other files
     """
 
@@ -75,8 +77,8 @@ class Table(NamedTuple):
 def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
     """Read a map of heights from a text file, as a Scan with its spacing and units.
 
-    is_map : True if the user stated that the table is a map; otherwise a table of one or two rows or columns is refused
-        as a profile, unless it is an ESRI grid
+    is_map : True if the user stated that the table is a map. If False, a table of one or two rows or columns is refused
+        since it may be a profile, unless it is an ESRI grid
 
     Raises a one-line ValueError unless the file can be recognised as a map of heights.
     """
@@ -106,7 +108,7 @@ def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
 
 
 def parsed(lines: Sequence[str]) -> Table:
-    """Return the Table in the lines of a file. Raises a one-line ValueError unless the lines certainly hold a table."""
+    """Return the Table in the lines of a file. Raises a one-line ValueError unless they certainly form a table."""
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
         almost = [f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)]
@@ -122,18 +124,21 @@ def parsed(lines: Sequence[str]) -> Table:
 
 
 def is_own_table(lines: Sequence[str]) -> bool:
-    """Return True for the lines of a table that viscorough wrote."""
+    """Return True if the lines are a table that viscorough wrote."""
     return any(line.startswith('# source: "viscorough') for line in lines[:100])
 
 
 def is_binary(path: FilePath) -> bool:
-    """Return True if a file contains control characters, unlike a text. Raises ValueError for an unreadable file."""
+    """Return True if a file is no text, since it starts with control characters among its first 4096 bytes.
+
+    Raises ValueError for an unreadable file.
+    """
     start = _content(path, 4096)
     return len(start.translate(None, _CONTROLS)) < len(start) and _utf16(start) is None
 
 
 def _utf16(start: bytes) -> str | None:
-    """Return the encoding of UTF-16 text, with or without a byte order mark; None for other text.
+    """Return the name of the encoding if a file is UTF-16 text, with or without a byte order mark; None otherwise.
 
     start : first bytes of the file
     """
@@ -173,10 +178,10 @@ def _is_row(line: str) -> bool:
 
 
 def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], int]:
-    """Return ({line number: row}, comments, line number of the first separated row or 0) from line `first` on.
+    """Collect the rows of a table. Return ({line number: row}, comments, line number of the first separated row).
 
-    A comment at the end of a row is removed; only comments on separate lines are returned. A row is separated if empty
-    lines separate it from the rows above, unless every row has equally many empty lines above.
+    A comment at the end of a row is removed; only comments on separate lines are returned. A row is separated if it has
+    more empty lines above it than other rows. The third value is 0 if no row is separated.
 
     first : index of the line with the first row
 
@@ -185,7 +190,7 @@ def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], 
     has_tabs = "\t" in lines[first].strip(" ")
     starts_row = (";",) * (";" in lines[first]) + ("\t",) * has_tabs
     rows, comments = {}, {}
-    empty = [0]  # numbers of empty lines above each row, and finally below the last row
+    empty = [0]  # number of empty lines above each row; the last number counts the lines below the last row
     for number, line in enumerate(lines[first:], first + 1):
         if not line.strip(" ") or (not line.strip() and not has_tabs):
             empty[-1] += 1
@@ -216,7 +221,7 @@ def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
     if "," not in body:
         return delimiter, "."
     if delimiter is None and "." not in body and re.search(r"\d,\d", body) and re.search(r"[^,\s] +[^,\s]", body):
-        return None, ","  # white space is the delimiter, the comma is the decimal mark
+        return None, ","  # the delimiter is white space, the decimal mark is a comma
     if "." in body if delimiter else _may_be_decimal_commas(body):
         number, line = next(iter(rows.items()))
         where = f"line {number} ({line[:40]!r})"
@@ -225,20 +230,27 @@ def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
 
 
 def _may_be_decimal_commas(body: str) -> bool:
-    """Return True if commas may be decimal marks, in rows without other delimiters between numbers.
+    """Return True if commas may be decimal marks, in rows without semicolons and tabs.
 
     body : all rows as one text
     """
     has_spaces = re.search(r", | ,", body) is not None
-    if "." in body:  # are both points and commas decimal marks, as in "1.5, 2,5"?
+    # Points and commas may both be decimal marks, as in "1.5, 2,5".
+    if "." in body:
         return has_spaces and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body) is not None
-    # Each row may be one number with a decimal comma, or several whole numbers. A whole number does not start with 0.
+    # The row "1,5" may be one number with a decimal comma, or two whole numbers. In the row "1,05" the comma may be a
+    # decimal mark in any case, since whole numbers do not start with 0.
     may_be_one_number = has_spaces or all(line.count(",") == 1 for line in body.split("\n"))
     return re.search(r"\d,\d", body) is not None and (may_be_one_number or re.search(r"(?<!\d)0\d", body) is not None)
 
 
 def _values(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
-    """Convert rows to an array of two dimensions; missing values are nan. Raises ValueError with the faulty line."""
+    """Convert rows to an array of two dimensions; missing values are nan.
+
+    rows : {line number: row}
+
+    Raises ValueError, which names the faulty line, for a row that is not as long as the first row or holds no numbers.
+    """
     text = "\n".join(rows.values())
     if decimal == ",":
         text = text.replace(",", ".")
@@ -258,7 +270,7 @@ def _values(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
 
 
 def _fill_empty_cells(text: str, delimiter: str) -> str:
-    """Write nan into empty cells of a text, and remove a delimiter that starts or ends every line."""
+    """Write nan into empty cells of a text. A delimiter at the start or end of all lines is removed before."""
     lines = re.sub(rf"{delimiter} +", delimiter, text).split("\n")
     if all(line.endswith(delimiter) for line in lines):
         lines = [line[:-1] for line in lines]
@@ -271,11 +283,11 @@ def _fill_empty_cells(text: str, delimiter: str) -> str:
 
 
 def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) -> str:
-    """Describe the fault of the first line that is no row of numbers, or that is longer or shorter than the first row.
+    """Describe the first line that is no row of numbers or has another number of cells than the first line.
 
-    numbers : line numbers in the file
+    numbers : numbers of the lines in the file
 
-    Return "" if no line has such a fault.
+    Return "" if there is no such line.
     """
     count = len(lines[0].split(delimiter))
     for number, line in zip(numbers, lines, strict=False):
@@ -291,11 +303,15 @@ def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) 
 
 
 def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], esri: dict[str, float]) -> None:
-    """Raise ValueError if a line above the first row may be a row with a misprint, which must not be left out.
+    """Raise ValueError if a line above the table may be a row with a misprint, which must not be skipped.
 
-    A line may be such a row if it has as many cells as the rows of the table, with or without outer delimiters. In
-    addition, a cell must be a number or almost a number, or all filled cells must be equal, or no cell contains a
-    letter. A heading of a column of row numbers is refused, too.
+    A line may be a row if it has as many cells as the rows of the table and
+
+    - one of the cells is a number or almost a number,
+    - or all filled cells are equal,
+    - or the line has neither letters nor digits.
+
+    A heading of a column of row numbers is refused, too.
 
     counts : numbers of cells in a row of the table, counted with and without outer delimiters
     esri : {key: number} in the header of an ESRI grid; empty for other files
@@ -321,7 +337,7 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
 
 
 def _check_not_profile(shape: tuple[int, ...]) -> None:
-    """Raise ValueError for a table of one or two rows or columns, which may be a profile with or without positions."""
+    """Raise ValueError for a table of one or two rows or columns, since it may be a profile and not a map."""
     count, name = min(zip(shape, ("row", "column"), strict=True))
     if count <= 2:
         text = f"a single {name}, as of a profile" if count == 1 else f"two {name}s, as x and z of a profile"
@@ -331,19 +347,19 @@ def _check_not_profile(shape: tuple[int, ...]) -> None:
 
 
 def _check_positions(table: Array) -> None:
-    """Raise ValueError if a column or row at an edge of the table holds positions, or numbers of points, not heights.
+    """Raise ValueError if a column or row at an edge of a table seems to hold positions instead of heights.
 
-    The first column or row holds positions if it rises or falls in equal steps and the others do not. A table of at
-    most _MOST_PROFILE_COLUMNS columns may be a profile with positions. For such a table
+    The first column is taken for positions if it rises or falls in equal steps and the other columns do not. A table of
+    at most _MOST_PROFILE_COLUMNS columns may be a profile with positions. In such a table
 
-    - the last column is checked as well,
-    - one other column, which may number the points, may also have equal steps,
-    - the steps may be unequal, if no other column rises or falls throughout.
+    - the last column may hold the positions, too,
+    - a second column may have equal steps, since it may number the points,
+    - positions may have unequal steps, if no other column rises or falls throughout.
 
-    Tables of more columns are not checked in this way, since the heights of a map may rise or fall along an edge. Rows
-    are checked like columns.
+    Tables with more columns are not checked for the last three points, since the heights of a map may rise or fall
+    along an edge. Rows are checked like columns.
     """
-    # If a table has positions along both axes, they meet in a corner of the table, which may hold any number.
+    # If the first row and the first column both hold positions, the number in their common corner may be any number.
     has_corner = min(table.shape) >= _LEAST_LABELS and _is_even(table[1:, 0]) and _is_even(table[0, 1:])
     for name, vectors in (("column", table.T), ("row", table)):
         are_few = len(vectors) <= _MOST_PROFILE_COLUMNS
@@ -352,7 +368,7 @@ def _check_positions(table: Array) -> None:
             labels = vector[1:] if place == "first" and (has_corner or np.isnan(vector[0])) else vector
             if not len(others) or vector.size < _LEAST_LABELS or not _is_monotonic(labels):
                 continue
-            # At most this many other columns may have equal steps. In a tilted plane all columns have equal steps.
+            # If more than this number of other columns have equal steps, the table may be a tilted plane of heights.
             most = min(1, len(others) - 1) if are_few else 0
             even = _is_even(labels) and sum(map(_is_even, others)) <= most
             if even or (are_few and labels.size >= _LEAST_POSITIONS and not any(map(_is_monotonic, others))):
@@ -377,8 +393,8 @@ def _is_even(values: Any) -> bool:
 def _grid(table: Array, stated: Spacing | None, required: bool) -> tuple[Array, Spacing] | None:
     """Return (heights, (dx, dy)) of a table with columns x, y, z; None for a matrix of heights.
 
-    stated : spacing that the header states, in the unit of x and y; None if it states none
-    required : True if the columns are certainly x, y, z
+    stated : spacing that the header states, in the unit of x and y; None if the header states no spacing
+    required : True if the columns certainly are x, y, z
 
     Raises ValueError if points x, y, z form no grid, if the spacing of the grid differs from the stated spacing, and if
     it is not certain whether columns hold positions or heights.
@@ -420,7 +436,8 @@ def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
         text = f"{len(table)} lines of {table.shape[1]} numbers contradict {rows:g} rows and {columns:g} columns"
         raise ValueError(f"{text}; a line for each row is needed")
     mark = esri.get("nodata_value", -9999.0)
-    # A large mark, such as -3.4e38, may be printed with few digits, so it is compared with a tolerance.
+    # A large number that marks missing points, such as -3.4e38, may be printed with few digits. Compare it with a
+    # tolerance.
     missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
     heights = np.where(missing, np.nan, table)
     dx, dy = (esri.get(key, esri.get("cellsize")) for key in ("dx", "dy"))

@@ -1,4 +1,4 @@
-"""Read maps of heights from TIFF files of one channel, with the spacing that ImageJ states.
+"""Read maps of heights from TIFF files of one channel, with the spacing that the program ImageJ writes into them.
 
 TIFF files of elevation models (GeoTIFF) and of Park Systems microscopes are passed on to io.elevation and
 io.instruments.
@@ -19,12 +19,14 @@ from viscorough.io.instruments import read_instrument
 from viscorough.io.scan import Scan
 
 _PARK_SYSTEMS = 50432  # TIFF tag of Park Systems microscopes, whose files hold the heights outside the picture
-# Tags of GeoTIFF (scale, place and rotation of the pixels, keys) and of GDAL (metadata, value for missing data).
+# TIFF tags of GeoTIFF (scale, place and rotation of the pixels, geographic keys) and of GDAL (metadata, value for
+# missing data).
 _ELEVATION_TAGS = (33550, 33922, 34264, 34735, 42112, 42113)
-_MASK = 4  # bit of the tag NewSubfileType that marks a page as a mask
-# GDAL keeps the mask, the units and the value for missing data of a TIFF file in files whose names have these endings.
+_MASK = 4  # bit in the tag NewSubfileType that is set if a page is a mask
+# Endings of the names of GDAL's companion files. They hold the mask, the units and the value for missing data of a
+# TIFF file.
 _SIDECARS = (".msk", ".aux.xml")
-# Do not print the log of tifffile about a damaged file: the error message states the fault in one line.
+# Suppress the log of tifffile about a damaged file: our error message states the fault in one line.
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 
@@ -33,7 +35,7 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
 
     A file with a tag of GeoTIFF or GDAL, a mask, or a companion file of GDAL is read as an elevation model.
 
-    channel : number of the page, from 0; needed if the file has several pages. Pages of reduced size do not count
+    channel : number of the page, from 0; needed if the file has several pages. Pages of reduced size are not counted
 
     Raises a one-line ValueError for a picture in colours, and for geographic coordinates in degrees.
     """
@@ -56,6 +58,7 @@ def _scan(file: Any, pages: list[Any], channel: str | None) -> Scan:
 
     file : tifffile.TiffFile
     pages : the pages with a picture in full resolution
+    channel : number of the page, from 0; None for the only page
     """
     page = _page(pages, channel)
     if page.samplesperpixel != 1:

@@ -1,7 +1,8 @@
-"""Unpack NetCDF variables and mask their missing values by their attributes (CF-1.11, sections 2.5 and 8).
+"""Unpack the values of NetCDF variables, and mask missing values (CF-1.11, sections 2.5 and 8).
 
-netCDF4 and xarray ignore attributes of another type than the variable, such as a missing value of 1e20 in double
-precision for a variable in single precision. A missing value would then become the highest peak.
+Attributes of a variable state which values are missing. netCDF4 and xarray ignore an attribute whose type differs from
+the type of the variable, such as a missing value of 1e20 in double precision for a variable in single precision. The
+value 1e20 would then become the highest peak.
 """
 
 from typing import Any
@@ -12,7 +13,8 @@ from numpy.typing import NDArray
 
 from viscorough.basics.types import Array
 
-# Attributes that describe how values are stored. They do not apply to unpacked values.
+# Attributes that state which values are missing (MISSING), and all attributes that describe how values are stored
+# (STORAGE). They do not apply to unpacked values.
 MISSING = ("_FillValue", "missing_value", "valid_range", "valid_min", "valid_max")
 STORAGE = (*MISSING, "scale_factor", "add_offset", "_Unsigned")
 _DEFAULT_FILL = {kind: [fill] for kind, fill in netCDF4.default_fillvals.items() if kind not in ("i1", "u1")}
@@ -23,8 +25,8 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
 
     A value is missing if it equals _FillValue or missing_value, or lies outside valid_range or valid_min and valid_max.
     Without the attribute _FillValue, the default fill value of NetCDF marks missing values, but not in variables of
-    single bytes, in which all values are valid. If _Unsigned is "true", the type of the stored whole numbers has a
-    sign, but the values are unsigned. If _Unsigned is "false", the reverse is true.
+    single bytes, in which all values are valid. If _Unsigned is "true", whole numbers that are stored in a signed type
+    are read as unsigned numbers. If _Unsigned is "false", unsigned numbers are read as signed numbers.
 
     Raises ValueError if an attribute is not a number of the stored type, or if _Unsigned is another text.
     """
@@ -49,7 +51,7 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
 
 
 def _kind(variable: netCDF4.Variable, stored: np.dtype[Any]) -> np.dtype[Any]:
-    """Return the type of the values: the stored type, but signed or unsigned as the attribute _Unsigned states."""
+    """Return the type of the values: the stored type, made signed or unsigned if the attribute _Unsigned says so."""
     if "_Unsigned" not in variable.ncattrs() or stored.kind == "f":
         return stored
     text = str(variable.getncattr("_Unsigned")).lower()
@@ -72,19 +74,20 @@ def _as_kind(numbers: Array, stored: np.dtype[Any], kind: np.dtype[Any]) -> Arra
 
 
 def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any], kind: np.dtype[Any]) -> Array:
-    """Return an attribute as an array of numbers.
+    """Return the attribute `name` of a variable as an array of numbers.
 
     Numbers that are compared with the stored values, such as missing_value, get the precision of the stored values.
 
     stored : type of the stored values
-    kind : type of the values, which may be unsigned while the stored type is signed, or the reverse
+    kind : type of the values: like `stored`, but perhaps unsigned instead of signed, or signed instead of unsigned
 
-    Raises ValueError if the attribute does not hold such numbers.
+    Raises ValueError if the attribute holds other values, or another count of numbers, than its name requires.
     """
     value = variable.getncattr(name)
     numbers = np.ravel(value)
     count = {"valid_range": 2, "missing_value": numbers.size}.get(name, 1)
-    # A limit with a decimal point may apply to unpacked values if the stored values are whole numbers.
+    # If the stored values are whole numbers, a limit with a decimal point may be meant for the unpacked values. It is
+    # not certain, so such a limit is refused.
     odd_limit = name.startswith("valid") and stored.kind != "f" and numbers.dtype.kind == "f"
     if numbers.dtype.kind not in "iuf" or numbers.size != count or odd_limit:
         needed = "two numbers" if name == "valid_range" else "a number"

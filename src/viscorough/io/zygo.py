@@ -14,7 +14,7 @@ def zygo_scan(lines: Sequence[str]) -> Scan:
     metres, 0 if it is not known. Heights are commonly in micrometres, but the file does not state their unit. Points
     without a line are missing. A second line "#" ends the points.
 
-    Raises ValueError for lines of another form.
+    Raises ValueError for lines that do not have this form.
     """
     try:
         left, top, columns, rows = map(int, lines[3].split()[:4])

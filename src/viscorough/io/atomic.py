@@ -30,7 +30,7 @@ def reason(error: BaseException) -> str:
 
 @contextlib.contextmanager
 def path_named(path: FilePath) -> Iterator[None]:
-    """Put the path in front of the message of a ValueError raised in this context, unless the path is there already."""
+    """Put the path in front of the message of a ValueError in a `with` block, unless the path is there already."""
     try:
         yield
     except ValueError as error:
@@ -40,10 +40,10 @@ def path_named(path: FilePath) -> Iterator[None]:
 
 @contextlib.contextmanager
 def reading(path: FilePath, needed: str) -> Iterator[None]:
-    """Turn every error of reading a file in this context into a one-line ValueError.
+    """Turn every error in a `with` block that reads the file `path` into a one-line ValueError.
 
     Libraries raise errors of many kinds for a damaged file. Pipes and devices are refused: opening a pipe would wait
-    for a writer, and a device may have no end. MemoryError passes, since it is no fault of the file.
+    for a writer, and a device may have no end. MemoryError is not changed, since it is no fault of the file.
 
     needed : end of the message, which states what the file must contain, such as "a whole NetCDF file is needed"
     """
@@ -60,7 +60,7 @@ def reading(path: FilePath, needed: str) -> Iterator[None]:
 
 
 def check_output(path: FilePath) -> Path:
-    """Return the path with symbolic links resolved, so that the target of a link is replaced and not the link.
+    """Return the path with symbolic links resolved, so that writing replaces the target of a link and not the link.
 
     Raises ValueError if the folder is missing or not writable, if the path exists but is not a regular file, and if the
     path cannot be encoded as text, as the NetCDF library requires.
@@ -92,7 +92,7 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
     temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
     for leftover in target.parent.glob(f"{glob.escape(stem)}.*.part"):
         process = leftover.name.removeprefix(stem).split(".")[1]
-        # OSError: another process has removed the file. OverflowError: no process can have this number.
+        # OSError: another process has removed the file. OverflowError: no process can have so large a number.
         with contextlib.suppress(OSError, OverflowError):
             if process.isdecimal() and not psutil.pid_exists(int(process)):
                 leftover.unlink()
@@ -130,8 +130,8 @@ def _error_of_plain_writing(path: FilePath) -> OSError | None:
 def _place() -> str:
     """Return a name for the system or container in which this process runs. Process numbers are unique there.
 
-    Containers, and systems that share a disk, may have the same host name. On Linux the name therefore depends on two
-    further identifiers: of the last start of the system, and of the namespace of process numbers.
+    Containers, and systems that share a disk, may have the same host name. On Linux the name therefore also depends on
+    the identifier of the last start of the system, and on the identifier of the namespace of process numbers.
     """
     identity = [platform.node()]
     with contextlib.suppress(OSError):

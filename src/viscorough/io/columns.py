@@ -58,7 +58,7 @@ def read_columns(path: FilePath, content: str, columns: dict[str, str], length_u
 
 
 def _rows_and_factors(path: FilePath, result_units: Iterable[str], length_unit: str) -> tuple[Array, list[float]]:
-    """Return the numbers in a .csv file, and the factors that convert its columns to the units of the result."""
+    """Return the numbers in a .csv file, and the factors that convert its columns to `result_units`."""
     lines = [line.strip() for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
     if missing := next(filter(_MISSING.match, lines), None):
         raise ValueError(f"{missing[:40]!r} is no row of two numbers")
@@ -81,7 +81,7 @@ def _rows_and_factors(path: FilePath, result_units: Iterable[str], length_unit: 
 
 
 def _factors(heading: str, result_units: Iterable[str], length_unit: str) -> list[float]:
-    """Return the two factors that convert the columns from the units in the heading to the units of the result."""
+    """Return the two factors that convert the columns from the units in the heading to `result_units`."""
     fields = [field.strip('# \t"') for field in heading.split(",")]
     if len(fields) != 2 or fields[0] == fields[1] or not all(map(_LETTER.search, fields)):
         raise ValueError(f"{heading[:40]!r} is neither two numbers nor the names of two columns")

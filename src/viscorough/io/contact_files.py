@@ -24,7 +24,8 @@ MAPS = {
     "gap": ("gap between the deformed surface and the indenter", 1),
     "contact": ("whether an element is in contact", 0),
 }
-# Variables with a single number for each contact: {name: (long_name, n)}, with n as in MAPS.
+# Variables with a single number for each contact: {name: (long_name, n)}. The unit of a variable is the unit of length
+# to the power n.
 NUMBERS = {
     **{name: OVER_LEVELS[name] for name in ("depth", "force", "stiffness", "contact_fraction")},
     "contact_area": ("area of the elements in contact", 2),

@@ -33,7 +33,8 @@ OVER_LEVELS: dict[str, tuple[str, int]] = {
     "contact_fraction": ("share of the indenter's elements in contact", 0),
     "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
 }
-# Additional variables of a curve with estimated grid errors: {name: (long_name, n)}, with n as in OVER_LEVELS.
+# Additional variables of a curve with estimated grid errors: {name: (long_name, n)}. The unit of a variable is the unit
+# of length to the power n.
 ABOUT_GRID: dict[str, tuple[str, int]] = {
     "grid_error": ("estimated relative error of the velocity due to the spacing of the map", 0),
     "force_grid_error": ("estimated relative error of the force at a depth due to the spacing of the map", 0),
@@ -174,8 +175,8 @@ def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
 def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
     """Combine loading curves into the content of one NetCDF file, with the dimensions (realization, level).
 
-    A realization is one curve, a level one computed contact. Curves with fewer levels are filled up with nan. The
-    variables `levels` (number of levels) and PER_CURVE have one value for each curve. Grid errors are left out.
+    A realization is one curve, and a level is one computed contact. Curves with fewer levels are filled up with nan.
+    The variables `levels` (number of levels) and PER_CURVE have one value for each curve. Grid errors are left out.
 
     Raises ValueError for an empty list, and for curves in different units of length.
     """

@@ -80,7 +80,7 @@ def _opened(path: FilePath, kind: str, page: str | None = None) -> Iterator[Any]
 
 @contextlib.contextmanager
 def _decoding(path: FilePath) -> Iterator[None]:
-    """Turn every error in this context into a one-line ValueError with the cause that GDAL states."""
+    """Turn every error in a `with` block into a one-line ValueError with the cause that GDAL states."""
     with reading(path, "a whole elevation model, such as GeoTIFF, is needed"):
         try:
             yield
@@ -139,7 +139,7 @@ def _heights(file: Any, band: int) -> NDArray[Any]:
     if stored.dtype.kind not in "iuf":
         return stored
     heights = stored.astype(stored.dtype if stored.dtype.kind == "f" else np.float64)
-    # GDAL ignores the value for missing data if the file has a mask; here both count.
+    # GDAL ignores the value for missing data if the file has a mask. Here, both mark missing points.
     if (nodata := file.nodatavals[band - 1]) is not None:
         with np.errstate(over="ignore"):
             is_measured &= heights != np.asarray(nodata).astype(heights.dtype)

@@ -2,8 +2,8 @@
 
 A statement is a line "key: value" or "key = value". The unit of a length follows the number, or is in brackets after
 the key. Spaces, hyphens, underscores and capitals in keys do not matter. Unknown keys are ignored, so that "Camera
-pixel size" is not taken for the spacing of the points. But a unit is refused if it is not certain to which lengths it
-belongs, and so is every line with two possible meanings.
+pixel size" is not taken for the spacing of the points. A unit is refused if it is not certain to which lengths it
+belongs. A line with two possible meanings is refused, too.
 """
 
 import re
@@ -17,7 +17,7 @@ Spacing = tuple[float, float]
 # Statements "key (unit): value" of a header, sorted by their meaning: {role (a key of _ROLES): [(line, unit, value)]}.
 Stated = dict[str, list[tuple[str, str, str]]]
 
-# Two statements of the same spacing may differ by at most this share.
+# If a header states the same spacing twice, the two values may differ by at most this share.
 _AGREEMENT = 1e-3
 # The stated extent of the map and the extent that follows from a stated spacing may differ by at most this share. Both
 # are often rounded to few digits.
@@ -42,8 +42,8 @@ _DEGREES = {"lon", "lat", "longitude", "latitude"}
 
 _STEP = "pixelsize pixelspacing pointspacing samplespacing spacing pixelgröße pixelabstand"
 _STEPS = f"{_STEP} step stepsize pitch increment d"
-# Statements that a header may make: {role, that is, the meaning of the statement: keys with this meaning}. Keys are in
-# lower case and without spaces. A key names its axis first or last: "xpixelsize" or "pixelsizex".
+# Statements that a header may make: {role (meaning of the statement): keys with this meaning}. Keys are in lower case
+# and without spaces. A key names its axis first or last: "xpixelsize" or "pixelsizex".
 _ROLES = {
     "step x": {f"x{key}" for key in _STEPS.split()} | {f"{key}x" for key in _STEPS.split()} | {"deltax", "pixelwidth"},
     "step y": {f"y{key}" for key in _STEPS.split()} | {f"{key}y" for key in _STEPS.split()} | {"deltay", "pixelheight"},
@@ -97,7 +97,7 @@ class _Length(NamedTuple):
     line : the line of the header
     axis : 0 for x, 1 for y
     is_extent : True for an extent of the map, False for a spacing
-    number : the length, in the following unit
+    number : value of the length in `unit`
     unit : unit of the length; "" if it is not stated
     """
 
@@ -164,7 +164,7 @@ def _statements(lines: Sequence[str]) -> tuple[Stated, list[str]]:
 
 
 def _role(key: str) -> str:
-    """Return the meaning of a key as a key of `_ROLES`, such as "step x" for "Pixel Size X"; "" for an unknown key."""
+    """Return the role of a key (see `_ROLES`), such as "step x" for "Pixel Size X"; "" for an unknown key."""
     compact = re.sub(r"[\s_.-]+", "", key.lower())
     return _ROLE_OF.get(re.sub(r"(unité?|einheit)(?:s|en)", r"\1", compact), "")
 
@@ -176,7 +176,7 @@ def _unit_text(value: str) -> str:
 
 
 def _agreed(texts: Iterable[str]) -> str:
-    """Return the unit that all texts state, in the spelling of the first text; "" if all texts are empty.
+    """Return the unit that all nonempty texts state, in the spelling of the first text; "" if all texts are empty.
 
     Raises ValueError if two texts are different units.
     """
@@ -252,7 +252,7 @@ def _length(line: str, value: str, decimal: str) -> tuple[float, str]:
 
 
 def _agreed_step(axis: int, steps: Sequence[float], extents: Sequence[float], count: int) -> float:
-    """Return the spacing along an axis from the lengths that the header states for it; nan if it states none.
+    """Return the spacing along an axis from the lengths that the header states for this axis; nan without such lengths.
 
     axis : 0 for x, 1 for y
     steps, extents : stated spacings, and stated extents of the map, along the axis
@@ -346,7 +346,7 @@ def _map_columns(cells: Sequence[str]) -> _Columns | None:
     cells : names in the heading, perhaps with units. Names of further columns are allowed
     """
     matches = [_COLUMN.fullmatch(cell) for cell in cells]
-    # A third column beside x and y holds z under another name.
+    # If the first two of three columns are x and y, the third column is z under another name.
     if [m and m[1].lower() for m in matches] == ["x", "y", None]:
         matches[2] = _COLUMN.fullmatch(re.sub(r"^[^\W\d_][^\[(/_]*", "z", cells[2]))
     names = tuple(match[1].lower() if match else "" for match in matches)
@@ -359,7 +359,7 @@ def _map_columns(cells: Sequence[str]) -> _Columns | None:
 def _profile_columns(cells: Sequence[str]) -> _Columns | None:
     """Return the columns of a heading that names positions x and heights z of a profile; None for another heading.
 
-    In a heading of two names, y means positions beside z, and heights beside x.
+    If the only names are y and z, y are the positions. If the only names are x and y, y are the heights.
 
     cells : names in the heading, perhaps with units
     """

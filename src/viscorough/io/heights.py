@@ -216,7 +216,7 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
         return read_tiff(path, channel)
     if suffix in elevation.FORMATS:
         return elevation.read_elevation(path, elevation.FORMATS[suffix], channel)
-    # A binary file with the suffix of a text file is in the format of an instrument, which is read at the end.
+    # A binary file with the suffix of a text file is in the format of an instrument; read_instrument below reads it.
     if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):
         if channel is not None:
             raise ValueError(f"{argument('channel')} {channel}: a file of this kind holds one map; leave it out")
@@ -294,8 +294,8 @@ def _unit_of(variable: netCDF4.Variable) -> str:
 def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
     """Return (name, positions, unit) of the variable with the positions along a dimension; None if there is none.
 
-    The coordinate with the name of the dimension is chosen first. Without a coordinate, a variable of numbers is chosen
-    if no other variable has this dimension alone.
+    The coordinate with the name of the dimension is chosen first. Without a coordinate, a numeric variable that has
+    only this dimension is chosen, provided that there is a single variable of this kind.
 
     heights : name of the variable of heights, which is never chosen
     """
@@ -310,7 +310,7 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
 
     rows, columns : (name, positions, unit) from `_positions_along`. Positions that only number the points are ignored
 
-    Raises ValueError if rows have positions but columns have none, or the reverse; and likewise for units.
+    Raises ValueError if only the rows or only the columns have positions, and if only one of the two has a unit.
     """
     stated = [axis for axis in (columns, rows) if axis is not None and not _are_indices(*axis[1:])]
     if not stated:

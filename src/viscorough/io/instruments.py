@@ -31,7 +31,7 @@ _NANOMETRES_PER_MILLIMETRE = 1e6
 def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
     """Read heights, spacing and units, as a Scan, from a file in a format that SurfaceTopography recognizes.
 
-    An AccuracyWarning is given if other channels hold heights as well, for a periodic surface, and for a field that is
+    An AccuracyWarning is given if other channels hold heights as well, if the surface is periodic, and if the field is
     larger than 1 m or smaller than 10 nm.
 
     channel : name or number of the channel, from 0; by default the first channel with heights. It is needed if a file
@@ -53,7 +53,7 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
         topography = chosen.topography(**size)
         heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
-        # An HDF5 file that MATLAB wrote holds the arrays in transposed form.
+        # In an HDF5 file that MATLAB wrote, the arrays are transposed.
         kind = file.format()
         if kind not in _ARRAY_FORMATS or (kind == "h5" and Path(path).suffix.lower() == ".mat"):
             heights = heights.T
@@ -101,7 +101,7 @@ def _opened(path: FilePath) -> Any:
         raise ValueError("no known format")
     if file.format() in kinds or _maps(file) or not kinds:
         return file
-    # The format that the content suggests is not a format of the suffix and gives no map. Try the format of the suffix.
+    # The format found from the content does not suit the suffix and gives no map, so the format of the suffix is used.
     file.close()
     return open_topography(source, format=kinds[0])
 
@@ -133,8 +133,8 @@ def _maps(file: Any) -> list[Any]:
 def _choose(file: Any, name: str | None) -> tuple[Any, list[str]]:
     """Return (channel to read, names of the other channels with heights).
 
-    name : name or number of the channel to read; None for the first channel with heights. If `name` is given, no other
-        channels are returned
+    name : name or number of the channel to read; None for the first channel with heights. If `name` is given, no names
+        of other channels are returned
     """
     maps = _maps(file)
     called = [channel for channel in maps if name in (channel.channel_id, channel.name, str(channel.index))]

@@ -1,10 +1,10 @@
 """Write and read tables with one row for each load of each file of heights.
 
 The columns are depth, force, stiffness, contact area, pressures and, on request, grid errors. Lengths are in um and
-areas in um2. If the shear modulus is given, forces are in N, stiffnesses in N/m and pressures in MPa (see
-viscorough.basics.units.result_units). A file that could not be evaluated has one row with the error and without
-numbers. Every row has a digest of its file and of the settings. Thanks to the digests, a table can be continued: rows
-of unchanged files are taken from the table instead of being computed again.
+areas in um2. If the shear modulus is given, forces are in N, stiffnesses in N/m and pressures in MPa. For the units in
+other cases see viscorough.basics.units.result_units. A file that could not be evaluated has one row with the error and
+without numbers. Every row has a digest of its file and of the settings. Thanks to the digests, a table can be
+continued: rows of unchanged files are taken from the table instead of being computed again.
 """
 
 import csv
@@ -27,7 +27,7 @@ from viscorough.results.contact_maps import Contact
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
-# Quantities in tables and their units: {quantity: key of units.result_units, or None for counts and shares}.
+# Quantities in tables: {quantity: key under which units.result_units gives its unit; None for counts and shares}.
 _MEASURES = {
     "depth": "length",
     "force": "force",
@@ -41,8 +41,8 @@ _MEASURES = {
     "patches": None,
     **dict.fromkeys(ABOUT_GRID),
 }
-# If the shear modulus G is given, the columns hold F, k and p instead of F/G, k/G and p/G: {quantity: name of its
-# column}.
+# Names of the columns with F, k and p, which replace F/G, k/G and p/G if the shear modulus G is given:
+# {quantity: name of the column}.
 _WITH_MODULUS = {"force": "normal_force", "stiffness": "normal_stiffness"}
 _WITH_MODULUS |= {"mean_pressure": "mean_normal_pressure", "largest_pressure": "largest_normal_pressure"}
 # Quantities in a table of contacts (_CONTACT_QUANTITIES) and in a table of loading curves (_CURVE_QUANTITIES).
@@ -58,7 +58,7 @@ _CURVE_QUANTITIES = [
 ]
 # Columns that hold whole numbers.
 _COUNTS = ("contact_count", "patches")
-# Quantities that users may prescribe. In texts they have six digits, all other quantities have four.
+# Quantities that users may prescribe. They are shown with six digits, and all other quantities with four.
 _PRESCRIBED = ("depth", "force", "normal_force")
 # A digest in a table is shortened to this number of hexadecimal digits.
 _DIGEST_DIGITS = 16
@@ -72,8 +72,8 @@ _TEXTS = {
 _MEANINGS = {
     name: text for name, (text, _) in (OVER_LEVELS | ABOUT_GRID | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()
 }
-# All columns of a table of contacts, if the shear modulus is given and grid errors are requested: {column: (meaning,
-# unit)}. The unit is None for texts.
+# All columns of a table of contacts, if the shear modulus is given and grid errors are requested:
+# {column: (meaning, unit)}. The unit is None for texts.
 SI_COLUMNS: dict[str, tuple[str, str | None]] = {
     "file": (_TEXTS["file"], None),
     **{
@@ -86,8 +86,8 @@ SI_COLUMNS: dict[str, tuple[str, str | None]] = {
     },
     **{name: (text, None) for name, text in _TEXTS.items() if name != "file"},
 }
-# GDAL reads companion files together with a file of heights such as map.asc. In their names, a suffix in _COMPANIONS
-# replaces the suffix (map.prj), or an ending in _ADDED is appended (map.asc.msk).
+# GDAL reads companion files together with a file of heights such as map.asc. Their names have another suffix (map.prj;
+# suffixes in _COMPANIONS) or an additional ending (map.asc.msk; endings in _ADDED).
 _COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")
 
 Row = dict[str, float | int]
@@ -114,7 +114,7 @@ class LoadRows(NamedTuple):
 
 
 def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] | None = None) -> Rows:
-    """Return (rows of a table, one for each contact; {column: unit}).
+    """Return (rows of a table, {column: unit}), with one row for each contact.
 
     grid_errors : {quantity in io.curves.ABOUT_GRID: its value for each contact}; None for a table without grid errors
     """
@@ -126,7 +126,7 @@ def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] 
 
 
 def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float | None) -> Rows:
-    """Return (rows of a table, one for each computed contact of a loading curve; {column: unit}).
+    """Return (rows of a table, {column: unit}), with one row for each computed contact of a loading curve.
 
     indenter : indenter of the curve, whose spacing gives the contact area
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known; None if it is not given
@@ -204,7 +204,7 @@ def digest_of_scan(path: FilePath, settings: str) -> str:
 def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
     """Sort the results of files by file name, and ensure that each column of their rows has a single unit.
 
-    If some files state a unit of length and others do not, the others get an error instead of their rows.
+    If some files state a unit of length and others do not, the files without a unit get an error instead of rows.
     """
     listed = sorted(results, key=lambda result: result.file)
     if len({result.units["depth"] for result in listed if result.rows}) < 2:
@@ -217,14 +217,14 @@ def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
 
 
 def lines_of_files(results: Iterable[LoadRows]) -> list[dict[str, Any]]:
-    """Return the lines of a table, each as {column: value}: one for each row, and one for each file without rows."""
+    """Return the lines of a table, each as {column: value}: one for each load, and one for each file without rows."""
     return [row | {name: getattr(result, name) for name in _TEXTS} for result in results for row in result.rows or [{}]]
 
 
 def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
     """Convert the results of files to the content of a table.
 
-    results : results of `with_one_unit`
+    results : rows or error of each file, as `with_one_unit` returns them
     attributes : further global attributes of the content
     """
     stated = next((result.units for result in results if result.rows), {})
@@ -238,7 +238,7 @@ def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
 
 
 def _column(values: list[Any], meaning: str, **attributes: str) -> Variable:
-    # In an array of objects, whole numbers stay whole numbers; nan would turn them into floats in another array.
+    # In an array of objects, whole numbers stay whole numbers even if other entries are nan.
     column: Array = np.empty(len(values), dtype=object)
     column[:] = values
     return Variable(("row",), column, {"long_name": meaning, **attributes})
@@ -270,6 +270,6 @@ def finished_rows(path: FilePath) -> dict[str, LoadRows]:
 
 
 def _heading(text: str) -> tuple[str, str]:
-    """Return (name, unit) from the heading of a column such as "depth (um)"; the unit is "1" if there is none."""
+    """Return (name, unit) from the heading of a column, such as "depth (um)"; the unit is "1" if none is stated."""
     name, _, unit = text.removesuffix(")").partition(" (")
     return name, unit or units.UNKNOWN

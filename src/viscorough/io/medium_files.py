@@ -95,7 +95,7 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
 
     mapping : the key `kind`, one of KINDS, and all parameters of this kind. Shear moduli may be replaced by Young's
         moduli (kinds.YOUNG); `poisson` is then an optional key. For a creep table, the key `file` names a file with the
-        columns time and compliance. They are in s and 1/Pa, unless the heading of the file states other units
+        columns time and compliance, in s and 1/Pa unless the heading of the file states other units
     length_unit : unit of length of the indenter. If it is known, plain moduli are in Pa, viscosities in Pa s and times
         in s, and values may have units ("2 MPa"), except for a springpot. If it is "1", all values are plain numbers in
         consistent units of the user's choice
@@ -123,7 +123,10 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
 
 
 def creep_table_of(path: FilePath) -> Path | None:
-    """Return the path of the creep table that the YAML file of a medium names, or None. The table need not exist."""
+    """Return the path of the creep table that the YAML file of a medium names; None for other media.
+
+    The creep table need not exist.
+    """
     name = _mapping(path).get("file")
     return Path(path).parent / name if isinstance(name, str) and name and "\0" not in name else None
 

@@ -16,9 +16,8 @@ from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.digest import add_digest, check_digest
 from viscorough.io.unpacking import STORAGE, unpacked
 
-# {name of a variable: (long_name, unit)}. The unit is one of the following: a number n for the unit of length to the
-# power n, "time" (always in s), "velocity", or an SI unit such as "N", which becomes "1" if the unit of length is not
-# known.
+# {name of a variable: (long_name, unit)}. The unit is a number n (the unit of length to the power n), "time" (always in
+# s), "velocity" (length per s), or an SI unit such as "N". If the unit of length is not known, SI units become "1".
 Quantities = Mapping[str, tuple[str, int | str]]
 # Variables of at least this many values are compressed. For smaller variables, the chunks that compression needs take
 # more room than compression saves.

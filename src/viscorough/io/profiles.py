@@ -14,7 +14,7 @@ from viscorough.io.headers import names_profile, read_header
 from viscorough.io.scan import Scan
 from viscorough.io.text import Table, decoded_lines, is_own_table, parsed
 
-# A profile has at least this many points. With two points, x and z could be the rows or the columns of the table.
+# A profile has at least this many points. With only two points, x and z could be the rows or the columns of the table.
 _LEAST_POINTS = 3
 # The distance between positions and the spacing that the header states may differ by at most this share.
 _STEPS_AGREE = 1e-3

@@ -27,7 +27,7 @@ class Scan(NamedTuple):
         that the file does not state is nan; None if both are missing
     spacing_unit : unit of the spacing and of positions x and y, as the file spells it; "1" if the file states no unit
     corners : (left, bottom, right, top), x and y of the outermost points, if x and y have no unit and may be longitudes
-        and latitudes; None otherwise. A corner that the file does not state is nan
+        and latitudes; None otherwise. Coordinates that the file does not state are nan
     """
 
     heights: np.ndarray
@@ -50,8 +50,8 @@ def to_indenter(
     spacing : one distance, or (dx, dy). Each is a plain number or has a unit, such as "0.2 um" (see units.with_unit).
         Needed if the file states no spacing; otherwise it must agree with the file
     unit : unit of the heights. Needed if the file states no unit; otherwise it must agree with the file
-    lateral_unit : unit of x and y in the file, if the file does not state it; otherwise it must agree with the file. It
-        is also the unit of a `spacing` in plain numbers, whose default is the unit of the heights
+    lateral_unit : unit of x and y in the file, if the file does not state it; otherwise it must agree with the file.
+        Plain numbers in `spacing` have this unit, too; without it they are in the unit of the heights
     dimensions : 2 for a map, 1 for a line
 
     Raises ValueError if file and arguments contradict each other, if spacing or unit is missing, for a unit that is not

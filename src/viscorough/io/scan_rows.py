@@ -23,8 +23,8 @@ _SHARE_OF_CONTACTS = 0.3
 # For grid errors, contacts at these multiples of the force of each load are computed as well. A grid error is a mean
 # over half a decade of forces, since the difference of two curves at a single force can be zero by chance.
 _FORCES_BELOW = (10**-0.5, 10**-0.25)
-# An additional contact is left out if its force differs from the force of another contact by less than this share: the
-# results of both contacts would differ by less than the tolerance.
+# A contact for grid errors is left out if its force differs from the force of another contact by less than this share:
+# the results of both contacts would differ by less than the tolerance.
 _LEAST_DIFFERENCE = 0.02
 
 
@@ -38,7 +38,7 @@ def rows_at_loads(
     progress: Progress | None = None,
     **how: Any,
 ) -> Rows:
-    """Compute the contact at each load. Return (rows of a table, one for each load; {column: unit}).
+    """Compute the contact at each load. Return (rows of a table, {column: unit}), with one row for each load.
 
     Raises the errors of `contact_at`.
 
@@ -91,7 +91,7 @@ def evaluated(
             scan = scan._replace(rows=rows, units=units)
         except REPORTED as error:
             scan = scan._replace(error=_without_path(message(error), path))
-        # Any other error is a fault of viscorough. It is reported, too, since other files may be evaluated without it.
+        # Any other error is a fault of viscorough. It is reported, too, so that the evaluation of other files goes on.
         except Exception as error:
             scan = scan._replace(error=f"{type(error).__name__}: {_without_path(message(error), path)}")
     texts = dict.fromkeys(_without_path(str(warning.message), path) for warning in caught)

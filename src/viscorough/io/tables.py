@@ -18,7 +18,8 @@ from viscorough.io.netcdf import Content, global_attributes
 def write(content: Content, path: FilePath) -> None:
     """Write a Content whose variables share one dimension as CSV, atomically.
 
-    Raises ValueError for other contents and for a path that cannot be written, OSError if writing fails.
+    Raises ValueError for variables without a common dimension and for a path that cannot be written, OSError if writing
+    fails.
     """
     columns = content.variables
     dimensions = {variable.dimensions for variable in columns.values()}

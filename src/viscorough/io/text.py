@@ -32,7 +32,7 @@ _MISSING = (
 _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
 _ALMOST_A_NUMBER = re.compile(rf"[^\w\s]*\s?\d.*|{_MISSING}", re.IGNORECASE)
-# Pattern of # at the start of a comment. In marks of missing numbers, such as #N/A and #DIV/0!, it starts no comment.
+# Pattern of # at the start of a comment. In marks of missing numbers, such as #N/A and #DIV/0!, # starts no comment.
 _HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"
 _COMMENT = re.compile(rf"[ \t]*(?:[%;!]|//|{_HASH})", re.IGNORECASE)
 _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
@@ -43,11 +43,12 @@ _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", r
 # Characters of plain numbers and delimiters. Rows with other characters are searched for marks of missing points.
 _PLAIN = b"0123456789.,;+-eE \t\n"
 _ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
-# Control characters that occur in no text file. \x1a is none of them, since it ends text files of DOS.
+# Control characters that occur in no text file. \x1a is left out, since it ends text files of DOS.
 _CONTROLS = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))
 # A row or column at an edge of a table holds positions if at least this many numbers rise or fall in equal steps.
 _LEAST_LABELS = 6
-# In a table that may be a profile, at least this many numbers that rise or fall in unequal steps are positions, too.
+# In a table that may be a profile, a row or column also holds positions if at least this many numbers rise or fall in
+# unequal steps.
 _LEAST_POSITIONS = 10
 # A profile has at most this many columns: x, z, a second quantity, and the number of the point.
 _MOST_PROFILE_COLUMNS = 4
@@ -129,7 +130,7 @@ def is_own_table(lines: Sequence[str]) -> bool:
 
 
 def is_binary(path: FilePath) -> bool:
-    """Return True if a file is no text, since it starts with control characters among its first 4096 bytes.
+    """Return True if a file is no text: its first 4096 bytes contain control characters and are not UTF-16.
 
     Raises ValueError for an unreadable file.
     """
@@ -238,8 +239,8 @@ def _may_be_decimal_commas(body: str) -> bool:
     # Points and commas may both be decimal marks, as in "1.5, 2,5".
     if "." in body:
         return has_spaces and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body) is not None
-    # The row "1,5" may be one number with a decimal comma, or two whole numbers. In the row "1,05" the comma may be a
-    # decimal mark in any case, since whole numbers do not start with 0.
+    # The row "1,5" may be one number with a decimal comma, or two whole numbers. In the row "1,05" the comma is
+    # probably a decimal mark, since whole numbers do not start with 0.
     may_be_one_number = has_spaces or all(line.count(",") == 1 for line in body.split("\n"))
     return re.search(r"\d,\d", body) is not None and (may_be_one_number or re.search(r"(?<!\d)0\d", body) is not None)
 
@@ -270,7 +271,7 @@ def _values(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
 
 
 def _fill_empty_cells(text: str, delimiter: str) -> str:
-    """Write nan into empty cells of a text. A delimiter at the start or end of all lines is removed before."""
+    """Remove a delimiter that starts or ends all lines of a text, and then write nan into empty cells."""
     lines = re.sub(rf"{delimiter} +", delimiter, text).split("\n")
     if all(line.endswith(delimiter) for line in lines):
         lines = [line[:-1] for line in lines]
@@ -356,8 +357,8 @@ def _check_positions(table: Array) -> None:
     - a second column may have equal steps, since it may number the points,
     - positions may have unequal steps, if no other column rises or falls throughout.
 
-    Tables with more columns are not checked for the last three points, since the heights of a map may rise or fall
-    along an edge. Rows are checked like columns.
+    In tables with more columns these three cases are not considered, since the heights of a map may rise or fall along
+    an edge. Rows are checked like columns.
     """
     # If the first row and the first column both hold positions, the number in their common corner may be any number.
     has_corner = min(table.shape) >= _LEAST_LABELS and _is_even(table[1:, 0]) and _is_even(table[0, 1:])

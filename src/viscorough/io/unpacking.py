@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from viscorough.basics.types import Array
 
 # Attributes that state which values are missing (MISSING), and all attributes that describe how values are stored
-# (STORAGE). They do not apply to unpacked values.
+# (STORAGE). None of them applies to unpacked values.
 MISSING = ("_FillValue", "missing_value", "valid_range", "valid_min", "valid_max")
 STORAGE = (*MISSING, "scale_factor", "add_offset", "_Unsigned")
 _DEFAULT_FILL = {kind: [fill] for kind, fill in netCDF4.default_fillvals.items() if kind not in ("i1", "u1")}
@@ -51,7 +51,7 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
 
 
 def _kind(variable: netCDF4.Variable, stored: np.dtype[Any]) -> np.dtype[Any]:
-    """Return the type of the values: the stored type, made signed or unsigned if the attribute _Unsigned says so."""
+    """Return the type of the values: the stored type, made signed or unsigned as the attribute _Unsigned requires."""
     if "_Unsigned" not in variable.ncattrs() or stored.kind == "f":
         return stored
     text = str(variable.getncattr("_Unsigned")).lower()
@@ -81,7 +81,7 @@ def _numbers(variable: netCDF4.Variable, name: str, stored: np.dtype[Any], kind:
     stored : type of the stored values
     kind : type of the values: like `stored`, but perhaps unsigned instead of signed, or signed instead of unsigned
 
-    Raises ValueError if the attribute holds other values, or another count of numbers, than its name requires.
+    Raises ValueError if the attribute does not hold the type and the count of numbers that its name requires.
     """
     value = variable.getncattr(name)
     numbers = np.ravel(value)

@@ -27,10 +27,10 @@ LOOK = {"bar_format": "{desc} |{bar}| {remaining} left", "smoothing": 0, "dynami
 
 
 class Progress:
-    """Show the progress of a run on standard error if it is a terminal, from the lines that Snakemake prints.
+    """Read the lines that Snakemake prints, and show the progress on standard error if it is a terminal.
 
     seconds : pandas.Series, time per job of every rule [s] in an earlier run, from which the remaining time is
-        estimated. Rules that it lacks are assigned the mean.
+        estimated. A rule that is not in the series is assumed to take the mean time.
     """
 
     def __init__(self, seconds):
@@ -59,10 +59,12 @@ class Progress:
 def run(command, output=OUTPUT):
     """Run a command of Snakemake with its progress on the terminal, report errors at the end, and return the exit code.
 
-    command : list of the words of the command; output : file for the output of Snakemake and its jobs
-    Ctrl-C reaches Snakemake itself, which then ends its jobs and unlocks its folder. SIGTERM reaches only this process,
-    which passes it on. Without a terminal, one printed line states the number of steps and the file with their
-    progress.
+    Ctrl-C also reaches Snakemake, which then ends its jobs and unlocks its folder. SIGTERM reaches only this process,
+    which passes the signal on to Snakemake. Without a terminal, a single line is printed: the number of steps, and the
+    name of the file that shows their progress.
+
+    command : list of the words of the command
+    output : file for the output of Snakemake and its jobs
     """
     costs = pd.read_csv(PUBLISHED_COSTS, index_col="rule")
     progress = Progress(costs["share_s"] / costs["jobs"])
@@ -110,8 +112,10 @@ def _show(text):
 def _errors(output):
     """Return the lines that report the errors of a run.
 
-    For every failed job with a log there is a line with its first error and the path of the log. Without failed jobs,
-    the message of Snakemake itself is returned.
+    Each failed job that has a log gets one line: its first error and the path of the log. If there is no such job, the
+    lines are the message of Snakemake itself.
+
+    output : file with the output of the run
     """
     text, everything = output.read_text(encoding="utf-8"), f"Full output: {output}"
     if logs := dict.fromkeys(re.findall(r"^ +log: (\S+) \(check log file", text, re.MULTILINE)):
@@ -129,7 +133,7 @@ def _error_in(log):
 
 
 def summary(results=Path("results"), paper=Path("resources/paper")):
-    """Return the last lines of a run: claims by verdict, time of the run and of the paper, and the page to open."""
+    """Return the last lines of a run: the verdicts, the times of the run and of the paper, and the page to open."""
     claims = counted_verdicts(pd.read_csv(results / "tables/claims.csv"))
     with opened(results / "tables/claims.nc") as file:
         trial = "; trial scale, on which verdicts mean nothing" * int(file.getncattr("trial"))

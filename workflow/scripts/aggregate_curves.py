@@ -1,4 +1,4 @@
-"""Bring all realizations of a pool of cases to common abscissae, in one dataset."""
+"""Interpolate the loading curves of many surfaces to the same reduced forces X, and write them as one dataset."""
 
 from viscorough.io import netcdf
 from viscorough.io.datasets import write_dataset
@@ -8,11 +8,11 @@ from viscorough_study.run.job_log import run_job
 
 
 def main(curves, pool, *, groups, conventions, ensemble):
-    """Write the pool of several batches of loading curves.
+    """Write the pool, the dataset of all curves, from the files of several batches of loading curves.
 
-    curves : files of the batches; pool : file of the pool; groups : group of each batch
-    conventions : conventions of the rms heights, all of which the pool contains
-    ensemble : x_low, x_high and per_decade of the abscissae
+    curves : files of the batches; pool : file to write; groups : name of the group of each batch
+    conventions : names of the definitions of the rms height that the pool contains
+    ensemble : dict with the ends x_low and x_high of the abscissae X, and their number per_decade
     """
     x = abscissa(ensemble["x_low"], ensemble["x_high"], ensemble["per_decade"])
     batches = zip(groups, map(netcdf.read, curves), strict=True)

@@ -8,11 +8,11 @@ from viscorough_study.run.tables import read_table
 
 
 def main(table, passed, *, order_margin):
-    """Write the names of the passed comparisons.
+    """Write the names of all comparisons if all have passed.
 
     table : CSV file of the comparisons; passed : file to write
     order_margin : amount by which an observed order of convergence may be below the expected order
-    Raises ValueError with the names of the failed comparisons if there are any.
+    Raises ValueError with the names of the failed comparisons if any failed.
     """
     comparisons = read_table(table)
     if failed := failures(comparisons, order_margin):

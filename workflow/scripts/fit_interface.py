@@ -1,4 +1,4 @@
-"""Fit the contribution to vt/h of a rough interface in series with a flat punch, and its plateau value u₀/h."""
+"""Model rough discs as an interface in series with a flat punch; fit the interface's part of vt/h and its plateau."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fits.interface import COLUMNS, CURVES, interface_tables
@@ -13,11 +13,11 @@ TABLES = {
 
 
 def main(discs, lines, size_discs, size_lines, csv, nc, **settings):
-    """Write tables of the interface of every ensemble.
+    """Fit the interface of every ensemble, and write the tables.
 
-    discs, lines : files of the pools with the usual grid
-    size_discs, size_lines : files of the pools with grids from coarse to fine
-    csv, nc : lists of the files to write, one for each table
+    discs, lines : files of the pools (datasets of all realizations) of the base ensembles
+    size_discs, size_lines : files of the pools of ensembles on grids from coarse to fine
+    csv, nc : lists of the CSV and NetCDF files to write, one for each table
     settings : further arguments of `interface_tables`
     """
     tables = interface_tables(*map(read_dataset, (discs, lines, size_discs, size_lines)), **settings)

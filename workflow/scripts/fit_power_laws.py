@@ -7,9 +7,10 @@ from viscorough_study.run.tables import recorded, write_table
 
 
 def main(discs, lines, csv, nc, **fit):
-    """Write the table of fits of every ensemble under every convention that the paper leaves open.
+    """Fit every ensemble for all choices that the paper leaves open, and write the table of fits.
 
-    discs, lines : files of the pools; csv, nc : files to write
+    discs, lines : files of the pools, the datasets of all realizations of discs and of lines
+    csv, nc : files to write
     fit : arguments of `scaling_table`: limits of region (b), resamples and seed of the bootstrap
     """
     table = scaling_table(read_dataset(discs), read_dataset(lines), **fit)

@@ -1,4 +1,4 @@
-"""Generate the self-affine discs of a batch, with their rms heights by every convention."""
+"""Generate a batch of self-affine discs, and compute their rms heights by every definition."""
 
 from viscorough_study.ensembles.batches import Realization, without_numbers
 from viscorough_study.ensembles.discs import ensemble_disc
@@ -8,11 +8,11 @@ from viscorough_study.run.seeds import realization_seed
 
 
 def main(surfaces, *, ensembles, seed):
-    """Write the discs of a batch to a file; lengths are in the unit of each surface.
+    """Generate the discs of a batch, and write them to a file with lengths in the unit of each disc.
 
     surfaces : file to write
     ensembles : parts of ensembles in this batch, from `viscorough_study.run.cases.batch_ensembles`
-    seed : root seed
+    seed : root seed, from which the seed of each disc is derived
     """
 
     def discs(name, spawn_key, surface, elements, numbers):

@@ -1,4 +1,4 @@
-"""Compute loading curves of a batch of surfaces, generated or measured, by boundary elements."""
+"""Compute the loading curves of a batch of generated or measured surfaces by boundary elements."""
 
 import logging
 import time
@@ -11,7 +11,7 @@ from viscorough_study.run.job_log import run_job
 
 
 def main(surfaces, curves, *, indentation):
-    """Write the loading curves of the surfaces in a file; lengths are in the unit of each surface.
+    """Compute the loading curve of every surface in a file, and write the curves in the unit of the surface.
 
     surfaces : file of the surfaces; curves : file to write
     indentation : further arguments of `indent_realization`

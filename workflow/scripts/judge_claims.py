@@ -12,9 +12,9 @@ from viscorough_study.verdicts.evidence import Evidence
 
 
 def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
-    """Write the verdicts on the claims, which are judged by the pool of discs and by tables.
+    """Judge the claims by the base discs and by tables, and write the verdicts.
 
-    discs : file of the pool; tables : CSV files of the tables, whose names without suffix are the names of the tables
+    discs : file with the realizations of all discs; tables : CSV files, named after the tables
     csv, nc, verdicts : files to write; verdicts is in Markdown
     claims : content of resources/paper/claims.yaml; settings : further fields of `Evidence`
     """

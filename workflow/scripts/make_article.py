@@ -11,11 +11,11 @@ from viscorough_study.run.job_log import run_job
 def main(project, figures, pdf, *, repository, **run):
     """Write the article.
 
-    project : folder of the project, which contains template, style, citation, literature, published numbers and
-        verdicts
-    figures : paths of the figures; the template names the figures relative to their folder
+    project : folder of the project, which contains the template, the style, the citation, the list of literature, and
+        the published numbers and verdicts
+    figures : paths of the figures, all in one folder; the template has only the names of the files
     pdf : file to write
-    repository : address of the code that the article states, or an empty text
+    repository : address of the code, for the text of the article; may be empty
     run : further arguments of `contents_of`
     """
     contents, folder = contents_of(project, **run), Path(figures[0]).parent

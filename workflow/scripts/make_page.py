@@ -12,9 +12,9 @@ from viscorough_study.run.job_log import run_job
 def main(project, figures, page, *, alternative, **run):
     """Write the page.
 
-    project : folder of the project, which contains template, style, captions, published numbers and verdicts, and the
-        picture of the rules
-    figures : paths of the figures; the names of the files without suffix are the names of the figures
+    project : folder of the project, which contains the template, the style, the captions, the published numbers and
+        verdicts, and the picture of the rules
+    figures : paths of the figures; the name of a file without suffix is the name of the figure
     page : file to write
     alternative : {figure: description for readers who cannot see the figure}
     run : further arguments of `contents_of`

@@ -1,4 +1,4 @@
-"""Match lines to discs: λ as a function of X, the residual error of a single λ, and exponents in equal windows."""
+"""Match lines to discs: λ as a function of X, the error of using a single λ, and exponents in equal windows."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.comparisons import mdr_equivalence
@@ -14,9 +14,10 @@ TABLES = {
 
 
 def main(discs, lines, csv, nc, **settings):
-    """Write tables that compare the lines of every Hurst exponent with its discs.
+    """Compare lines with discs of the same Hurst exponent, and write the tables.
 
-    discs, lines : files of the pools; csv, nc : lists of the files to write, one for each table
+    discs, lines : files with all realizations of discs and of lines
+    csv, nc : lists of the CSV and NetCDF files to write, one for each table
     settings : further arguments of `mdr_tables`
     """
     tables = mdr_equivalence.mdr_tables(read_dataset(discs), read_dataset(lines), **settings)

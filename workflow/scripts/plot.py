@@ -8,12 +8,12 @@ from viscorough_study.run.tables import read_table
 
 
 def main(files, png, pdf, *, functions, **params):
-    """Draw a figure from files.
+    """Draw a figure, and write it to the files png and pdf.
 
-    files : {argument of the function that draws the figure: path of its data}
-    params : further arguments of this function
-    functions : {"draw": dotted name of this function, argument: dotted name of a reader}. A reader takes `files` and
-        returns the argument; arguments without a reader are tables.
+    files : {argument of the drawing function: path of the file with its data}
+    functions : {"draw": dotted name of the drawing function, argument: dotted name of a reader}. A reader is a function
+        that takes `files` and returns the argument. Arguments without a reader are read as tables.
+    params : further arguments of the drawing function
     """
     inputs = {
         name: resolve_name(functions[name])(files) if name in functions else read_table(path)

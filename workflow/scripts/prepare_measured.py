@@ -9,10 +9,10 @@ from viscorough_study.run.job_log import run_job
 
 
 def main(heights, surfaces, *, name, group, **reading):
-    """Write a prepared scan to a file of surfaces.
+    """Read and prepare the scan of a measured surface, and write it to a file.
 
     heights : file of the scan; surfaces : file to write
-    name : name of the scan; group : name of its group of scans
+    name : name of the scan; group : name of the group of scans that it belongs to
     reading : spacing, unit and preparation, arguments of `measured_indenter`
     """
     indenter = measured_indenter(heights, **reading)

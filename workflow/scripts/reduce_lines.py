@@ -9,9 +9,9 @@ from viscorough_study.run.seeds import realization_seed
 
 
 def main(curves, *, ensembles, seed, until_x):
-    """Generate and reduce the lines of a batch up to X = F/(4GhL) = until_x; lengths are dimensionless.
+    """Generate a batch of lines, and write their loading curves up to X = F/(4GhL) = until_x; lengths have no unit.
 
-    curves : file to write; seed : root seed
+    curves : file to write; seed : root seed, from which the seed of each line is derived
     ensembles : parts of ensembles in this batch, from `viscorough_study.run.cases.batch_ensembles`
     """
     members = []

@@ -1,4 +1,4 @@
-"""Make the tables of a rule in workflow/results.yaml."""
+"""Make the tables that workflow/results.yaml lists for one rule."""
 
 from pkgutil import resolve_name
 
@@ -12,19 +12,19 @@ from viscorough_study.run.tables import read_table, recorded, write_table
 
 
 def read_input(path):
-    """Return the table of a CSV file or the dataset of a NetCDF file; for a list of NetCDF files, their contents."""
+    """Read a CSV file as a table, a NetCDF file as a dataset, or a list of NetCDF files as an iterator of contents."""
     if not isinstance(path, str):
         return map(netcdf.read, path)
     return read_table(path) if path.endswith(".csv") else read_dataset(path)
 
 
 def main(files, csv, nc, *, functions, tables, arguments):
-    """Write the tables of one function.
+    """Call one function that makes tables, and write the tables.
 
-    files, arguments : {argument of the function: path, or list of paths, of its data}, and its further arguments
-    functions : {"tabulate": dotted name of the function, table: dotted name of its columns}
-    tables : {table: its entry in workflow/results.yaml}; if an entry is `timed`, the machine is recorded
-    csv, nc : lists of the files to write, one for each table
+    files : {argument of the function: path or list of paths of its data}; arguments : its further arguments
+    functions : {"tabulate": dotted name of the function, name of a table: dotted name of its columns}
+    tables : {name of a table: its entry in workflow/results.yaml}; if an entry is `timed`, the machine is recorded
+    csv, nc : lists of the CSV and NetCDF files to write, one for each table
     """
     inputs = {name: read_input(path) for name, path in files.items()}
     made = resolve_name(functions["tabulate"])(**inputs, **arguments)

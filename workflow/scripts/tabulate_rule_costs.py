@@ -1,4 +1,4 @@
-"""Tabulate the cost of the rules of the workflow."""
+"""Tabulate the computing time and the memory of the rules of the workflow."""
 
 from datetime import date
 
@@ -9,9 +9,9 @@ from viscorough_study.run.tables import recorded, write_table
 
 
 def main(csv, nc, *, benchmarks):
-    """Write the table of the time and memory of every rule.
+    """Write the table with the time and the memory of every rule.
 
-    benchmarks : {rule: benchmark files of its jobs}
+    benchmarks : {name of a rule: files in which Snakemake recorded the time and memory of its jobs}
     """
     made = {"date": date.today().isoformat()}
     attributes = recorded(machine=timing.machine(), versions=versions(), made=made)

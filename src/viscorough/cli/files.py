@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 def check_output(output: Path, **inputs: Path | None) -> None:
     """Raise ValueError unless the output can be written and would replace no input file.
 
-    inputs : input files; None is allowed and ignored. The keyword of a file, such as force_history, names the content
-        of the file in the message
+    inputs : input files; None is ignored. The keyword of a file describes its content in the message, for example
+        force_history
     """
     from viscorough.io import atomic
 
@@ -64,7 +64,7 @@ def check_opens(path: Path) -> None:
         messages.complain(command, text)
         os._exit(2)
 
-    context = click.get_current_context(silent=True)  # None in the processes that evaluate the files of a table
+    context = click.get_current_context(silent=True)  # None in a process of `scans`, which has no command
     command = context.command_path if context else "viscorough"
     timer = threading.Timer(LONGEST, end)
     timer.daemon = True
@@ -77,7 +77,7 @@ def check_opens(path: Path) -> None:
 
 
 def read_content(path: Path) -> Content:
-    """Read a NetCDF file as an io.netcdf.Content, after checking that the file can be opened."""
+    """Check that a NetCDF file can be opened, and return its Content (see io.netcdf)."""
     from viscorough.io import netcdf
 
     check_opens(path)
@@ -128,7 +128,7 @@ def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit
 
 
 def write_output(content: Content, output: Path, **attributes: Any) -> None:
-    """Write an io.netcdf.Content with further attributes, as a table if the name ends in .csv, otherwise as NetCDF.
+    """Write a Content with further attributes: as a table if the name ends in .csv, otherwise as a NetCDF file.
 
     The attribute `warnings` of the file holds the warnings that the command has given so far.
     """

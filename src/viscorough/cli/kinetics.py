@@ -54,10 +54,10 @@ def kinetics(
 
     While the contact grows, the depth is read from the curve at F/G equal to the creep response, the integral of
     J(t - s) dF(s) with the creep compliance J. On a linearly viscous half-space this integral is the impulse divided by
-    the viscosity. When the contact recedes, the curve is used as a row of springs, which is exact as well. Under no
-    force the indenter rests on the recovering surface. If the curve states a grid error, KIN.nc and the closing line
-    state an error, too: the error of the velocity if the force is given, or the error of the force at the largest depth
-    if the depth is given.
+    the viscosity. When the contact recedes, independent springs with the same curve replace the indenter, which is
+    exact as well. Without a force, the indenter rests on the recovering surface. If the curve states a grid error,
+    KIN.nc and the closing line state an error, too: the error of the velocity if the force is given, or the error of
+    the force at the largest depth if the depth is given.
 
     MEDIUM.yaml is one mapping with the kind of the medium and its parameters. The kinds are newtonian (viscosity),
     maxwell and kelvin_voigt (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus,

@@ -74,7 +74,7 @@ def march(
     indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
     load, load_attributes = files.load_from_options(force or Quantity(1.0), force_history, unit)
-    if times:  # the load is a constant force, here a number
+    if times:  # with --times, `load` is a number, the constant force
         load = viscorough.Load(np.append(0.0, times), force=np.full(1 + len(times), load))
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     how: dict[str, Any] = {"method": method} | ({} if until_fraction is None else {"until_fraction": until_fraction})

@@ -12,7 +12,7 @@ import click
 
 from viscorough.basics.errors import REPORTED, AccuracyWarning, message
 
-_DELAY = 1.0  # seconds until progress is shown
+_DELAY = 1.0  # time until progress is shown, in seconds
 # The command line reports errors of these types in one line. An error of any other type is a fault of viscorough.
 ERRORS = (click.ClickException, *REPORTED)
 
@@ -24,7 +24,7 @@ def announce(output: Path, text: str) -> None:
 
 
 def warn(text: str) -> None:
-    """Give an AccuracyWarning; `main` writes it after the closing line, and the output file records it."""
+    """Issue an AccuracyWarning; `main` prints it after the closing line, and the output file records it."""
     warnings.warn(text, AccuracyWarning, stacklevel=3)
 
 
@@ -40,18 +40,19 @@ def complain(command: str, text: str) -> None:
 
 
 def report(command: str, error: BaseException) -> None:
-    """Write the one-line message of an error to standard error, with a hint to the help for a wrong option."""
+    """Write the one-line message of an error to standard error; for a wrong option, add how to show the help."""
     hint = ""
     if isinstance(error, click.UsageError):
         command = error.ctx.command_path if error.ctx else command
         hint = f"; see {command} --help"
-    if isinstance(error, OSError) and error.errno and error.filename is None:  # an error about a file has its name
+    # An error about a file has a file name. So an error without a file name concerns standard output.
+    if isinstance(error, OSError) and error.errno and error.filename is None:
         error = OSError(f"standard output cannot be written ({error.strerror})")
     complain(command, f"{error_text(error)}{hint}")
 
 
 def error_text(error: BaseException) -> str:
-    """Return the message of an error without a full stop."""
+    """Return the message of an error without the full stop at its end."""
     if isinstance(error, click.ClickException):
         return error.format_message().strip().removesuffix(".")
     return message(error)
@@ -64,7 +65,7 @@ def escape_unencodable_characters() -> None:
 
 
 def discard_what_cannot_be_written() -> None:
-    """Discard output that cannot be written; at exit Python would try to write it again, and change the exit code."""
+    """Discard output that cannot be written; otherwise Python would try again at exit, and change the exit code."""
     for stream in (sys.stdout, sys.stderr):
         try:
             if stream:

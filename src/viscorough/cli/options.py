@@ -41,8 +41,8 @@ class QuantityOption(click.ParamType):
     """Type of options: a finite number above 0, plain or with a unit, such as "5 mN" if "N" is allowed.
 
     The unit must have the same dimension as one of the units `allowed`. The text is converted to a
-    viscorough.basics.units.Quantity. The commands convert the Quantity to the number that the solvers need by
-    units.number.
+    viscorough.basics.units.Quantity. Later, the commands convert this Quantity by units.number to a number in the units
+    of the solvers.
     """
 
     name = "quantity"
@@ -191,8 +191,8 @@ progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS
 def until(default: float) -> Callable[..., Any]:
     """Return a decorator that adds the option --until-fraction to a command.
 
-    default : contact fraction that the help states. If the option is not given, the command receives None, and must
-        insert this default itself
+    default : default contact fraction, which only appears in the help. If the user does not give the option, the
+        command receives None, and must replace None by this default
     """
     text = f"Contact fraction at which to stop  [default: {default:g}]"
     return click.option("--until-fraction", type=PositiveNumber(1), help=text)
@@ -210,7 +210,7 @@ def elastic_constants(command: Callable[..., Any]) -> Callable[..., Any]:
 def elasticity(
     shear_modulus: Quantity | None, young: Quantity | None, poisson: float | None, length_unit: str
 ) -> tuple[float | None, dict[str, float]]:
-    """Return the shear modulus G that the options state, and the values of the options as attributes of files.
+    """Return the shear modulus G that follows from the options, and {attribute of the output file: value}.
 
     G belongs to the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units]. G is None
     if no modulus is given.

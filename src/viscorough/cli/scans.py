@@ -33,7 +33,7 @@ from viscorough.cli import files, messages, options, surface_options
 if TYPE_CHECKING:
     from viscorough.io.load_tables import LoadRows, Rows
 
-# Exit code if the table is complete, but some of several files have an error instead of numbers.
+# Exit code if the table is complete, but some of its files have an error instead of results.
 SOME_FAILED = 3
 # These environment variables let libraries of linear algebra use one thread in each process. More threads would compete
 # for the cores, and the rounding of results would depend on the number of threads.
@@ -47,7 +47,7 @@ class Scan(NamedTuple):
     name : name of the file in the table
     surface : the file, with the options for reading and preparing it
     digest : digest (io.load_tables.digest_of_scan) of the file and the settings; "" if the file cannot be read
-    evaluate : function of the indenter and of `progress` that returns rows of the table and {column: unit}
+    evaluate : function with the arguments indenter and `progress`, which returns rows of the table and {column: unit}
     """
 
     name: str
@@ -73,7 +73,8 @@ def tabulate(
     """Write the rows of all files as a table, and a closing line.
 
     surfaces : the files, which are all read and prepared with the same options
-    evaluate : function of the indenter and of `progress` that returns rows of the table and {column: unit}; picklable
+    evaluate : function with the arguments indenter and `progress`, which returns rows of the table and {column: unit};
+        it must be picklable
     settings : {option: value} of all other options on which the rows depend; None for options that are not given
     jobs : number of files that are evaluated at a time; None for the number of cores divided by `threads`
     threads : number of threads with which `evaluate` computes
@@ -88,7 +89,7 @@ def tabulate(
     for surface in surfaces:
         files.check_output(output, heights=surface.path)
     files.check_output(unfinished)
-    surfaces[0].parsed()  # a wrong option raises its error here; otherwise the table would show it for every file
+    surfaces[0].parsed()  # raises an error for a wrong option, which the table would repeat for every file
     spelled = _spelled(surfaces[0].options | settings)
     scans = []
     for name, surface in sorted({files.printable_path(surface.path): surface for surface in surfaces}.items()):
@@ -118,7 +119,7 @@ def tabulate(
 
 
 def _write(results: dict[str, LoadRows], path: Path, options: str) -> list[LoadRows]:
-    """Write the rows of files as a table, and return the rows in the order and the units of the table.
+    """Write the rows of all files as a table; return the rows in the order and with the units of the table.
 
     results : {name of a file: its rows}
     options : text of the given options, which becomes an attribute of the table
@@ -192,7 +193,7 @@ def _spelled(values: dict[str, Any]) -> str:
 def _in_this_process(scan: Scan, progress: Callable[[float], object]) -> LoadRows:
     """Evaluate a file in this process, and return its rows with the texts of the warnings.
 
-    Errors are raised. The warnings also reach the command, which shows them.
+    Errors are not caught. The command shows the warnings, too.
     """
     from viscorough.io.load_tables import LoadRows
 
@@ -263,7 +264,7 @@ def _processes(count: int) -> Iterator[Callable[[Scan], Future[LoadRows]]]:
     pool = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
 
     def submit(scan: Scan) -> Future[LoadRows]:
-        with on_interrupt(signal.SIG_IGN):  # a process that is started here inherits this handler
+        with on_interrupt(signal.SIG_IGN):  # a process that starts here also ignores Ctrl-C
             return pool.submit(_in_a_process, scan)
 
     try:

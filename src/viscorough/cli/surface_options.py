@@ -33,7 +33,10 @@ class Surface:
     options: dict[str, Any]
 
     def parsed(self) -> dict[str, Any]:
-        """Convert the options to arguments of read_heights. Raises ValueError with the option for a wrong text."""
+        """Convert the options to arguments of read_heights.
+
+        Raises ValueError, with the name of the option, for a text that cannot be converted.
+        """
         from viscorough.io.atomic import path_named
 
         values = dict(self.options)
@@ -134,9 +137,9 @@ def heights_input(argument: str = "heights", *, several: bool = False) -> Callab
 
 
 def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> viscorough.Indenter:
-    """Read the indenter of a Surface, after checking that the output can be written.
+    """Check that the output can be written, then read and prepare the heights of a Surface.
 
-    inputs : other input files of the command, arguments of files.check_output
+    inputs : other input files of the command, which the output must not replace; see files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights.
     """
     files.check_output(output, heights=surface.path, **inputs)

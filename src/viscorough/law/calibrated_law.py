@@ -56,8 +56,8 @@ ACROSS = 257
 LARGEST_DEVIATION = 0.05
 # Exponents of the law that do not depend on H: 3/2 at the transition from region (a), and 4 in the last factor of g₁.
 _ONSET, _LAST = 1.5, 4.0
-# The integral of g up to X has this length and this number of steps in ln X. So it starts at e^-40 X, far inside region
-# (a).
+# Length and number of the steps in ln X by which g is integrated up to X. The integral starts at e^-40 X, far inside
+# region (a).
 _STEP, _STEPS = 0.05, 800
 CONSTANTS = {
     "amplitude": "A of the law of g",
@@ -105,11 +105,11 @@ def interface_velocity(
 
 
 def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Array:
-    """Return ∫₀^X g dX/X, the term of the interface in the depth u/h, by Simpson's rule.
+    """Return ∫₀^X g dX/X, the contribution of the interface to the depth u/h, by Simpson's rule.
 
-    constants, across : arguments of `interface_velocity`
+    constants, across : arguments of `interface_velocity`, which returns g
     """
-    from scipy.integrate import simpson  # this import takes long
+    from scipy.integrate import simpson  # imported only if needed, since this takes long
 
     logarithm = _STEP * np.arange(-_STEPS, 1)
     x = np.multiply.outer(np.asarray(x, dtype=float), np.exp(logarithm))
@@ -130,9 +130,9 @@ class PenetrationLaw:
         of the calibration
     region : (lower, upper) ends of region (b) in X
     amplitude, exponent, bend, fall, cutoff : constants A, b, s, m and d of g, see `interface_velocity`
-    velocity_error, depth_error : largest relative error of vt/h and u/h in the range of the law. The error at one X is
-        the distance of the law from the farther end of a 95 % interval: the interval of the mean over discs that were
-        not used for the calibration
+    velocity_error, depth_error : largest relative errors of vt/h and u/h in the range of the law. They follow from a
+        95 % interval at each X, the interval of the mean over discs that were not used for the calibration. The error
+        is the distance of the law from the farther end of this interval
     x_low, x_high : ends of the range of X in which the law holds
     """
 
@@ -153,7 +153,7 @@ class PenetrationLaw:
     x_high: float
 
     def __repr__(self) -> str:
-        """Return two lines: H and the range of the law, and the power law. The constants are left out."""
+        """Return two lines of text: H and the range of the law; the power law of region (b). Constants are left out."""
         (low, high), (least, most), (begin, end) = self.beta_interval, self.zeta_interval, self.region
         return (
             f"Penetration law vt/h = X + g(X) for H = {self.hurst:g}, X from {self.x_low:.3g} to {self.x_high:.3g}\n"
@@ -217,9 +217,9 @@ def _read(name: str, chosen: Callable[[dict[str, str]], bool], numbers: Sequence
 
 @cache
 def calibration() -> dict[str, Array]:
-    """Return the power law of discs in region (b): {name: array with a number for each H, in increasing order}.
+    """Return the power laws of discs in region (b): {column: array with a number for each H}; H increases.
 
-    The names are the keys of COLUMNS, except "source".
+    The columns are the keys of COLUMNS, except "source".
     """
     names = [name for name in COLUMNS if name != "source"]
     return _read("calibration.csv", lambda row: row["source"] == "discs", names)
@@ -237,15 +237,15 @@ def interface_calibration() -> dict[str, Array]:
 
 @cache
 def scatter_calibration() -> dict[str, Array]:
-    """Return the intervals that contain single surfaces: {key of SCATTER_COLUMNS: array}.
+    """Return the intervals of 95 % of single surfaces: {key of SCATTER_COLUMNS: array}.
 
-    Each array has a number for each pair of H and X. H increases, and X increases for each H.
+    Each array has a number for each pair of H and X, sorted by H and then by X.
     """
     return _read("law_scatter.csv", lambda row: True, list(SCATTER_COLUMNS))
 
 
 def relative_interval(table: Mapping[str, Any], quantity: str, hurst: float, x: Numbers) -> Array:
-    """Return the lower and upper end of the interval of single surfaces, each divided by the value of the law.
+    """Return (lower, upper) ends of the interval of 95 % of single surfaces, divided by the value of the law.
 
     The shape is (2, shape of X). The logarithms of the ends are interpolated linearly in H and in ln X.
 

@@ -19,13 +19,12 @@ class Estimate(ReadOnlyArrays):
 
     time : times t
     x : dimensionless force X = F·J(t)/(4hL), with force F, creep compliance J, rms height h and diameter L
-    depth, velocity : u and v = du/dt, as arithmetic means over many surfaces. The X of each surface is computed with
-    its
-        own h, and is the same for all surfaces. u has the unit of the rms height, and v this unit per unit of time
+    depth, velocity : u and v = du/dt, as arithmetic means over many surfaces that all have this X, each X computed with
+        the h of the surface. u has the unit of the rms height, and v has this unit divided by the unit of time
     depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that contain the depth and the velocity
         of 95 % of single surfaces
-    law : PenetrationLaw, which holds for X from law.x_low to law.x_high. Its depth and velocity differ from the means
-        over many surfaces by at most the relative errors law.depth_error and law.velocity_error
+    law : PenetrationLaw, which holds for X from law.x_low to law.x_high. Its relative errors, compared with means over
+        many surfaces, are at most law.depth_error and law.velocity_error
     """
 
     time: np.ndarray
@@ -51,7 +50,7 @@ class Estimate(ReadOnlyArrays):
     def __str__(self) -> str:
         """Return a table with a row for each time, and a last line with the errors of the law.
 
-        Columns are time, X, depth and velocity, with the intervals of single surfaces.
+        The columns are time, X, depth and velocity, and the intervals that contain 95 % of single surfaces.
         """
         head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
         columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)

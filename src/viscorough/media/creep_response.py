@@ -23,8 +23,8 @@ from viscorough.media.medium import Medium, RetardationSpectrum
 
 # Number of pairs of samples that sums over the past hold in memory at a time.
 _CHUNK = 2**20
-# Below this x, (exp(−x) − 1 + x)/x is computed by a series with this number of terms, because the formula would lose
-# digits.
+# If x = (length of an interval)/θ is below the first number, (exp(−x) − 1 + x)/x is computed by a series, because the
+# formula would lose digits. The second number is the number of terms of the series.
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
 
 
@@ -43,10 +43,10 @@ class CreepResponse(NamedTuple):
 
 
 def creep_response(medium: Medium, load: Load) -> CreepResponse:
-    """Return the CreepResponse of a medium to a load of a force, which is 0 before the first sample of the load."""
+    """Return the CreepResponse of a medium to a force history; the force is 0 before the first sample."""
     times, force = load.time, load.values
     creep, terms = by_sums(medium, load) if medium.retardation is None else by_states(medium.retardation, load)
-    # If the medium responds instantaneously, Φ decreases at every downward step of the force.
+    # In a medium with an instantaneous response, Φ decreases at every downward step of the force.
     with np.errstate(over="ignore"):
         responds = medium.creep_compliance(0.0) > 0 or np.isinf(medium.creep_rate(0.0))
     down = times[responds & (jumps_and_slopes(times, force)[0] < -ROUNDING * force)]
@@ -64,10 +64,11 @@ def constant_creep(force: float, medium: Medium, times: Array) -> tuple[Array, A
 
 
 def by_states(retardation: RetardationSpectrum, load: Load) -> tuple[Array, Terms]:
-    """Return the creep response Φ at the samples, and a function for the terms of dΦ/dt, of springs and dashpots.
+    """Return the creep response Φ of springs and dashpots at the samples, and a function for the terms of dΦ/dt.
 
-    The state of each retardation time θ is the delayed response y, with θ y' + y = F, and the remainder z = F − y. Both
-    are exact for a force that is linear in time. If the force is positive, they are computed without cancellation.
+    The function has the type `Terms`. The state of each retardation time θ is the delayed response y, with
+    θ y' + y = F, and the remainder z = F − y. y and z are exact for a force that is linear in time. If the force is
+    positive, y and z are computed without cancellation.
     """
     instantaneous, fluidity, compliances, times = retardation
     _, slopes = jumps_and_slopes(load.time, load.values)
@@ -89,8 +90,9 @@ def by_states(retardation: RetardationSpectrum, load: Load) -> tuple[Array, Term
 def by_sums(medium: Medium, load: Load) -> tuple[Array, Terms]:
     """Return the creep response Φ at the samples, and a function for the terms of dΦ/dt, by sums over the past.
 
-    This serves media that do not consist of springs and dashpots. J is concave, so dJ/dt decreases. Therefore, in
-    dΦ/dt, the positive responses to the past fall with time, and the negative responses rise.
+    The function has the type `Terms`. These sums serve for media that do not consist of springs and dashpots. Since J
+    is concave, dJ/dt decreases with time. So the contributions of earlier increases of the force to dΦ/dt are positive
+    and fall with time, and the contributions of earlier decreases are negative and rise.
     """
     _, slopes = jumps_and_slopes(load.time, load.values)
     sums = partial(sums_over_the_past, load.time, load.values)
@@ -114,10 +116,10 @@ def sums_over_the_past(
     jump_response: Callable[[Array], Array],
     ramp_response: Callable[[Array, Array], Array],
 ) -> tuple[Array, Array]:
-    """Return the sum of all positive and the sum of all negative responses to the past of a load.
+    """Return the sum of all positive responses to the past of a load, and the sum of all negative responses.
 
     Each returned array has the shape of `sample`, with one sum per output time. An output time lies `offset` after a
-    sample, and the load counts up to this sample.
+    sample, and the past is the load up to this sample.
 
     times, load : times of the samples, and the load at the samples, as in `arrays.jumps_and_slopes`
     sample, offset : index of the sample before each output time, and time since this sample
@@ -159,8 +161,8 @@ def branch_states(lengths, force, retardation_times):
             else:
                 x = lengths[k] / retardation_times[j]
                 kept, gone = np.exp(-x), -np.expm1(-x)
-                # Weights in y of the forces at the start (a) and the end (b) of the interval: a + b = 1 − exp(−x), and
-                # b = 1 − (1 − exp(−x))/x.
+                # For the forces F0 and F1 at the start and end of the interval, y becomes exp(−x) y + a F0 + b F1, with
+                # b = 1 − (1 − exp(−x))/x and a = 1 − exp(−x) − b.
                 if x < _SERIES_BELOW:
                     b = 0.0
                     for n in range(_SERIES_TERMS, 0, -1):

@@ -1,7 +1,7 @@
-"""Rate of the response to a load, and the first time from which the response decreases.
+"""Compute the rate of the response to a load, and find the first time at which the response decreases.
 
-The rate is known at any time between two samples of the load. Bounds of the rate within an interval between samples
-show whether the response may decrease there.
+The rate is known at any time between two samples of the load. Bounds of the rate in an interval between two samples
+show whether the response may decrease in this interval.
 """
 
 from collections.abc import Callable
@@ -56,7 +56,7 @@ def first_decrease(times: Array, terms: Terms, limit: float = np.inf) -> float:
 def rate_at_samples(times: Array, terms: Terms) -> Array:
     """Return the rate of a response just after every sample of the load, shape of `times`.
 
-    At the last sample, and at the first of two samples that make a step, this is the rate just before the sample.
+    For the last sample, and for the first of the two samples of a step, the rate just before the sample is returned.
 
     terms : function that evaluates the terms of the rate, see `Terms`
     """

@@ -27,9 +27,9 @@ class IdentifiedMedium(ReadOnlyArrays):
     relaxation_modulus : array or None
         Relaxation modulus ψ at the times of `time` if the force was measured; None if the depth was measured.
     low, high : array
-        Ends of the 95 % interval at each time: of J if the depth was measured, of ψ if the force was measured. At times
-        before the first row of the record, J has no lower limit but 0, and ψ has no upper limit. Both arrays are nan if
-        the scatter is not known.
+        Ends of the 95 % interval at each time: of J if the depth was measured, of ψ if the force was measured. Before
+        the first row of the record, `low` is 0 for J, and `high` is infinite for ψ. Both arrays are nan if the scatter
+        is not known.
     scatter : float
         Standard deviation of the measured depth [length] or force, as given by the user or as found from the record;
         nan if it is not known.
@@ -41,11 +41,11 @@ class IdentifiedMedium(ReadOnlyArrays):
     offset_interval, drift_interval : array
         Ends of the 95 % intervals of `offset` and `drift`, shape (2,); nan if not known.
     assumed_offset : float
-        Error of the zero of the depth that is assumed for `offset_effect` if `offset` was not fitted [length]. It is
-        the scatter of the depth, or 0.1 % of the largest depth if the scatter is not known; nan if `offset` was fitted.
+        Error of the zero of the depth that `offset_effect` assumes [length]: the scatter of the depth, or 0.1 % of the
+        largest depth if the scatter is not known; nan if `offset` was fitted.
     offset_effect : float
-        Largest relative change of J between the first and the last row if the zero of the depth were wrong by
-        `assumed_offset`.
+        Largest relative change of J, between the first and the last row of the record, that results if the zero of the
+        depth is wrong by `assumed_offset`.
     length_unit : str
         Unit of the depth. If it is known, moduli are in Pa, times in s and forces in N.
 

@@ -50,7 +50,7 @@ UNITS = {
     **dict.fromkeys(("relaxation_time", "relaxation_times"), "s"),
     "viscosity": "Pa s",
 }
-# Keyword for Young's modulus that replaces each parameter that is a shear modulus.
+# {parameter that is a shear modulus: keyword for the Young's modulus that can be given instead}.
 YOUNG = {
     "shear_modulus": "young_modulus",
     "instantaneous_modulus": "instantaneous_young_modulus",
@@ -60,16 +60,16 @@ YOUNG = {
 }
 # Names of the parameters that are lists of numbers.
 _LISTS = ("moduli", "relaxation_times")
-# Relative increase of the slope of J from one interval of a table to the next that counts as rounding: in tables with
-# ten digits, slopes may increase by this share.
+# In a table of a concave J, the slope must not increase from one interval to the next. A relative increase up to this
+# number is allowed, since it may result from rounding in a table with ten digits.
 _TABLE_ROUNDING = 1e-9
-# Relative rounding error of the compliances of a table. It adds to the allowed increase of slopes, because it matters
-# in intervals where J almost does not grow.
+# Relative rounding error of the compliances of a table. Where J almost does not grow, this error may increase the slope
+# by more than _TABLE_ROUNDING. Therefore its effect on the slope is allowed, too.
 _LAST_DIGITS = 1e-14
 
 
 class _Exponential(Medium):
-    """Base class of media of springs and dashpots, which have the spectra `relaxation` and `retardation`."""
+    """Base class of media of springs and dashpots. They have the spectra `relaxation` and `retardation`."""
 
     @property
     @abstractmethod
@@ -114,7 +114,7 @@ class _Exponential(Medium):
         return relaxed * length + (moduli * times * decayed).sum(axis=-1)
 
     def _check_spectra(self) -> None:
-        """Raise ValueError if numbers of the spectra, or the rates of their times, are not finite."""
+        """Raise ValueError unless all numbers in both spectra, and the inverse of their times, are finite."""
         with np.errstate(all="ignore"):
             rates = 1 / self.relaxation.times, 1 / self.retardation.times
             values = np.hstack([*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates])
@@ -470,7 +470,7 @@ class CreepTable(ReadOnlyArrays, Medium):
     compliances: np.ndarray
 
     def __repr__(self) -> str:
-        """Return the number of points and the ranges of times and J, instead of all numbers."""
+        """Return a summary, without the arrays: the number of points, and the ranges of times and J."""
         return f"CreepTable of {len(self.times)} points, t {span(self.times)}, J {span(self.compliances)}"
 
     def __post_init__(self) -> None:
@@ -540,7 +540,7 @@ def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) ->
 
 
 def _power_increment(start: ArrayLike, end: ArrayLike, power: float) -> Array:
-    """Return end^power − start^power for 0 ≤ start ≤ end and power > 0, to rounding also if the two are close."""
+    """Return end^power − start^power for 0 ≤ start ≤ end and power > 0, to rounding also for close times."""
     start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     with np.errstate(divide="ignore", invalid="ignore"):
         increment = start**power * np.expm1(power * np.log1p((end - start) / start))
@@ -593,7 +593,10 @@ def _set_parameters(
 
 
 def _numbers(medium: str, name: str, values: Any, unit: str) -> list[float]:
-    """Return the values of a list as floats. Raises ValueError like `_number`, and unless `values` is a list."""
+    """Return the values of a list as floats.
+
+    Raises ValueError if `values` is not a list, or if `_number` raises it for one of the values.
+    """
     entries = list(values) if isinstance(values, list | tuple) or np.ndim(values) == 1 else []
     if not entries:
         raise ValueError(f"{medium}: {name} {shown(values)}; allowed: a list of one or more numbers above 0")

@@ -13,8 +13,8 @@ from viscorough.basics.arrays import ReadOnlyArrays, increasing, integral, read_
 from viscorough.basics.summaries import span
 from viscorough.basics.types import Array, Integers
 
-# Two times that differ by less than this share of their value count as equal. Within a shorter interval, rounding
-# errors would be as large as the change of a load.
+# Two times that differ by less than this share of their value count as equal. In a shorter interval, rounding errors of
+# a load would be as large as its change.
 _SAME_TIME = 1e-13
 
 
@@ -59,7 +59,7 @@ class Load(ReadOnlyArrays):
         def __init__(self, time: ArrayLike, force: ArrayLike | None = None, depth: ArrayLike | None = None) -> None: ...
 
     def __repr__(self) -> str:
-        """Return the number of samples and the ranges of times and values, instead of all numbers."""
+        """Return a summary, without the arrays: the number of samples, and the ranges of times and values."""
         name = "depth" if self.by_depth else "force"
         return f"Load of {self.time.size} samples, time {span(self.time)}, {name} {span(self.values)}"
 
@@ -120,11 +120,11 @@ class Load(ReadOnlyArrays):
         return load, np.searchsorted(load.time, times + rounding, side="right") - 1
 
     def in_units_of(self, length_unit: str) -> Load:
-        """Return the load with forces converted from N to units that are consistent with moduli in Pa and lengths.
+        """Return the load with forces converted from N to Pa × length_unit², to be consistent with moduli in Pa.
 
-        length_unit : unit of length; forces are divided by the area of a square with this side in m²
+        length_unit : unit of length, whose square in m² divides the forces
 
-        A load of a depth is returned unchanged, and so is every load if the unit is not known.
+        A Load that prescribes the depth is returned unchanged. If the unit is not known, every Load is.
         """
         area = units.square_metres(length_unit)
         return self if self.by_depth or area == 1 else Load(self.time, force=self.values / area)
@@ -140,11 +140,12 @@ def _distance(times: Array, samples: Array) -> Array:
 def force_load(force: Any, times: Array, length_unit: str) -> Load:
     """Return a force as a Load in consistent units.
 
-    force : a Load of a force; or samples at `times`; or a constant that acts from time 0 to the last of `times`.
-        Samples and the constant may have a unit
+    force : a Load that prescribes the force; or samples at `times`; or a constant that acts from time 0 to the last of
+        `times`. Samples and the constant may have a unit
     length_unit : unit of length of the indenter
 
-    Raises ValueError for a Load of a depth, and for a constant that is not finite and above 0 or starts before time 0.
+    Raises ValueError for a Load that prescribes the depth, for a constant that is not finite and above 0, and for
+    negative times with a constant.
     """
     if isinstance(force, Load):
         if force.by_depth:

@@ -4,7 +4,7 @@ With the Laplace transforms ψ̂ and Ĵ of relaxation modulus and creep complian
 s Ĵ(s) = 1/Q(s). Q has a pole at s = −r for every relaxation rate r. It has a zero at s = −λ for every retardation rate
 λ. Poles and zeros alternate (Gross 1953; Tschoegl 1989).
 
-A third function approximates the creep by a power law of a springpot with springs and dashpots.
+`power_law_spectrum` approximates a springpot, which creeps by a power law of time, by springs and dashpots.
 """
 
 from collections.abc import Callable
@@ -17,8 +17,8 @@ from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 
 # Relative error of the springs and dashpots that approximate a power law.
 _POWER_LAW_ERROR = 1e-10
-# Rate of the slowest element of this approximation, multiplied by the longest time. Up to the longest time, the creep
-# of still slower elements is linear in time to 1e-10.
+# Rate of the slowest element in the approximation of a power law, multiplied by the longest time. Up to the longest
+# time, the creep of slower elements is linear in time to 1e-10.
 _SLOWEST = 1e-10
 # Number of bisections of an interval that contains a zero. Ten of them reduce the ratio of its ends to a factor of 2;
 # the others find the zero to rounding.
@@ -44,9 +44,10 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
         return RetardationSpectrum(0.0, 0.0 if relaxed else 1 / viscosity, compliance, viscosity * compliance)
     order = np.argsort(-times)
     rates, moduli = 1 / times[order], moduli[order]
-    below = rates[:-1] if relaxed == 0 else np.append(0.0, rates[:-1])  # relaxation rate, or 0, below each zero
+    # Each zero lies between two neighbouring relaxation rates, or between 0 and the smallest rate.
+    below = rates[:-1] if relaxed == 0 else np.append(0.0, rates[:-1])
     above = rates[rates.size - below.size :]
-    from_rates = rates[:, None]  # arrays below have a row per relaxation rate and a column per zero
+    from_rates = rates[:, None]  # the following arrays have a row per relaxation rate and a column per zero
 
     def relaxance(pole: Array, distance: Array) -> Array:
         rate = pole + distance
@@ -110,7 +111,7 @@ def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest
 def zero_of_increasing(function: Callable[[Array], Array], low: Any, high: Any) -> Array:
     """Return the zeros of an increasing function between 0 < low < high, to rounding.
 
-    The function takes and returns an array, and each entry of the array is an unknown by itself. The zeros are found by
+    The function takes and returns an array, and is evaluated separately for each entry. The zeros are found by
     bisection. While the ends of an interval are far apart, their logarithms are bisected, because a zero may be many
     decades from either end.
     """

@@ -3,22 +3,21 @@
 The paper does not state the region in which the rms height h is measured, the average over realizations, or the windows
 of its fits. These three conventions (`FITTED`) change the mean curve or the window, so each combination needs a fit.
 
-The paper also prints some laws with a factor 1/Γ(2 − α) and others without. A reading of the law is its form with or
-without this factor (`GAMMA`); the plain reading is the form without. The reading only rescales a fit. The plain reading
-is vt/h = X^β/ζ; with the factor (Eq. 9) it is vt/h = X^β/(ζ Γ(1 + β)), where 1 + β = 2 − α. So ζ with the factor is
-1/Γ(1 + β) times ζ without.
+The paper also prints some laws with a factor 1/Γ(2 − α) and others without this factor (`GAMMA`). Without the factor
+the law is vt/h = X^β/ζ. With the factor (Eq. 9) the law is vt/h = X^β/(ζ Γ(1 + β)), where 1 + β = 2 − α. So ζ with the
+factor is 1/Γ(1 + β) times ζ without the factor, and a single fit serves for both forms of the law.
 
-β, λ, the residual and the window are equal in both readings, and ζ with the factor follows from ζ without. The tables
-of fits therefore contain these values once, in the plain reading. The 95 % interval of ζ does not follow from its value
-in the plain reading: its ends are percentiles of bootstrap samples, each scaled with the β of this sample. The tables
-contain this interval in both readings, in the columns that `interval_columns` names.
+β, λ, the residual and the window are equal for both forms. The tables of fits therefore contain these values only once,
+and ζ only without the factor. They contain the 95 % interval of ζ for both forms, in the columns that
+`interval_columns` names. Its ends are percentiles of bootstrap samples, and each sample is scaled with its own β, so
+the interval for one form does not follow from the interval for the other form.
 """
 
 import numpy as np
 from scipy.special import gamma as gamma_function
 
 FITTED = {
-    "rms_convention": ("disc", "square", "ensemble"),  # fits of lines have the value "line"
+    "rms_convention": ("disc", "square", "ensemble"),  # the value of lines is "line"
     "average": ("arithmetic", "geometric"),
     "window_rule": ("default", "lower_half", "upper_half", "kappa"),
 }
@@ -27,29 +26,29 @@ VALUES = FITTED | {"gamma": GAMMA}  # {convention: its allowed values}
 
 
 def zeta_scale(beta, gamma):
-    """Return the ratio of ζ in a reading of the law to ζ in the plain reading, with the shape of β.
+    """Return the factor that converts ζ of the law without 1/Γ(2 − α) to ζ of another form of the law; shape of β.
 
-    gamma : the reading, an entry of `GAMMA`
+    gamma : "with" for the law with 1/Γ(2 − α), "without" to leave ζ unchanged (factor 1)
     """
     return 1 / gamma_function(1 + beta) if gamma == "with" else np.ones_like(beta)
 
 
 def interval_columns(gamma):
-    """Return the names of the columns with the lower and the upper end of the interval of ζ in a reading of the law.
+    """Return the names of the two columns with the lower and the upper end of the interval of ζ.
 
-    gamma : the reading, an entry of `GAMMA`
+    gamma : "with" or "without", for ζ of the law with or without the factor 1/Γ(2 − α)
     """
     reading = "_with_gamma" * (gamma == "with")
     return f"zeta_low{reading}", f"zeta_high{reading}"
 
 
 def in_reading(fits, gamma):
-    """Convert ζ and its interval to one reading of the law, for all rows of a table of fits.
+    """Convert ζ and its interval to the law with or without the factor 1/Γ(2 − α), in all rows of a table of fits.
 
     fits : pandas.DataFrame with the columns of viscorough_study.fits.fit_table
-    gamma : the reading, an entry of `GAMMA`
-    Returns a DataFrame with zeta, zeta_low and zeta_high in this reading, and a column `gamma` that names the reading.
-    The columns of the interval with the factor are dropped.
+    gamma : "with" or "without", for the law with or without the factor
+    Returns a DataFrame with the converted columns zeta, zeta_low and zeta_high, and a column `gamma`. The columns
+    zeta_low_with_gamma and zeta_high_with_gamma are dropped.
     """
     low, high = interval_columns(gamma)
     zeta = fits["zeta"] * zeta_scale(fits["beta"], gamma)
@@ -63,9 +62,9 @@ def as_text(conventions):
 
 
 def select(table, values):
-    """Return the rows of a table of fits that have given values, converted to one reading of the law, by ascending H.
+    """Select rows from a table of fits, sort them by ascending H, and convert ζ by `in_reading`.
 
-    values : {column: value that a row must have}, and under "gamma" the reading, an entry of `GAMMA`
+    values : {column: value that a row must have}, and {"gamma": argument of `in_reading`}
     """
     for column, value in values.items():
         if column != "gamma":
@@ -74,9 +73,9 @@ def select(table, values):
 
 
 def fits(table, conventions, **values):
-    """Return the rows of a table of fits that were made with given conventions, by ascending H.
+    """Return the rows of a table of fits that were made with the given conventions, sorted by ascending H.
 
-    conventions : {convention: value}, with the reading of the law as "gamma"
+    conventions : {convention: value}; the convention "gamma" is "with" or "without" the factor 1/Γ(2 − α)
     values : {column or convention: value} that rows must also have; they replace conventions of the same name
     Fits of ensembles without a region (b) have no exponent, and their rows are omitted.
     """
@@ -84,5 +83,8 @@ def fits(table, conventions, **values):
 
 
 def source_values(source):
-    """Return {column: value} that selects the fits of "discs" or "lines"; lines have a single rms convention."""
+    """Return {column: value} by which `fits` selects a source, "discs" or "lines".
+
+    All fits of lines have the rms convention "line", so it is selected, too.
+    """
     return {"source": source} | ({"rms_convention": "line"} if source == "lines" else {})

@@ -1,8 +1,8 @@
-"""Compute the table of fits: β, ζ and λ of every ensemble under every convention that needs a fit.
+"""Compute the table of fits: β, ζ and λ of every ensemble, for all choices that the paper leaves open.
 
-A row is the fit of one ensemble with one rms convention, one average and one window (`FITTED` of fits.conventions). The
-window and ζ belong to the law without the factor 1/Γ(2 − α), the plain reading. The functions of fits.conventions
-select rows and convert them to the other reading.
+Each row is a fit of one ensemble with one definition of the rms height, one kind of mean and one window (`FITTED` of
+fits.conventions). The table has ζ of the law without the factor 1/Γ(2 − α). The functions of fits.conventions select
+rows and convert ζ to the law with this factor.
 """
 
 import logging
@@ -18,7 +18,7 @@ from viscorough_study.fits.intervals import described, described_ends, three_col
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
 
-# {column: (long_name, units)}, in the order of the table; the units of text are None
+# {column: (long_name, units)}, in the order of the table. Columns of text have the units None.
 COLUMNS = {
     "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", None),
     "case_group": ("base or name of the variant of the surfaces", None),
@@ -39,9 +39,10 @@ SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a
 
 
 def scaling_table(discs, lines, *, seed, **fit):
-    """Fit power laws to every ensemble of discs and of lines, and match the lines to base discs of the same H for λ.
+    """Fit power laws to every ensemble of discs and of lines; find λ from the lines and base discs of the same H.
 
-    Discs have one ensemble for each group of cases and Hurst exponent, lines have one for each Hurst exponent.
+    An ensemble of discs has one Hurst exponent and one group (base, or a variant of the surfaces). An ensemble of lines
+    has one Hurst exponent.
 
     discs, lines : pools (viscorough_study.ensembles.pool)
     seed, fit : further arguments of `fit_rows`
@@ -60,14 +61,14 @@ def scaling_table(discs, lines, *, seed, **fit):
 
 
 def sizes_table(discs, lines, *, windows, **fit):
-    """Fit power laws on grids from coarse to fine, to each grid separately, also in windows of fixed X.
+    """Fit power laws separately on each grid, from coarse to fine, in region (b) and in windows of fixed X.
 
-    The window of region (b) moves with the grid, since a finer grid resolves smaller X. In windows of fixed X only the
-    grid changes. A deviation of β from H/(1 + H) may become smaller on finer grids in the moving window and remain the
-    same in the fixed windows. Such a deviation depends on the X of the window, not on the grid.
+    Region (b) moves with the grid, since a finer grid resolves smaller X. In a window of fixed X, only the grid
+    changes. A deviation of β from H/(1 + H) may become smaller on finer grids in region (b), but remain the same in
+    windows of fixed X. Such a deviation depends on the X of the window, not on the grid.
 
-    discs, lines : pools
-    windows : fixed windows, [(X_low, X_high)]
+    discs, lines : pools (viscorough_study.ensembles.pool) of realizations on several grids
+    windows : list of windows of fixed X, (X_low, X_high)
     fit : further arguments of `fit_rows`
     Returns a pandas.DataFrame with the columns of `SIZES`.
     """
@@ -80,12 +81,15 @@ def sizes_table(discs, lines, *, windows, **fit):
 
 
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
-    """Return the rows of the table for one ensemble: dicts with the keys of `COLUMNS`; nan without a window.
+    """Fit one ensemble for all choices that the paper leaves open; return a list of dicts with the keys of `COLUMNS`.
+
+    If an ensemble lacks a window, the values of the fit in this window are nan.
 
     ensemble : ensemble dataset (ensembles.averages)
-    lines : ensemble dataset of lines with the same Hurst exponent and abscissae, for λ; λ is nan without lines, or if
-        the lines do not reach the stiffness of the discs
-    resamples, seed : arguments of the bootstrap
+    source, case_group : entries of the columns of these names
+    lines : ensemble dataset of lines with the same Hurst exponent and abscissae, for the computation of λ, or None.
+        λ is nan for None, and if the lines do not reach the stiffness of the discs
+    resamples, seed : number of resamples and seed of the bootstrap
     limits : arguments of viscorough_study.fits.power_law.named_windows
     Raises ValueError if a window has fewer than three abscissae.
     """
@@ -102,10 +106,11 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
 
 
 def _fit(ensemble, lines, window, **options):
-    """Return the columns of the fit of an ensemble with one rms convention, {column: value}.
+    """Fit an ensemble with a single definition of the rms height in one window; return {column: value}.
 
-    lines : ensemble of lines for λ, or None
-    window : (X_low, X_high); options : average, resamples and seed of the fit
+    lines : ensemble of lines for the computation of λ, or None
+    window : (X_low, X_high)
+    options : average, resamples and seed of the fit
     """
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
     betas, zetas = fit_power_law(x, velocity, window, **options)
@@ -120,11 +125,11 @@ def _fit(ensemble, lines, window, **options):
 
 
 def calibrated(scaling, sizes, *, conventions, across):
-    """Return the fits that calibrate the law: a table with the columns of viscorough.law.calibrated_law.
+    """Return the fits that calibrate the penetration law: a table with the columns of viscorough.law.calibrated_law.
 
-    scaling : table of `scaling_table`, whose discs have `across` elements across
-    sizes : table of `sizes_table` with discs on grids from coarse to fine; for Hurst exponents that the base discs
-        lack, its fits on the grid with `across` elements across are used
+    scaling : table of `scaling_table`; its discs have `across` elements across
+    sizes : table of `sizes_table`. Its discs with `across` elements across are used for those Hurst exponents that
+        `scaling` lacks
     conventions : {convention: value} of the selected fits
     """
     rows = [fits(scaling, conventions | source_values(source), case_group="base") for source in ("discs", "lines")]

@@ -18,9 +18,9 @@ from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.intervals import UNDEFINED, described, three_columns
 
 DEPTHS = (0.5, 1.0, 2.0)  # values of u/h at which κ is compared
-FORCES = (0.01, 0.1, 1.0)  # values of X at which vt/h and u/h are compared
-# Smallest standard deviation of a logarithm over the discs. Equal discs would have 0, and an infinite weight in the
-# fit.
+FORCES = (0.01, 0.1, 1.0)  # values of the reduced force X at which vt/h and u/h are compared
+# Lower bound of the standard deviation of a logarithm between discs. Without it, identical discs would have an infinite
+# weight in the fit.
 ROUNDING = 1e-12
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
@@ -35,11 +35,13 @@ COLUMNS = {
 
 
 def grid_dependence(discs, *, elements_min, rms_convention):
-    """Return a row for every Hurst exponent, quantity and grid: a pandas.DataFrame with the columns of `COLUMNS`.
+    """Compare the grids: return a pandas.DataFrame with a row for every Hurst exponent, quantity and grid.
+
+    Its columns are `COLUMNS`.
 
     discs : pool (viscorough_study.ensembles.pool) of discs on grids from coarse to fine
-    elements_min : smallest median number of elements in contact with which a grid counts in the trend
-    rms_convention : convention of the rms height h
+    elements_min : a grid is used for the trend if the median number of elements in contact is at least this number
+    rms_convention : name of the definition of the rms height h
     """
     rows = []
     pool = ensembles(select(discs, group="sizes"), "hurst", "elements", rms_convention=rms_convention)
@@ -59,9 +61,9 @@ def grid_dependence(discs, *, elements_min, rms_convention):
 
 
 def _quantities(ensemble):
-    """Return {quantity: (values, elements in contact)}; both arrays have one entry for every disc of the ensemble.
+    """Return {quantity: (values, numbers of elements in contact)}, two arrays with one entry for every disc.
 
-    The depth is u/h = ∫dX/κ, with constant κ below the first abscissa.
+    The depth is u/h = ∫dX/κ. Below the first abscissa, κ is assumed to be constant.
     """
     x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
     depth = x[0] / stiffness[:, :1] + cumulative_trapezoid(1 / stiffness, x, axis=1, initial=0)
@@ -79,24 +81,27 @@ def _quantities(ensemble):
 
 
 def _at(abscissa, curve, given):
-    """Interpolate ln X, ln(u/h), ln κ and ln of the elements in contact to the point where `abscissa` is ln(given).
+    """Interpolate four logarithms along the curve of a disc to the point at which X or u/h has the value `given`.
 
-    abscissa : ln X or ln(u/h) along the curve of the disc
-    curve : the four logarithms along this curve, shape (4, abscissae)
-    Values are nan if the curve does not reach this point.
+    abscissa : ln X or ln(u/h) along the curve
+    curve : ln X, ln(u/h), ln κ and ln(elements in contact) along the curve, shape (4, abscissae)
+    All four results are nan if the curve does not reach this point.
     """
     return [np.interp(np.log(given), abscissa, ordinate, left=np.nan, right=np.nan) for ordinate in curve]
 
 
 def _factor(grids):
-    """Return the factor on a quantity for ten times as many elements, and its interval; nan for fewer than three grids.
+    """Return the factor by which ten times as many elements change a quantity, with its interval: (value, low, high).
 
-    A straight line is fitted to the logarithms of the means over the discs of each grid, as a function of the logarithm
-    of the number of elements. The weight of a mean is its number of discs. The interval of the slope is widened if the
-    means scatter about the line more than expected from the scatter between discs.
+    grids : rows of one quantity, one for each grid; the result is nan for fewer than three grids
 
-    The scatter of the logarithm between discs is the same on all grids. Its variance is therefore pooled over the
-    grids, since a few discs do not determine it. The interval follows Student's t with the pooled degrees of freedom.
+    For each grid, the mean of ln(quantity) over the discs is computed. A straight line is fitted to these means as a
+    function of the logarithm of the number of elements. The weight of a mean is its number of discs. The interval of
+    the slope is widened if the means scatter about the line more than expected from the scatter between discs.
+
+    The scatter of ln(quantity) between discs is the same on all grids. The variance is therefore pooled over all grids,
+    since the few discs of a single grid do not determine it. The interval follows Student's t with the pooled degrees
+    of freedom.
     """
     if len(grids) < 3:
         return UNDEFINED

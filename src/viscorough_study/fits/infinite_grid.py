@@ -5,9 +5,9 @@
 The theory of corrections to scaling has the factor 1 + B X^ω, which equals this exponential to first order. With the
 exponential, ln(vt/h) is linear in ln A, β and B for a given ω, so all bootstrap resamples are fitted at once.
 
-A fit depends on the realizations, and on its range: the number of elements in contact where it starts, and the X where
-it ends. Intervals over realizations are computed for every range. A separate interval states how the fit depends on the
-range; it extends from the lowest to the highest end of these intervals.
+A fit depends on the realizations and on its range. The range starts at a number of elements in contact and ends at an
+X. For every range, the 95 % interval of β over the realizations is computed. A further interval includes the effect of
+the range: it extends from the lowest to the highest end of the intervals of all ranges.
 """
 
 from itertools import product
@@ -20,8 +20,8 @@ from viscorough_study.fits.intervals import described, equivalence, three_column
 from viscorough_study.fits.scaling_collapse import COLUMNS as COLLAPSE_COLUMNS
 from viscorough_study.fits.scaling_collapse import QUANTITIES, collapse_table, curve_table, grids
 
-OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial values of ω
-CURVES_END = 1.0  # largest X of the curves in the table for the figure
+OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial values of the exponent ω of the correction
+CURVES_END = 1.0  # largest X in the table `collapse_curves`
 FINDINGS = {True: "agrees", False: "departs", None: "undecided"}
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
@@ -45,11 +45,14 @@ COLUMNS = {
 
 
 def points(hurst_grids, quantity, *, elements_min, x_high):
-    """Return ln X, ln of a quantity, and weights of the points of all grids; None for fewer than two usable grids.
+    """Collect the points of the curves of all grids for one fit: return ln X, ln(quantity) and the weights.
 
-    hurst_grids : list of fits.scaling_collapse.Grid; quantity, elements_min, x_high : arguments of its method `curve`
-    The logarithm of the quantity has shape (1 + resamples, points): the first row is the ensemble. The weight of a
-    point is the number of realizations of its grid.
+    hurst_grids : list of fits.scaling_collapse.Grid
+    quantity, elements_min, x_high : arguments of the method `curve` of each grid
+
+    ln X and the weights have the shape (points,). ln(quantity) has the shape (1 + resamples, points): the first row
+    belongs to the ensemble, the others to its bootstrap resamples. The weight of a point is the number of realizations
+    on its grid. The result is None if fewer than two grids have a curve.
     """
     parts = [
         (*curve, np.full(curve[0].size, float(grid.realizations)))
@@ -62,10 +65,11 @@ def points(hurst_grids, quantity, *, elements_min, x_high):
 
 
 def fit(log_x, log_y, weights, *, corrected):
-    """Return (ln A, β, B, ω) of the law fitted to every row of log_y, shape (rows, 4).
+    """Fit the law y = A X^β exp(B X^ω) to every row of log_y; return (ln A, β, B, ω) of each row, shape (rows, 4).
 
-    log_x, weights : shape (points,); log_y : shape (rows, points)
-    corrected : True for the law with the correction exp(B X^ω); without it B and ω are nan
+    log_x, weights : ln X and weights of the points, shape (points,)
+    log_y : ln y, shape (rows, points)
+    corrected : False to fit the law without the correction exp(B X^ω); B and ω are then nan
     """
     root = np.sqrt(weights)
     target = (log_y * root).T
@@ -83,13 +87,15 @@ def fit(log_x, log_y, weights, *, corrected):
 
 
 def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
-    """Return the exponents of an infinitely fine grid, a pandas.DataFrame with the columns of `COLUMNS`.
+    """Fit the exponents of an infinitely fine grid; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    grids_by_source : {source: its grids, from fits.scaling_collapse.grids}
-    elements_min : numbers of elements in contact at which a range can start; x_high : {law: X at which a range can end}
+    grids_by_source : {"discs" or "lines": their grids, from fits.scaling_collapse.grids}
+    elements_min : list of starts of the range of a fit, given as numbers of elements in contact
+    x_high : {"power" or "corrected", the name of a law: list of ends of the range, given as X}
     tolerance : tolerance of β
-    Each law is fitted in all combinations of a start and an end. The first start and the first end are the range of the
-    fit whose values the table states; the other ranges only enter into its columns ranges_low and ranges_high.
+
+    Each law is fitted from every start to every end. The table states the values of the fit from the first start to the
+    first end. The fits in the other ranges only affect the columns ranges_low and ranges_high.
     """
     rows = []
     cases = [(source, *case) for source, by_hurst in grids_by_source.items() for case in by_hurst.items()]
@@ -111,7 +117,10 @@ def limit_table(grids_by_source, *, elements_min, x_high, tolerance):
 
 
 def _columns(coefficients):
-    """Return {column: value} of one fit; coefficients : result of `fit`, ensemble first, then its resamples"""
+    """Return {column: value} of one fit.
+
+    coefficients : result of `fit`; the first row belongs to the ensemble, the other rows to its resamples
+    """
     ends = np.quantile(coefficients[1:], [0.025, 0.975], axis=0)
     amplitude, beta, correction, omega = np.vstack([coefficients[:1], ends]).T
     row = {"amplitude": np.exp(amplitude[0]), "correction": correction[0]}
@@ -119,13 +128,18 @@ def _columns(coefficients):
 
 
 def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
-    """Return {"collapse", "infinite_grid", "collapse_curves": table} of discs, controls (with a roll-off), and lines.
+    """Return three tables about all grids: {"collapse": table, "infinite_grid": table, "collapse_curves": table}.
 
-    The columns of the three tables are scaling_collapse.COLUMNS, `COLUMNS` and scaling_collapse.CURVES.
+    - collapse: test of the collapse of discs, of lines, and of controls, which are discs whose spectrum has a roll-off;
+      columns: scaling_collapse.COLUMNS
+    - infinite_grid: exponents of discs and lines on an infinitely fine grid; columns: `COLUMNS`
+    - collapse_curves: mean curves of discs; columns: scaling_collapse.CURVES
 
-    discs, lines : pools (viscorough_study.ensembles.pool) of grids from coarse to fine
-    ranges : section `collapse` of the settings; tolerance : tolerance of exponents
-    conventions : conventions of the figures; options : fraction_min and seed of scaling_collapse.grids
+    discs, lines : pools (viscorough_study.ensembles.pool) of realizations on grids from coarse to fine
+    ranges : section `collapse` of the settings
+    conventions : average and rms_convention of the figures
+    tolerance : tolerance of exponents
+    options : fraction_min and seed of scaling_collapse.grids
     """
     options |= {"elements_min": min(ranges["elements_min"]), "resamples": ranges["resamples"]}
     ends = {"power": ranges["x_high"], "corrected": ranges["corrected_x_high"]}

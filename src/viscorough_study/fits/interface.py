@@ -40,12 +40,13 @@ CURVES = {
 
 
 def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_convention):
-    """Return {"interface", "interface_curves": table} of discs, and of lines at the Hurst exponents of the discs.
+    """Fit the interface of all discs, and of lines with the same Hurst exponents; return two tables.
 
-    discs, lines : pools (viscorough_study.ensembles.pool) of the ensembles on the usual grid
+    discs, lines : pools (viscorough_study.ensembles.pool) of the base ensembles, which have a single grid
     size_discs, size_lines : pools of the ensembles on grids from coarse to fine
-    fit : further arguments of `fit_interface`; rms_convention : convention of the discs
-    Returns pandas.DataFrames with the columns of `COLUMNS` and `CURVES`.
+    fit : further arguments of `fit_interface`
+    rms_convention : name of the definition of the rms height of discs
+    Returns {"interface": table, "interface_curves": table}, pandas.DataFrames with the columns `COLUMNS` and `CURVES`.
     """
     pools = {("discs", "base"): discs, ("discs", "sizes"): size_discs, ("lines", "lines"): lines}
     pools |= {("lines", "sizes"): size_lines}
@@ -64,13 +65,13 @@ def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_conventio
 
 
 def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
-    """Fit the interface of one ensemble; return {column of `COLUMNS`: value}, and g(X) as a table of `CURVES`.
+    """Fit the interface of one ensemble; return {column of `COLUMNS`: value}, and a table of g(X).
 
-    ensemble : ensemble dataset (ensembles.averages) with one rms convention
+    ensemble : ensemble dataset (ensembles.averages) with a single definition of the rms height
     punch : κ_c of the flat punch
-    plateau : fraction by which g is below its maximum at the ends of the plateau
-    fraction_min : smallest fraction of realizations that must be defined at an abscissa
-    resamples, seed : arguments of the bootstrap (viscorough_study.fits.power_law.fit_power_law)
+    plateau : g decreases by this fraction from its maximum to the ends of the plateau
+    fraction_min : smallest fraction of the realizations that must reach an abscissa
+    resamples, seed : number of resamples and seed of the bootstrap
 
     The mean over the realizations is arithmetic, since compliances add. Abscissae with one element in contact, region
     (a), are omitted.
@@ -90,7 +91,7 @@ def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
 def run_around(allowed, place):
     """Return the indices of the uninterrupted run of allowed abscissae that contains the index `place`.
 
-    allowed : mask of abscissae; `place` itself always counts as allowed
+    allowed : mask of the abscissae; the abscissa `place` always counts as allowed
     """
     runs, _ = label(allowed | (np.arange(len(allowed)) == place))
     return np.flatnonzero(runs == runs[place])

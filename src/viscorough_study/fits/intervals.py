@@ -12,23 +12,28 @@ NO_INTERVAL = (np.nan, np.nan)  # (low, high) of a quantity without statistical 
 
 
 def described(name, text, ends="of its 95 % interval"):
-    """Return {column: (long_name, units)} of the three columns of a quantity without unit: value, lower and upper end.
+    """Describe the value, lower end and upper end of a quantity without unit: {column: (long_name, units)}.
 
-    text : long_name of the value; ends : words after "lower end" and "upper end" in the other two
+    text : long_name of the column with the value
+    ends : words that follow "lower end" and "upper end" in the long_names of the other two columns
     """
     return {name: (text, "1")} | described_ends(name, ends)
 
 
 def described_ends(name, ends):
-    """Return {column: (long_name, units)} of the columns of the two ends of a range without unit.
+    """Describe the two ends of a range of a quantity without unit: {column: (long_name, units)}.
 
-    name : the columns are this name with _low and _high; ends : words after "lower end" and "upper end"
+    name : name of the quantity, to which _low and _high are appended for the columns
+    ends : words that follow "lower end" and "upper end" in the long_names
     """
     return {f"{name}_{end}": (f"{side} end {ends}", "1") for end, side in (("low", "lower"), ("high", "upper"))}
 
 
 def three_columns(name, values):
-    """Return {column: value} of a quantity and the ends of its interval; values : (value, low, high)"""
+    """Return {column: value} for the value of the quantity `name` and the two ends of its interval.
+
+    values : (value, low, high)
+    """
     return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
 
 
@@ -38,7 +43,7 @@ def interval(row, name):
 
 
 def resampled_means(values, resamples, random):
-    """Return the mean over the realizations in the first row, and the means of bootstrap resamples in the other rows.
+    """Return the mean over the realizations (first row), and the means of bootstrap resamples (other rows).
 
     values : shape (realizations, abscissae), without nan; random : numpy.random.Generator
     Returns an array of shape (resamples + 1, abscissae).
@@ -106,7 +111,7 @@ def equivalence(interval, low, high):
 def difference(first, second):
     """Return second − first with its 95 % interval, for two independent quantities, each given as (value, low, high).
 
-    The distances of the ends of the two intervals from their values add in quadrature.
+    For the ends of the interval, the half-widths of the two intervals are added in quadrature.
     """
     value = second[0] - first[0]
     below = np.hypot(second[0] - second[1], first[2] - first[0])

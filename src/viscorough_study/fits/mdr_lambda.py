@@ -1,6 +1,6 @@
-"""Fit the factor λ in C1D = λ q C2D, the spectrum of the line that represents a surface (paper, Eq. 13), and its error.
+"""Find the factor λ in C1D = λ q C2D (paper, Eq. 13) that makes a line equivalent to a rough surface, and its error.
 
-C1D is the power spectrum of the line, C2D the power spectrum of the surface, q the wave number.
+C1D is the power spectrum of the line, C2D is the power spectrum of the surface, and q is the wave number.
 
 A line of the same L whose rms height is s times the rms height of the surface, h1D = s h2D, has X1 = X/s and vt/h2D = s
 vt/h1D. Let y3(X) be the mean vt/h of discs, and y1(X) of lines. They match at X if y3(X) = s y1(X/s), that
@@ -22,14 +22,13 @@ _BISECTIONS = 40  # number of bisections for ln s; the remaining error is far be
 
 @dataclass(frozen=True)
 class LineMatch:
-    """Mean curves of discs and of lines on common abscissae; a factor s of the rms height of the lines matches them.
+    """Mean curves of discs and of lines at the same X, and the factor s that matches the lines to the discs.
 
-    The first row of each array belongs to the ensemble of all realizations, the other rows belong to bootstrap
-    resamples.
+    The lines have s times the rms height of the discs (see the module).
 
     x : X, shape (abscissae,), logarithmically uniform
-    discs, lines : ln(y/X), where y is the mean of vt/h; shape (1 + resamples, abscissae); nan for lines where a single
-        line is undefined
+    discs, lines : ln(y/X), where y is the mean of vt/h over discs or lines; shape (1 + resamples, abscissae). The first
+        row belongs to the ensemble, the other rows to bootstrap resamples. `lines` is nan at X that not all lines reach
     """
 
     x: np.ndarray
@@ -37,9 +36,10 @@ class LineMatch:
     lines: np.ndarray
 
     def stretch_at(self, x):
-        """Return the ln s with which lines match discs at each X; nan if the lines do not reach the value of the discs.
+        """Return the ln s with which the lines match the discs at each X, shape (1 + resamples, number of X).
 
-        x : number or array of X; returns an array of shape (1 + resamples, number of X)
+        x : number or array of X
+        The result is nan if the lines do not reach the value of the discs.
         """
         log_chosen, log_x = np.log(np.atleast_1d(x)), np.log(self.x)
         complete = np.isfinite(self.lines[0])
@@ -55,11 +55,11 @@ class LineMatch:
         return stretch
 
     def lambda_at(self, x):
-        """Return the λ with which lines match discs at each X, shape (1 + resamples, number of X)."""
+        """Return the λ = π s² with which the lines match the discs at each X, shape (1 + resamples, number of X)."""
         return np.pi * np.exp(2 * self.stretch_at(x))
 
     def deviation(self, stretch, chosen):
-        """Return the logarithm of the ratio of vt/h of lines with a given factor s to vt/h of discs, at some abscissae.
+        """Return ln(vt/h of the lines with the factor s) − ln(vt/h of the discs) at chosen abscissae.
 
         stretch : ln s, shape (1 + resamples,)
         chosen : mask of the abscissae
@@ -70,10 +70,11 @@ class LineMatch:
         return [np.interp(x, log_x, lines, left=np.nan, right=np.nan) for x, lines in rows] - self.discs[:, chosen]
 
     def best_stretch(self, window):
-        """Return the ln s that minimizes the largest absolute deviation in a window of X, shape (1 + resamples,).
+        """Return the ln s that minimizes the largest absolute `deviation` in a window of X, shape (1 + resamples,).
 
-        At every X the deviation increases with s, so at the minimum the largest deviation occurs with both signs.
-        Values are nan if the lines do not reach the values of the discs in the window.
+        The deviation increases with s at every X. So for the best s, the largest deviation d above 0 and the largest
+        deviation −d below 0 have the same size. Values are nan if the lines do not reach the values of the discs in the
+        window.
         """
         chosen = in_window(self.x, window)
         ends = self.stretch_at(self.x[chosen])
@@ -87,9 +88,9 @@ class LineMatch:
 
 
 def match_lines(x, discs, lines, *, average, resamples, seed):
-    """Return the LineMatch of an ensemble of discs and an ensemble of lines; both ensembles are resampled.
+    """Average and resample an ensemble of discs and an ensemble of lines; return their LineMatch.
 
-    x : common X, shape (abscissae,)
+    x : X of the discs and of the lines, shape (abscissae,)
     discs, lines : vt/h, shape (realizations, abscissae), nan where undefined
     average, resamples, seed : arguments of viscorough_study.fits.power_law.fit_power_law
     """
@@ -101,7 +102,7 @@ def match_lines(x, discs, lines, *, average, resamples, seed):
 
 
 def match_lambda(x, discs, lines, window, **options):
-    """Return λ at the geometric centre of a window of X, and its 95 % interval: (value, low, high).
+    """Return λ (see the module) at the geometric centre of a window of X, with its 95 % interval: (value, low, high).
 
     x, discs, lines, options : arguments of `match_lines`
     Values are nan if the lines do not reach the stiffness of the discs at abscissae where all lines are defined.

@@ -2,9 +2,9 @@
 
 1. Within region (b): half the spread of the local slopes, that is, half the difference of the largest and the smallest.
    The paper calls the curves nearly linear in this region.
-2. Without a region: the longest range of X, in decades, in which all local slopes lie within ± the tolerance of their
-   mid-range. Every curve whose slope increases towards both ends has a flat piece in between, so the length of this
-   piece is tested.
+2. Without a region: the longest range of X, in decades, in which the largest and the smallest local slope differ by at
+   most twice the tolerance. Every curve whose slope increases towards both ends has a flat piece in between, so the
+   length of this piece is tested.
 
 A local slope is the slope of a straight line fitted over a fixed width in X. So the tested property, a constant slope,
 does not influence the choice of the window.
@@ -37,15 +37,17 @@ COLUMNS = {
     **described("half_spread", "half the spread of the local slopes within region (b)"),
     "region_decades": ("decades of X in region (b), 0 where there is none", "1"),
 }
-RESAMPLES_OF_DRAWS = 100  # number of bootstrap samples of each synthetic ensemble
+RESAMPLES_OF_DRAWS = 100  # number of bootstrap resamples of each synthetic ensemble
 
 
 def inner_slopes(log_x, log_y, half_width):
-    """Return the abscissae that are at least half a slope's width from both ends, and the local slopes there.
+    """Return the inner abscissae, at least half_width from both ends of the curves, and the local slopes there.
 
-    log_x : ln X, equally spaced, shape (abscissae,); log_y : ln y, shape (curves, abscissae), without nan
-    half_width : half the width in ln X over which `local_slopes` fits a line
-    Returns arrays of shapes (inner,) and (curves, inner). Raises ValueError if there is no such abscissa.
+    log_x : ln X, equally spaced, shape (abscissae,)
+    log_y : ln y, shape (curves, abscissae), without nan
+    half_width : a local slope is fitted to the points within ± half_width in ln X
+    Returns ln X and the slopes, of shapes (inner abscissae,) and (curves, inner abscissae). Raises ValueError if there
+    is no inner abscissa.
     """
     reach = int(half_width / (log_x[1] - log_x[0]) + ROUNDING)
     if reach < 1 or log_x.size <= 2 * reach:
@@ -54,10 +56,12 @@ def inner_slopes(log_x, log_y, half_width):
 
 
 def longest_plateau(slopes, tolerance):
-    """Return, for every curve, the number of steps of the longest run of slopes within ± tolerance of their mid-range.
+    """Return, for every curve, the length of the longest run of neighbouring slopes that agree within the tolerance.
+
+    The largest and the smallest slope of the run differ by at most 2 tolerance. The length of n + 1 slopes is n steps.
 
     slopes : shape (curves, abscissae)
-    Returns an array of shape (curves,). A run of n + 1 slopes has n steps.
+    Returns an array of shape (curves,).
     """
     steps = np.zeros(len(slopes), dtype=int)
     least, largest = slopes, slopes
@@ -72,15 +76,16 @@ def longest_plateau(slopes, tolerance):
 
 
 def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
-    """Return the decades of X with constant local slope of the mean over realizations, with a 95 % bootstrap interval.
+    """Return over how many decades of X the mean curve has a constant local slope, with a 95 % bootstrap interval.
 
-    log_x, log_y, half_width : arguments of `inner_slopes`; the curves of log_y are the realizations
-    tolerance : tolerance of the local slope; random : numpy.random.Generator
+    log_x, log_y, half_width : arguments of `inner_slopes`; each curve of log_y is a realization
+    tolerance : tolerance of the local slope
+    random : numpy.random.Generator
     Returns a dict with the keys decades, decades_low and decades_high.
 
-    The mean of a resample has twice the variance of the mean of the realizations, and scatter shortens plateaus, so the
-    interval is biased to low values. Therefore few curves without a power law pass the test, but some power laws with
-    large scatter fail; `shares` gives these rates.
+    The interval is biased to low values: the mean of a resample has twice the variance of the mean of the realizations,
+    and scatter shortens plateaus. Therefore few curves without a power law pass the test, but some power laws with
+    large scatter fail. `shares` estimates both fractions.
     """
     inner, slopes = inner_slopes(log_x, resampled_means(log_y, resamples, random), half_width)
     step = (inner[1] - inner[0]) / np.log(10)
@@ -88,12 +93,12 @@ def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
 
 
 def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
-    """Return the fractions of synthetic ensembles that pass and that fail the test of the decades: (passed, failed).
+    """Return (passed, failed), the fractions of synthetic ensembles that pass and that fail the second test.
 
-    An ensemble passes if the whole interval of its decades is at least decades_min, and fails if the whole interval is
-    below decades_min.
+    The test compares the 95 % interval of the number of decades (see `plateau`) with decades_min. An ensemble passes if
+    the whole interval is at least decades_min, and fails if the whole interval is below decades_min.
 
-    mean : ln y of the curve common to all synthetic ensembles, shape (abscissae,)
+    mean : ln y of the true mean curve of all synthetic ensembles, shape (abscissae,)
     residuals : ln y of the realizations minus their mean, shape (realizations, abscissae). Every synthetic ensemble
         draws as many residuals as there are realizations, with replacement, so it has the real scatter and the real
         correlation along X.
@@ -107,31 +112,36 @@ def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
 
 
 def half_spread(ensemble, region, *, half_width, resamples, random):
-    """Return half the spread of local slopes of the geometric mean within region (b), with its 95 % interval.
+    """Apply the first test: return half the spread of the local slopes within region (b), with its 95 % interval.
 
-    ensemble : ensemble dataset (ensembles.averages) of one rms convention
-    region : (X_low, X_high), or None
-    half_width : half the width of the local slopes, in ln X
-    Returns a dict with the keys half_spread, half_spread_low, half_spread_high and region_decades. Without a region it
-    has only the key region_decades, with the value 0.
+    The slopes are slopes of the geometric mean over the realizations.
+
+    ensemble : ensemble dataset (ensembles.averages) with a single definition of the rms height
+    region : ends (X_low, X_high) of region (b), or None if there is no region (b)
+    half_width : a local slope is fitted to the points within ± half_width in ln X
+    Returns a dict with the keys half_spread, half_spread_low, half_spread_high and region_decades. If `region` is None,
+    its only key is region_decades, with the value 0.
     """
     if region is None:
         return {"region_decades": 0.0}
     x, log_y = ensemble["x"].values, np.log(ensemble["velocity"].values)
     log_y = log_y[np.isfinite(log_y[:, in_window(x, region)]).all(axis=1)]
     means = resampled_means(np.where(np.isfinite(log_y), log_y, 0.0), resamples, random)
-    means[:, ~np.isfinite(log_y).all(axis=0)] = np.nan  # `local_slopes` omits abscissae where a curve has ended
+    # The mean is set to nan at abscissae that a curve does not reach; `local_slopes` omits them.
+    means[:, ~np.isfinite(log_y).all(axis=0)] = np.nan
     slopes = local_slopes(np.log(x), means, half_width)[:, in_window(x, region)]
     columns = three_columns("half_spread", with_interval(np.ptp(slopes, axis=1) / 2, len(log_y)))
     return columns | {"region_decades": np.log10(region[1] / region[0])}
 
 
 def plateau_table(discs, *, control, rms_convention, region, seed, **options):
-    """Apply both tests to base discs and to a control at every Hurst exponent; return a DataFrame with `COLUMNS`.
+    """Apply both tests of the module to the base discs and to the control at every Hurst exponent.
 
-    discs : pool (viscorough_study.ensembles.pool)
+    Returns a pandas.DataFrame with the columns of `COLUMNS`.
+
+    discs : pool (viscorough_study.ensembles.pool) that contains the base discs and the control
     control : name of the group of discs without a power law, or None
-    rms_convention : convention of the rms height h
+    rms_convention : name of the definition of the rms height h
     region : limits of region (b), arguments of viscorough_study.fits.power_law.find_region
     options : fields of `PlateauTest`
     """
@@ -151,14 +161,14 @@ def plateau_table(discs, *, control, rms_convention, region, seed, **options):
 
 @dataclass(frozen=True)
 class PlateauTest:
-    """The test for a constant local slope over a sufficient number of decades.
+    """Settings of the second test: whether the local slope is constant over a sufficient number of decades.
 
-    x_range : range of X in which the plateau is sought
-    half_width : half the width of local slopes, in decades; slopes near the ends of x_range use points beyond them
-    tolerance : tolerance of the local slope
-    decades_min : number of decades from which on an ensemble passes
+    x_range : ends (X_low, X_high) of the range of X that the test uses
+    half_width : a local slope is fitted to the points within ± half_width decades of X, also to points outside x_range
+    tolerance : slopes count as constant if the largest and the smallest differ by at most 2 tolerance
+    decades_min : an ensemble passes if its slope is constant over at least this number of decades
     resamples : number of bootstrap resamples
-    draws : number of synthetic ensembles of each kind (power laws, and curves like the control)
+    draws : number of synthetic ensembles with a power law, and also with the mean curve of the control
     """
 
     x_range: tuple[float, float]
@@ -170,11 +180,12 @@ class PlateauTest:
 
 
 def plateau_row(ensemble, control, test, random):
-    """Return the row of one ensemble, {column: value}, with the results of the second test (see the module).
+    """Apply the second test (see the module) to one ensemble, and return a row of the table, {column: value}.
 
-    ensemble : ensemble dataset (viscorough_study.ensembles.averages) of one rms convention
+    ensemble : ensemble dataset (viscorough_study.ensembles.averages) with a single definition of the rms height
     control : ensemble dataset of the control with the same Hurst exponent, or None
-    test : PlateauTest; random : numpy.random.Generator
+    test : PlateauTest
+    random : numpy.random.Generator
     If a realization does not reach all abscissae, the row has only the Hurst exponent and the number of realizations.
     """
     x, margin = ensemble["x"].values, 10 ** (test.half_width * (1 + ROUNDING))
@@ -187,7 +198,7 @@ def plateau_row(ensemble, control, test, random):
     row |= plateau(log_x, log_y, resamples=test.resamples, **options)
     residuals = log_y - log_y.mean(axis=0)
     options |= {"draws": test.draws, "decades_min": test.decades_min, "resamples": RESAMPLES_OF_DRAWS}
-    # The mean 0 represents all power laws, since the slope of a power law has no effect on the result.
+    # The mean curve ln y = 0 serves for every power law, since the exponent does not change the result of the test.
     passed, failed = shares(log_x, 0 * log_x, residuals, **options)
     row |= {"power_law_passes": passed, "power_law_fails": failed}
     if control is not None:

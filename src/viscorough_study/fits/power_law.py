@@ -13,19 +13,20 @@ from scipy.ndimage import find_objects, label
 
 from viscorough_study.fits.conventions import FITTED
 
-ROUNDING = 1e-9  # abscissae and numbers of decades count as equal if they differ relatively by at most this
+ROUNDING = 1e-9  # largest relative difference of abscissae, or of numbers of decades, that count as equal
 
 
-# ---- windows
+# ---- windows of the fits
 
 
 def local_slopes(log_x, log_y, half_width):
     """Return d ln y/d ln X at every abscissa, the slope of a least-squares line through the points within ± half_width.
 
-    log_x : ln X, shape (abscissae,); log_y : ln y, shape (abscissae,) or (curves, abscissae)
-    half_width : largest distance in ln X of the points from the abscissa
-    Returns an array of the shape of log_y. Abscissae where any curve is undefined (nan) are omitted; the slope is nan
-    if fewer than two points remain.
+    log_x : ln X, shape (abscissae,)
+    log_y : ln y, shape (abscissae,) or (curves, abscissae)
+    half_width : largest distance of the points from the abscissa, in ln X
+    Returns an array of the shape of log_y. A point is omitted for all curves if any curve is undefined (nan) there. The
+    slope is nan if fewer than two points remain.
     """
     defined = np.atleast_2d(np.isfinite(log_y)).all(axis=0)
     near = (np.abs(log_x[:, None] - log_x) <= half_width * (1 + ROUNDING)) & defined
@@ -37,22 +38,22 @@ def local_slopes(log_x, log_y, half_width):
 
 
 def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_width, fraction_min, decades_min):
-    """Return the window (X_low, X_high) of region (b), or None.
+    """Return the range (X_low, X_high) of region (b), or None if there is no region (b).
 
-    The window is the longest run of abscissae, in ln X, that meet all of these conditions:
+    The range is the longest run of neighbouring abscissae, measured in ln X, that all meet these conditions:
 
     - The median number of elements in contact is at least elements_min. With fewer elements the curve depends on the
       grid.
     - The geometric mean of κ is at most stiffness_max. Above this value, in the transition to region (c), the finite
       size of the indenter affects the curve.
-    - The local slope of the geometric mean of vt/h, over slope_half_width decades to either side, is at most slope_max.
-      The slope is 1 in regions (a) and (c). Self-affine surfaces that meet the other conditions also meet this one.
-    - The fraction of defined realizations is at least fraction_min. A mean over the few curves that reach further is
-      biased.
+    - The local slope of the geometric mean of vt/h is at most slope_max. It is fitted over slope_half_width decades to
+      either side. The slope is 1 in regions (a) and (c). Self-affine surfaces that meet the other conditions also meet
+      this condition.
+    - At least the fraction fraction_min of the realizations reaches the abscissa. A mean over fewer curves is biased.
 
     There is no region (b) if no run spans decades_min decades. The Hurst exponent does not enter this rule.
 
-    mean : ensemble dataset (ensembles.averages) of one rms convention
+    mean : ensemble dataset (ensembles.averages) with a single definition of the rms height
     config/README.md, section Scaling, describes the limits and recommends values.
     """
     log_x, log_velocity = np.log(mean["x"].values), np.log(mean["velocity_geometric"].values)
@@ -62,22 +63,22 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
 
 
 def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(), **limits):
-    """Return the windows in which the power law is fitted, for comparison: {name: (X_low, X_high), or None}.
+    """Return the windows (ranges of X) in which power laws are fitted and compared: {name: (X_low, X_high), or None}.
 
-    - default: the window of `find_region` with the given limits;
-    - lower_half, upper_half: halves of the default window in ln X; a difference between their β reveals curvature,
-      which a single fit hides;
-    - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid; the default window
-      begins at much smaller X for lines than for discs;
-    - "X = ... to ...": windows of `fixed`, [(X_low, X_high)]. Such a window is used only if at least elements_min
-      elements are in contact at its lower end, and the fraction of defined realizations is at least
-      fraction_min throughout.
+    - default: region (b), from `find_region` with the given limits.
+    - lower_half, upper_half: the two halves of the default window in ln X. A difference between their β reveals
+      curvature, which a single fit hides.
+    - kappa: the window with stiffness_range[0] <= κ <= stiffness_range[1]. This is the same state of contact on any
+      grid, whereas the default window begins at much smaller X for lines than for discs.
+    - "X = ... to ...": windows of `fixed`, a list of (X_low, X_high). Such a window is used only if at least
+      elements_min elements are in contact at X_low, and if at least the fraction fraction_min of the realizations
+      reaches every abscissa.
 
     All windows are determined from the geometric mean, also for fits to the arithmetic mean.
     """
     run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
     windows = dict.fromkeys(FITTED["window_rule"])
-    if region := find_region(mean, **run_limits, **limits):  # without region (b), the tables have nan, and 0 decades
+    if region := find_region(mean, **run_limits, **limits):  # without region (b), tables state nan and 0 decades
         middle = np.sqrt(np.prod(region))
         windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
@@ -90,13 +91,13 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
 
 
 def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
-    """Return the first and the last X of the longest run of allowed abscissae, measured in ln X.
+    """Return the ends (X_low, X_high) of the longest run of neighbouring abscissae that meet all conditions.
 
-    mean : ensemble dataset of one rms convention
-    allowed : mask of abscissae, or True
-    stiffness_range : lowest and highest κ of allowed abscissae
-    fraction_min : smallest fraction of defined realizations at allowed abscissae
-    Returns None if no run spans decades_min decades.
+    mean : ensemble dataset with a single definition of the rms height
+    allowed : mask of the abscissae that meet further conditions, or True for all abscissae
+    stiffness_range : lowest and highest allowed κ
+    fraction_min : smallest fraction of the realizations that must reach an abscissa
+    The length is measured in ln X. Returns None if no run spans decades_min decades.
     """
     x, stiffness = mean["x"].values, mean["stiffness_geometric"].values
     allowed = allowed & (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
@@ -111,7 +112,7 @@ def in_window(x, window):
     return (x >= window[0] * (1 - ROUNDING)) & (x <= window[1] * (1 + ROUNDING))
 
 
-# ---- fits
+# ---- fits of the power law
 
 
 def fit_power_law(x, velocity, window, *, average, resamples, seed):
@@ -144,18 +145,20 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
 
 
 def log_means(velocity, average, resamples, generator):
-    """Return the logarithm of the mean of vt/h over the defined realizations, for the ensemble and for its resamples.
+    """Return ln of the mean of vt/h over the realizations, for the ensemble and for its bootstrap resamples.
 
-    velocity : vt/h, shape (realizations, abscissae), nan where undefined; average : "arithmetic" or "geometric"
-    Returns an array of shape (resamples + 1, abscissae), whose first row is the ensemble.
+    velocity : vt/h, shape (realizations, abscissae); undefined values are nan, and are omitted from the mean
+    average : "arithmetic" or "geometric"
+    Returns an array of shape (resamples + 1, abscissae), whose first row belongs to the ensemble.
     """
     n = len(velocity)
-    # Draw indices and count them: this is faster than Generator.multinomial for the same counts of each realization.
+    # Draw indices of realizations, and count how often each is drawn. Generator.multinomial would return these counts
+    # directly, but more slowly.
     drawn = generator.integers(n, size=(resamples, n)) + n * np.arange(resamples)[:, None]
     weights = np.bincount(drawn.ravel(), minlength=resamples * n).reshape(resamples, n)
     weights = np.vstack([np.ones(n), weights])
     defined = np.isfinite(velocity)
     values = np.where(defined, np.log(velocity) if average == "geometric" else velocity, 0)
-    with np.errstate(invalid="ignore", divide="ignore"):  # the result is nan if a resample has no defined realization
+    with np.errstate(invalid="ignore", divide="ignore"):  # nan if no drawn curve reaches an abscissa
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)

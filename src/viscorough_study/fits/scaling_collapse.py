@@ -1,4 +1,4 @@
-"""Test one scaling law on all grids by a collapse, without fit or window, and find the compatible exponents.
+"""Test by a collapse of curves whether one scaling law holds on all grids, and find its exponents, without a fit.
 
 With N elements across, contact of a single element gives vt/h ∝ XN for every surface. The law vt/h ∝ X^(H/(1+H)) can
 begin at this contact on every grid only if (vt/h) N^H is a single function of X N^(1+H) below the crossover to the
@@ -12,8 +12,8 @@ null hypothesis imposed). The weight of a grid is its number of realizations, si
 realizations would be too uncertain.
 
 Two quantities are tested: vt/h itself, and the contribution of the interface, vt/h − X/κ_c, where κ_c is the stiffness
-of the punch in series. In both, h is the rms height with all waves of the spectrum. It is the limit for N → ∞ of the
-paper's h, which has only the waves of the grid. At small H a large part of the heights is missing on any grid.
+of the punch in series. In both quantities, h is the rms height of all waves of the spectrum, the limit for N → ∞. The
+paper's h contains only the waves of the grid. At small H these lack a large part of the rms height on any grid.
 """
 
 from dataclasses import dataclass
@@ -32,12 +32,12 @@ from viscorough_study.fits.power_law import ROUNDING, log_means
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
 FINDINGS = ("collapses", "does not collapse", "undecided")
 STEP = 0.01  # difference between successive trial exponents β
-# The mean square height of a disc is a sum over waves up to this wave number; beyond it, the sum is replaced by an
-# integral.
+# The mean square height of a disc is a sum over waves up to this wave number (waves per diameter). For larger wave
+# numbers, an integral replaces the sum.
 LATTICE = 256
 TRIED = 0.15  # trial exponents β differ from H/(1 + H) by at most this
-THINNED = 2  # only every second abscissa is used
-FEWEST = {"abscissae": 5, "realizations": 3}  # a grid with fewer is not used
+THINNED = 2  # the test uses only every second abscissa
+FEWEST = {"abscissae": 5, "realizations": 3}  # a grid with fewer abscissae or realizations is not used
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR, controls: discs whose spectrum has a roll-off", ""),
     "hurst": ("Hurst exponent", "1"),
@@ -61,13 +61,13 @@ CURVES = {
 
 @dataclass(frozen=True)
 class Grid:
-    """Means of the ensemble on one grid, at abscissae X with enough elements in contact.
+    """Mean curves of the ensemble on one grid, at the abscissae X with enough elements in contact.
 
     number : N, the elements across discs, or the points of lines
     realizations : number of realizations in the ensemble
     log_x : ln X, equally spaced
-    log_velocity : ln(vt/h) of the ensemble in the first row and of its resamples in the others, (resamples + 1,
-        abscissae)
+    log_velocity : ln of the mean vt/h, shape (resamples + 1, abscissae); the first row belongs to the ensemble, the
+        other rows to its bootstrap resamples
     count : median number of elements in contact at each abscissa
     punch : κ_c of the flat disc on this grid
     share : ratio of the mean square height of the waves of the grid to the mean square height of all waves
@@ -83,13 +83,16 @@ class Grid:
     share: float
 
     def curve(self, quantity, x_high, elements_min=0):
-        """Return (ln X, ln of a quantity for ensemble and resamples) up to X = x_high; None for too few abscissae.
+        """Return (ln X, ln of a quantity) along the mean curves up to X = x_high, or None for too few abscissae.
+
+        The first row of the second array belongs to the ensemble, the other rows belong to its resamples. The rms
+        height h in X and in the quantity contains all waves of the spectrum.
 
         quantity : key of `QUANTITIES`
         elements_min : the curve starts at the first abscissa with at least this median number of elements in contact
-        X and the quantity are in units of the rms height h with all waves of the spectrum. The variance of a mean is
-        n/(n − 1) times the variance of its bootstrap means, so the deviations of the resamples are enlarged by √(n/(n −
-        1)).
+
+        For n realizations, the variance of the mean is n/(n − 1) times the variance of the bootstrap means. Therefore
+        the deviations of the resamples from the ensemble are multiplied by √(n/(n − 1)).
         """
         log_x, values = self.log_x, self.log_velocity
         if quantity == "interface":
@@ -106,7 +109,7 @@ class Grid:
 
 
 def curve_table(grids_by_hurst, x_high):
-    """Return the curves of all grids up to X = x_high, a table with the columns of `CURVES`.
+    """Return the mean curves of all grids up to X = x_high as a table with the columns of `CURVES`.
 
     grids_by_hurst : {H: list of Grid}, from `grids`
     """
@@ -120,13 +123,14 @@ def curve_table(grids_by_hurst, x_high):
 
 
 def variance_share(hurst, number, source):
-    """Return the share of the waves of a grid in the mean square height of all waves of the self-affine spectrum.
+    """Return the share of the mean square height of a self-affine surface that the waves of a grid contain.
 
     The waves of a disc have wave vectors k with 1 <= |k| <= N/2 in the plane and the weight |k|^(−2−2H). The waves of a
-    line have 1 <= k <= N/2 and the weight k^(−1−2H). The share is 1 for H = 0, where the sum over all waves diverges,
-    and for controls, whose spectrum is not self-affine.
+    line have 1 <= k <= N/2 and the weight k^(−1−2H). The function returns 1 for H = 0, where the sum over all waves
+    diverges, and for controls, whose spectrum is not self-affine.
 
-    number : N, the elements across a disc or the points of a line; source : discs, controls or lines
+    number : N, the elements across a disc or the points of a line
+    source : "discs", "controls" (discs whose spectrum has a roll-off) or "lines"
     """
     if hurst == 0 or source == "controls":
         return 1.0
@@ -142,14 +146,16 @@ def variance_share(hurst, number, source):
 
 
 def grids(pool, source, *, conventions, elements_min, fraction_min, resamples, seed):
-    """Return {H: list of Grid, from coarse to fine} of a pool.
+    """Average the realizations of a pool on every grid: return {H: list of Grid, from coarse to fine}.
 
-    source : discs, controls or lines
-    conventions : average and rms_convention
-    elements_min : abscissae begin where the median number of elements in contact first reaches this number
-    fraction_min : smallest fraction of the realizations that must be defined at an abscissa
-    resamples, seed : arguments of the bootstrap
     Grids with fewer than three realizations are omitted.
+
+    pool : dataset of realizations (viscorough_study.ensembles.pool)
+    source : "discs", "controls" (discs whose spectrum has a roll-off) or "lines"
+    conventions : {"average": kind of mean, "rms_convention": definition of the rms height}
+    elements_min : abscissae begin where the median number of elements in contact first reaches this number
+    fraction_min : smallest fraction of the realizations that must reach an abscissa
+    resamples, seed : number of resamples and seed of the bootstrap
     """
     group, grids_by_hurst = "controls" if source == "controls" else "sizes", {}
     generator = np.random.default_rng(seed)
@@ -168,12 +174,12 @@ def grids(pool, source, *, conventions, elements_min, fraction_min, resamples, s
 
 
 def collapse_table(grids_by_source, *, x_high, tolerance):
-    """Return the results of the test of collapse, with the columns of `COLUMNS`.
+    """Test whether the curves of all grids collapse; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    The table has a row for every source, Hurst exponent, quantity and end of the range of X.
+    The table has a row for every combination of source, Hurst exponent, quantity and upper end of the range of X.
 
-    grids_by_source : {source: its {H: list of Grid}, from `grids`}
-    x_high : list of the ends of the range, in X
+    grids_by_source : {"discs", "controls" or "lines": {H: list of Grid}}, from `grids`
+    x_high : list of the upper ends of the range of X
     tolerance : tolerance of β
     """
     rows = []
@@ -185,9 +191,11 @@ def collapse_table(grids_by_source, *, x_high, tolerance):
 
 
 def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
-    """Return {column: value} of the test of collapse of one quantity at one Hurst exponent, up to X = x_high.
+    """Test whether the curves of one quantity on all grids collapse up to X = x_high; return {column: value}.
 
-    hurst_grids : list of Grid of this Hurst exponent
+    hurst_grids : list of Grid with the Hurst exponent `hurst`
+    quantity : key of `QUANTITIES`
+    tolerance : tolerance of β
     """
     curves = [(grid, grid.curve(quantity, x_high)) for grid in hurst_grids]
     curves = [(grid, tuple(values[..., ::THINNED] for values in curve)) for grid, curve in curves if curve is not None]
@@ -207,20 +215,23 @@ def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
 
 
 def p_value(curves, beta):
-    """Return the fraction of bootstrap samples of one common curve whose spread is at least the spread of the curves.
+    """Return the p-value of the collapse: a small value means that the curves of the grids have no common curve.
 
-    curves : list of (Grid, (ln X, ln of the quantity with shape (resamples + 1, abscissae)))
+    The p-value is the fraction of bootstrap samples that spread at least as much as the curves. The samples are shifted
+    so that all grids have the same mean curve (see the module).
+
+    curves : list of (Grid, its curve); a curve is (ln X, ln of the quantity), as `Grid.curve` returns it
     beta : exponent with which the curves are collapsed
     Returns nan if the collapsed curves have no abscissa in common.
     """
-    power = beta / (1 - beta)  # the exponent H' of the module's docstring
+    power = beta / (1 - beta)  # H' in the module's docstring
     scaled = [log_x + (1 + power) * np.log(grid.number) for grid, (log_x, _) in curves]
     step = scaled[0][1] - scaled[0][0]
     common_x = np.arange(min(x[0] for x in scaled), max(x[-1] for x in scaled), step)
     moved, weights = [], []
     for x, (grid, (_, log_y)) in zip(scaled, curves, strict=True):
         values = make_interp_spline(x, log_y, k=1, axis=1)(common_x) + power * np.log(grid.number)
-        values[1:] -= values[0]  # now the resamples scatter about 0, the common curve
+        values[1:] -= values[0]  # the resamples now scatter about the same curve, 0
         moved.append(values)
         inside = (common_x >= x[0] - ROUNDING * step) & (common_x < x[-1] - ROUNDING * step)
         weights.append(grid.realizations * inside)

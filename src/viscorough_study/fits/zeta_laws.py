@@ -1,15 +1,16 @@
-"""Compare the paper's laws of the prefactor by common measures, absolute and up to a factor common to all H.
+"""Measure how far the paper's laws of the prefactor ζ(H) are from the data, also up to a factor common to all H.
 
-Each law ζ(H) is compared in two ways. Both give the logarithm r of a ratio for each Hurst exponent:
+Each law is compared with two quantities. Each comparison gives the logarithm r of a ratio for each Hurst exponent:
 
-- ζ: the ratio of ζ, fitted in region (b) together with the exponent, to ζ of the law;
-- the curve: the ratio of vt/h to X^(H/(1+H))/ζ with ζ of the law, at abscissae that lie in the regions (b) of all Hurst
-  exponents. With Eq. 11 and the factor 1/Γ(2 − α) this is the ratio of both sides of Eq. 12, as in Fig. 3.
+- "zeta": the ratio of the measured ζ to ζ of the law. The measured ζ is fitted in region (b), together with β.
+- "curve": the ratio of the measured vt/h to X^(H/(1+H))/ζ with ζ of the law, at abscissae that lie in the regions (b)
+  of all Hurst exponents. For Eq. 11, with the factor 1/Γ(2 − α), this is the ratio of both sides of Eq. 12, as in
+  Fig. 3.
 
-There are three measures. The deviation is √⟨r²⟩. The common factor is exp⟨r⟩. The spread between Hurst exponents is
-√⟨(r − ⟨r⟩_H)²⟩, where ⟨r⟩_H is the mean over the Hurst exponents: for ζ it is the error of the shape of ζ(H), for
-curves it is their distance at equal X from a collapse onto one curve. Intervals are from bootstrap samples of the
-realizations. Scatter adds to deviation and spread, so both are biased to large values.
+Three measures are computed from r. The deviation is √⟨r²⟩. The common factor is exp⟨r⟩. The spread between Hurst
+exponents is √⟨(r − ⟨r⟩_H)²⟩, where ⟨r⟩_H is the mean over the Hurst exponents. For "zeta" the spread is the error of
+the shape of ζ(H). For "curve" the spread is 0 if all curves collapse onto one curve. Intervals are from bootstrap
+samples of the realizations. Scatter adds to deviation and spread, so both are biased to large values.
 
 Eq. 4 is a law of the elastic contact, without the factor 1/Γ(2 − α). The paper compares it with Eq. 11, which has this
 factor.
@@ -30,7 +31,7 @@ LAWS = {  # {name: (ζ as a function of H, True if the law has the factor 1/Γ(2
     "Eq. 11, with Γ": (reference.zeta_viscous, True),
 }
 LAST = list(LAWS)[-1]  # name of the law with which the other laws are compared
-UNCOMPARED = dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))  # logarithms of ratios if there is nothing to compare
+UNCOMPARED = dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))  # r (see the module) if there is nothing to compare
 COLUMNS = {
     "hurst_min": ("lowest Hurst exponent allowed", "1"),
     "quantity": ("what is compared with the law: zeta, or curve", ""),
@@ -44,10 +45,12 @@ COLUMNS = {
 
 
 def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
-    """Return the table of `zeta_laws` of the base discs of a pool, in the default window of region (b).
+    """Find region (b) of the base discs of a pool, and return the table that `zeta_laws` makes from them.
 
+    discs : pool of discs (viscorough_study.ensembles.pool)
     conventions : average and rms_convention of the figures
-    hurst_mins, resamples, seed : arguments of `zeta_laws`; fit : arguments of fits.power_law.named_windows
+    fit : arguments of fits.power_law.named_windows, whose default window is region (b)
+    hurst_mins, resamples, seed : arguments of `zeta_laws`
     """
     base = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
     pooled = dict(sorted(base.items()))
@@ -56,15 +59,18 @@ def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
 
 
 def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed):
-    """Return the measures of every law, and differences between laws: a DataFrame with the columns of `COLUMNS`.
+    """Compute the measures of every law, and their differences from Eq. 11; return a pandas.DataFrame.
 
-    ensembles : {H: ensemble dataset of one rms convention} (viscorough_study.ensembles.averages)
-    windows : {H: window of region (b), or None}
-    hurst_mins : lowest Hurst exponents; for each entry the laws are compared for this and all larger Hurst exponents
-    average : "arithmetic" or "geometric"
-    resamples, seed : arguments of the bootstrap, which draws the realizations of each Hurst exponent independently
-    All values are nan if a compared Hurst exponent has no region (b); values for curves are nan if the regions have no
-    X in common.
+    Its columns are `COLUMNS`.
+
+    ensembles : {H: ensemble dataset (viscorough_study.ensembles.averages) with a single definition of the rms height}
+    windows : {H: ends (X_low, X_high) of region (b), or None}
+    hurst_mins : list of lowest Hurst exponents; for each entry, only this and larger Hurst exponents are compared
+    average : "arithmetic" or "geometric" mean over the realizations
+    resamples, seed : number of resamples and seed of the bootstrap, which draws the realizations of each Hurst exponent
+        independently
+    All values are nan if a compared Hurst exponent has no region (b). Values of the quantity "curve" are nan if the
+    regions (b) have no X in common.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, []
     for hurst_min in hurst_mins:
@@ -82,23 +88,29 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
 
 
 def measure_value(table, quantity, law, measure, hurst_min=0.0):
-    """Return (value, low, high), the value and 95 % interval of one row of the table; nan without such a row.
+    """Return a measure from the table of `zeta_laws` with its 95 % interval: (value, low, high).
 
-    law : name of a law, or of a difference (`difference`); quantity, measure : entries of these columns
+    quantity, measure, hurst_min : entries of the columns of these names
+    law : key of `LAWS`, or result of `difference`
+    The result is nan if the table has no such row.
     """
     rows = table.query("quantity == @quantity and law == @law and measure == @measure and hurst_min == @hurst_min")
     return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
 
 
 def difference(law):
-    """Return the name of the difference of a measure between a law and Eq. 11; it is positive if Eq. 11 is nearer."""
+    """Return the entry of the column "law" for the measures of `law` minus the measures of Eq. 11.
+
+    A positive difference means that Eq. 11 is nearer to the data.
+    """
     return f"{law} minus {LAST}"
 
 
 def _measures(logarithms):
-    """Return {measure: its values for the ensemble and the resamples}.
+    """Return {name of a measure: its values}, computed from the logarithms r of ratios (see the module).
 
-    logarithms : r (see the module), shape (resamples + 1, Hurst exponents, X)
+    logarithms : r, shape (resamples + 1, Hurst exponents, X)
+    Each array of values has the shape (resamples + 1,). The first value belongs to the ensemble.
     """
     mean_over_hursts = logarithms.mean(axis=1, keepdims=True)
     return {
@@ -109,12 +121,14 @@ def _measures(logarithms):
 
 
 def _ratios(ensembles, windows, *, average, resamples, seed):
-    """Return {quantity: {law: r}}, the logarithms of the ratios of ζ and of vt/h to the law (see the module).
+    """Return {quantity: {law: r}}, where r is the logarithm of the ratio of the data to the law (see the module).
 
-    Each array r has the shape (resamples + 1, Hurst exponents, X).
+    Each array r has the shape (resamples + 1, Hurst exponents, X); for ζ, X has one entry.
 
-    ensembles : {H: ensemble dataset}; windows : window of region (b) of every ensemble, or None
-    All values are nan if an ensemble has no region (b); those for curves are nan if the windows have no X in common.
+    ensembles : {H: ensemble dataset}
+    windows : for each ensemble, the ends (X_low, X_high) of region (b), or None
+    average, resamples, seed : arguments of fits.power_law.fit_power_law
+    All values are nan if an ensemble has no region (b). Values of "curve" are nan if the windows have no X in common.
     """
     if not windows or None in windows:
         return {"zeta": UNCOMPARED, "curve": UNCOMPARED}

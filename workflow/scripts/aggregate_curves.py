@@ -12,7 +12,7 @@ def main(curves, pool, *, groups, conventions, ensemble):
 
     curves : files of the batches; pool : file to write; groups : name of the group of each batch
     conventions : names of the definitions of the rms height that the pool contains
-    ensemble : dict with the ends x_low and x_high of the abscissae X, and their number per_decade
+    ensemble : dict with the ends of the abscissae X (x_low, x_high) and their number in a decade (per_decade)
     """
     x = abscissa(ensemble["x_low"], ensemble["x_high"], ensemble["per_decade"])
     batches = zip(groups, map(netcdf.read, curves), strict=True)

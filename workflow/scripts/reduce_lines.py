@@ -12,7 +12,7 @@ def main(curves, *, ensembles, seed, until_x):
     """Generate a batch of lines, and write their loading curves up to X = F/(4GhL) = until_x; lengths have no unit.
 
     curves : file to write; seed : root seed, from which the seed of each line is derived
-    ensembles : parts of ensembles in this batch, from `viscorough_study.run.cases.batch_ensembles`
+    ensembles : settings of each ensemble and numbers of its lines in this batch, from `run.cases.batch_ensembles`
     """
     members = []
     for ensemble in ensembles:

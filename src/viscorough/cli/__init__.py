@@ -77,7 +77,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
             messages.complain(command, f"warning: {text}")
     except click.exceptions.Exit as done:
         return done.exit_code
-    except BrokenPipeError:  # the program that reads standard output has ended: viscorough --help | head
+    except BrokenPipeError:  # the reader of standard output has ended, as in viscorough --help | head
         return 0
     except KeyboardInterrupt:
         return 130

@@ -65,7 +65,7 @@ def contact(
             -o table.csv
     """
     options.require((force is None) != (depth is None), "one of --force and --depth is needed")
-    options.elasticity(length_unit="m", **constants)  # raises an error if some of the constants exclude each other
+    options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
     how: dict[str, Any] = {"force": force, "depth": depth, "tolerance": tolerance}
     if output.suffix.lower() == ".csv":
         how["grid_error"] = grid_error

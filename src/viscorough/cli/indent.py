@@ -110,7 +110,7 @@ def indent(
     settings |= {"until_fraction": until_fraction, "until_force": until_force}
     _check_exclusive(settings, has_tolerance=source is not ParameterSource.DEFAULT, audit=audit)
     settings["tolerance"] = tolerance if error is None else None
-    options.elasticity(length_unit="m", **constants)  # raises an error if some of the constants exclude each other
+    options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
     if len(surfaces) > 1 and output.suffix.lower() == ".csv":
         options.require(not audit, "--audit is for one file of heights; leave it out, or audit one file at a time")
         evaluate = functools.partial(_rows, settings=settings, constants=constants, threads=threads)

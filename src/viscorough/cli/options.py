@@ -129,7 +129,7 @@ def output(
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return a decorator that adds the option -o/--output to a command.
 
-    A name of a file with a suffix that is not allowed raises BadParameter.
+    The option raises BadParameter for a file name with a suffix that is not allowed.
 
     metavar : name of the output file in the help
     allowed : {suffix: kind of file}

@@ -1,4 +1,4 @@
-"""Evaluate many files of heights in parallel, and write one table that can be continued.
+"""Evaluate many files of heights in parallel, and write one table; an interrupted run can be continued.
 
 1. Take the rows of unchanged files from the table, or from the unfinished table of an earlier run.
 2. Evaluate the other files in separate processes. After each file, write an unfinished table, TABLE.csv.unfinished.
@@ -77,7 +77,7 @@ def tabulate(
         it must be picklable
     settings : {option: value} of all other options on which the rows depend; None for options that are not given
     jobs : number of files that are evaluated at a time; None for the number of cores divided by `threads`
-    threads : number of threads with which `evaluate` computes
+    threads : number of threads that `evaluate` uses for each file
     progress : True or False to show or hide the progress; None to show it on a terminal
 
     If there is only one file, its error is raised. If some of several files have an error, Exit with SOME_FAILED is
@@ -89,7 +89,7 @@ def tabulate(
     for surface in surfaces:
         files.check_output(output, heights=surface.path)
     files.check_output(unfinished)
-    surfaces[0].parsed()  # raises an error for a wrong option, which the table would repeat for every file
+    surfaces[0].parsed()  # a wrong option ends the command here, not once for every file
     spelled = _spelled(surfaces[0].options | settings)
     scans = []
     for name, surface in sorted({files.printable_path(surface.path): surface for surface in surfaces}.items()):

@@ -71,7 +71,7 @@ def _spacing(text: str) -> Quantity | tuple[Quantity, ...]:
 
 
 def _crop(text: str) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Convert "X0:X1,Y0:Y1" to ((X0, X1), (Y0, Y1)): first and end of the columns and of the rows to keep."""
+    """Convert "X0:X1,Y0:Y1" to ((X0, X1), (Y0, Y1)), the columns and rows to keep, without column X1 and row Y1."""
     match = re.fullmatch(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})", text, re.ASCII)
     if match is None:
         raise ValueError("is not X0:X1,Y0:Y1, numbers of points from 0")

@@ -109,7 +109,7 @@ def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Arra
 
     constants, across : arguments of `interface_velocity`, which returns g
     """
-    from scipy.integrate import simpson  # imported only if needed, since this takes long
+    from scipy.integrate import simpson  # imported only if needed, since the import takes long
 
     logarithm = _STEP * np.arange(-_STEPS, 1)
     x = np.multiply.outer(np.asarray(x, dtype=float), np.exp(logarithm))

@@ -19,8 +19,9 @@ class Estimate(ReadOnlyArrays):
 
     time : times t
     x : dimensionless force X = F·J(t)/(4hL), with force F, creep compliance J, rms height h and diameter L
-    depth, velocity : u and v = du/dt, as arithmetic means over many surfaces that all have this X, each X computed with
-        the h of the surface. u has the unit of the rms height, and v has this unit divided by the unit of time
+    depth, velocity : u and v = du/dt, as arithmetic means over many surfaces at the same X. The X of each surface
+        contains the rms height of this surface. u has the unit of the rms height, and v has this unit divided by the
+        unit of time
     depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that contain the depth and the velocity
         of 95 % of single surfaces
     law : PenetrationLaw, which holds for X from law.x_low to law.x_high. Its relative errors, compared with means over

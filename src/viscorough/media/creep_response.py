@@ -23,8 +23,8 @@ from viscorough.media.medium import Medium, RetardationSpectrum
 
 # Number of pairs of samples that sums over the past hold in memory at a time.
 _CHUNK = 2**20
-# If x = (length of an interval)/θ is below the first number, (exp(−x) − 1 + x)/x is computed by a series, because the
-# formula would lose digits. The second number is the number of terms of the series.
+# Let x be the length of an interval divided by a retardation time. For x below _SERIES_BELOW, (exp(−x) − 1 + x)/x is
+# computed by a series with _SERIES_TERMS terms, because the formula would lose digits.
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
 
 

@@ -10,12 +10,12 @@ import numpy as np
 
 from viscorough.basics.types import Array
 
-# Rounding error of a rate, relative to the sum of the sizes of its terms.
+# Rounding error of a rate, divided by the sum of the absolute values of the terms of the rate.
 ROUNDING = 1e-12
-# Type of a function that evaluates a rate. Its arguments are indices of intervals between samples, times after the
-# starts of these intervals, and the keyword `left`, for the rate before instead of after a kink. It returns three
-# arrays: the sum of the terms of the rate that rise within the interval, the sum of the terms that fall, and the sum of
-# the sizes of all terms.
+# Type of a function that evaluates the rate of a response. The arguments are indices of intervals between samples,
+# times since the starts of these intervals, and the keyword `left`. At a kink, left=True requests the rate before the
+# kink, and left=False the rate after the kink. The function returns three arrays: the sum of the terms of the rate that
+# rise within the interval, the sum of the terms that fall, and the sum of the absolute values of all terms.
 Terms = Callable[..., tuple[Array, Array, Array]]
 # Largest number of times that an interval is halved. This is enough to separate neighbouring floating-point numbers.
 _HALVINGS = 60

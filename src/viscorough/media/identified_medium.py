@@ -44,8 +44,8 @@ class IdentifiedMedium(ReadOnlyArrays):
         Error of the zero of the depth that `offset_effect` assumes [length]: the scatter of the depth, or 0.1 % of the
         largest depth if the scatter is not known; nan if `offset` was fitted.
     offset_effect : float
-        Largest relative change of J, between the first and the last row of the record, that results if the zero of the
-        depth is wrong by `assumed_offset`.
+        Largest relative error of J, at times from the first to the last row of the record, if the zero of the depth is
+        wrong by `assumed_offset`.
     length_unit : str
         Unit of the depth. If it is known, moduli are in Pa, times in s and forces in N.
 

@@ -50,7 +50,7 @@ UNITS = {
     **dict.fromkeys(("relaxation_time", "relaxation_times"), "s"),
     "viscosity": "Pa s",
 }
-# {parameter that is a shear modulus: keyword for the Young's modulus that can be given instead}.
+# {parameter that is a shear modulus: keyword for the Young's modulus that can be given instead}
 YOUNG = {
     "shear_modulus": "young_modulus",
     "instantaneous_modulus": "instantaneous_young_modulus",
@@ -507,7 +507,7 @@ class CreepTable(ReadOnlyArrays, Medium):
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """Return dJ/dt at times t from 0 to the last point, an array of any shape.
 
-        left : at a time of the table, return the rate before the point instead of the rate after it
+        left : at a point of the table, return the rate before the point instead of the rate after the point
         """
         place = np.searchsorted(self.times, time, side="left" if left else "right") - 1
         return self._slopes[np.clip(place, 0, self._slopes.size - 1)]

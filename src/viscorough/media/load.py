@@ -13,8 +13,8 @@ from viscorough.basics.arrays import ReadOnlyArrays, increasing, integral, read_
 from viscorough.basics.summaries import span
 from viscorough.basics.types import Array, Integers
 
-# Two times that differ by less than this share of their value count as equal. In a shorter interval, rounding errors of
-# a load would be as large as its change.
+# Two times that differ by less than this share of their value count as equal. In a shorter interval, the change of a
+# load would be as small as its rounding error.
 _SAME_TIME = 1e-13
 
 
@@ -122,9 +122,9 @@ class Load(ReadOnlyArrays):
     def in_units_of(self, length_unit: str) -> Load:
         """Return the load with forces converted from N to Pa × length_unit², to be consistent with moduli in Pa.
 
-        length_unit : unit of length, whose square in m² divides the forces
+        length_unit : unit of length; forces are divided by its square in m²
 
-        A Load that prescribes the depth is returned unchanged. If the unit is not known, every Load is.
+        The load is returned unchanged if it prescribes the depth, or if the unit of length is not known.
         """
         area = units.square_metres(length_unit)
         return self if self.by_depth or area == 1 else Load(self.time, force=self.values / area)

@@ -51,9 +51,9 @@ class RetardationSpectrum(NamedTuple):
 class Medium(ABC):
     """Base class of linear viscoelastic media, with creep compliance J(t) and relaxation modulus ψ(t) in shear.
 
-    Every subclass defines J, the rate dJ/dt and the integral ∫J dt. If ψ is known, a subclass also defines ψ, which
-    prescribed depths and pressures need. If the medium consists of springs and dashpots, a subclass also defines the
-    two spectra, which direct integration in time needs.
+    Every subclass defines J, the rate dJ/dt and the integral ∫J dt. If ψ is known, a subclass also defines ψ, which is
+    needed for prescribed depths and for pressures. If the medium consists of springs and dashpots, a subclass also
+    defines the two spectra, which are needed for direct integration in time.
 
     Examples
     --------

@@ -20,8 +20,8 @@ _POWER_LAW_ERROR = 1e-10
 # Rate of the slowest element in the approximation of a power law, multiplied by the longest time. Up to the longest
 # time, the creep of slower elements is linear in time to 1e-10.
 _SLOWEST = 1e-10
-# Number of bisections of an interval that contains a zero. Ten of them reduce the ratio of its ends to a factor of 2;
-# the others find the zero to rounding.
+# Number of bisections of an interval that contains a zero. The first ten reduce the ratio of the ends of the interval
+# to 2. The others find the zero to rounding.
 _BISECTIONS = 80
 
 
@@ -44,7 +44,7 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
         return RetardationSpectrum(0.0, 0.0 if relaxed else 1 / viscosity, compliance, viscosity * compliance)
     order = np.argsort(-times)
     rates, moduli = 1 / times[order], moduli[order]
-    # Each zero lies between two neighbouring relaxation rates, or between 0 and the smallest rate.
+    # Each zero lies between `below` and `above`: two neighbouring relaxation rates, or 0 and the smallest rate.
     below = rates[:-1] if relaxed == 0 else np.append(0.0, rates[:-1])
     above = rates[rates.size - below.size :]
     from_rates = rates[:, None]  # the following arrays have a row per relaxation rate and a column per zero
@@ -109,11 +109,11 @@ def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest
 
 
 def zero_of_increasing(function: Callable[[Array], Array], low: Any, high: Any) -> Array:
-    """Return the zeros of an increasing function between 0 < low < high, to rounding.
+    """Return the zero of an increasing function between low and high, with 0 < low < high, to rounding.
 
-    The function takes and returns an array, and is evaluated separately for each entry. The zeros are found by
-    bisection. While the ends of an interval are far apart, their logarithms are bisected, because a zero may be many
-    decades from either end.
+    The function takes and returns an array. Each entry of the array is a separate equation, so there is one zero per
+    entry. The zeros are found by bisection. While the ends of an interval are far apart, their logarithms are bisected,
+    because a zero may be many decades from either end.
     """
     for _ in range(_BISECTIONS):
         middle = np.where(high > 2 * low, np.sqrt(low) * np.sqrt(high), low + 0.5 * (high - low))

@@ -1,1 +1,1 @@
-"""Fits to ensembles: power laws, constant slopes, laws of ζ, the interface, and trends with the grid."""
+"""Fits to ensembles of loading curves: power laws, prefactors ζ, rough interfaces, and the effect of the grid."""

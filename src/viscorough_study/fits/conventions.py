@@ -26,9 +26,10 @@ VALUES = FITTED | {"gamma": GAMMA}  # {convention: its allowed values}
 
 
 def zeta_scale(beta, gamma):
-    """Return the factor that converts ζ of the law without 1/Γ(2 − α) to ζ of another form of the law; shape of β.
+    """Return the factor that converts ζ of the law without 1/Γ(2 − α) to ζ of another form of the law.
 
     gamma : "with" for the law with 1/Γ(2 − α), "without" to leave ζ unchanged (factor 1)
+    Returns an array of the shape of β.
     """
     return 1 / gamma_function(1 + beta) if gamma == "with" else np.ones_like(beta)
 

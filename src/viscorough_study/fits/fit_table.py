@@ -88,7 +88,7 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
     ensemble : ensemble dataset (ensembles.averages)
     source, case_group : entries of the columns of these names
     lines : ensemble dataset of lines with the same Hurst exponent and abscissae, for the computation of λ, or None.
-        λ is nan for None, and if the lines do not reach the stiffness of the discs
+        λ is nan for `lines` = None, and if the lines do not reach the stiffness of the discs
     resamples, seed : number of resamples and seed of the bootstrap
     limits : arguments of viscorough_study.fits.power_law.named_windows
     Raises ValueError if a window has fewer than three abscissae.

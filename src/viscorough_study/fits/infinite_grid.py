@@ -5,9 +5,9 @@
 The theory of corrections to scaling has the factor 1 + B X^ω, which equals this exponential to first order. With the
 exponential, ln(vt/h) is linear in ln A, β and B for a given ω, so all bootstrap resamples are fitted at once.
 
-A fit depends on the realizations and on its range. The range starts at a number of elements in contact and ends at an
-X. For every range, the 95 % interval of β over the realizations is computed. A further interval includes the effect of
-the range: it extends from the lowest to the highest end of the intervals of all ranges.
+A fit depends on the realizations and on its range. The range starts at a number of elements in contact and ends at a
+value of X. For every range, the 95 % interval of β over the realizations is computed. A further interval includes the
+effect of the range: it extends from the lowest to the highest end of the intervals of all ranges.
 """
 
 from itertools import product

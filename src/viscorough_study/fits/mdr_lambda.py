@@ -36,10 +36,11 @@ class LineMatch:
     lines: np.ndarray
 
     def stretch_at(self, x):
-        """Return the ln s with which the lines match the discs at each X, shape (1 + resamples, number of X).
+        """Return ln s of the factor s that matches the lines to the discs at each X.
 
         x : number or array of X
-        The result is nan if the lines do not reach the value of the discs.
+        Returns an array of shape (1 + resamples, number of X), with nan if the lines do not reach the value of the
+        discs.
         """
         log_chosen, log_x = np.log(np.atleast_1d(x)), np.log(self.x)
         complete = np.isfinite(self.lines[0])
@@ -55,7 +56,7 @@ class LineMatch:
         return stretch
 
     def lambda_at(self, x):
-        """Return the λ = π s² with which the lines match the discs at each X, shape (1 + resamples, number of X)."""
+        """Return λ = π s² at each X, with the factor s that matches lines to discs; shape as in `stretch_at`."""
         return np.pi * np.exp(2 * self.stretch_at(x))
 
     def deviation(self, stretch, chosen):
@@ -72,9 +73,8 @@ class LineMatch:
     def best_stretch(self, window):
         """Return the ln s that minimizes the largest absolute `deviation` in a window of X, shape (1 + resamples,).
 
-        The deviation increases with s at every X. So for the best s, the largest deviation d above 0 and the largest
-        deviation −d below 0 have the same size. Values are nan if the lines do not reach the values of the discs in the
-        window.
+        The deviation increases with s at every X. So for the best s, the largest and the smallest deviation have the
+        same size and opposite signs. Values are nan if the lines do not reach the values of the discs in the window.
         """
         chosen = in_window(self.x, window)
         ends = self.stretch_at(self.x[chosen])

@@ -1,11 +1,11 @@
 """Find region (b) of an ensemble, and fit the power law in it (β, ζ).
 
 In region (b) κ = ζ X^α (paper, Eq. 3), hence vt/h = X/κ = X^β/ζ with β = 1 − α. Fits use this form of the law, without
-the factor 1/Γ(2 − α); viscorough_study.fits.conventions converts them to the form with this factor.
+the factor 1/Γ(2 − α); viscorough_study.fits.conventions converts ζ to the form with this factor.
 
 Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn with replacement, and fitted in a fixed
 window. The intervals include the scatter between surfaces, but not the choice of the window. Fits in other windows show
-its effect.
+the effect of this choice.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from scipy.ndimage import find_objects, label
 
 from viscorough_study.fits.conventions import FITTED
 
-ROUNDING = 1e-9  # largest relative difference of abscissae, or of numbers of decades, that count as equal
+ROUNDING = 1e-9  # relative difference up to which abscissae, or numbers of decades, count as equal
 
 
 # ---- windows of the fits
@@ -127,8 +127,8 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
         bootstrap adds no noise to differences between conventions.
 
     Returns two arrays of shape (resamples + 1,), β and ζ. The first entries belong to the ensemble, the others to its
-    resamples. Raises ValueError if fewer than three abscissae lie in the window, or an abscissa in the window has no
-    defined realization.
+    resamples. Raises ValueError if fewer than three abscissae lie in the window, or if all realizations are undefined
+    at an abscissa in the window.
     """
     chosen = in_window(x, window)
     if chosen.sum() < 3:
@@ -159,6 +159,6 @@ def log_means(velocity, average, resamples, generator):
     weights = np.vstack([np.ones(n), weights])
     defined = np.isfinite(velocity)
     values = np.where(defined, np.log(velocity) if average == "geometric" else velocity, 0)
-    with np.errstate(invalid="ignore", divide="ignore"):  # nan if no drawn curve reaches an abscissa
+    with np.errstate(invalid="ignore", divide="ignore"):  # the mean is nan if no drawn curve reaches an abscissa
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)

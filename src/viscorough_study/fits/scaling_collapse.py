@@ -13,7 +13,8 @@ realizations would be too uncertain.
 
 Two quantities are tested: vt/h itself, and the contribution of the interface, vt/h − X/κ_c, where κ_c is the stiffness
 of the punch in series. In both quantities, h is the rms height of all waves of the spectrum, the limit for N → ∞. The
-paper's h contains only the waves of the grid. At small H these lack a large part of the rms height on any grid.
+paper's h contains only the waves of the grid. At small H, waves that no grid contains have a large part of the rms
+height.
 """
 
 from dataclasses import dataclass
@@ -35,7 +36,7 @@ STEP = 0.01  # difference between successive trial exponents β
 # The mean square height of a disc is a sum over waves up to this wave number (waves per diameter). For larger wave
 # numbers, an integral replaces the sum.
 LATTICE = 256
-TRIED = 0.15  # trial exponents β differ from H/(1 + H) by at most this
+TRIED = 0.15  # largest difference between trial exponents β and H/(1 + H)
 THINNED = 2  # the test uses only every second abscissa
 FEWEST = {"abscissae": 5, "realizations": 3}  # a grid with fewer abscissae or realizations is not used
 COLUMNS = {
@@ -69,9 +70,9 @@ class Grid:
     log_velocity : ln of the mean vt/h, shape (resamples + 1, abscissae); the first row belongs to the ensemble, the
         other rows to its bootstrap resamples
     count : median number of elements in contact at each abscissa
-    punch : κ_c of the flat disc on this grid
-    share : ratio of the mean square height of the waves of the grid to the mean square height of all waves
-        (`variance_share`)
+    punch : κ_c, the stiffness κ of a flat disc on this grid; 1 for lines
+    share : mean square height of the waves of the grid, divided by the mean square height of all waves; see
+        `variance_share`
     """
 
     number: int
@@ -123,7 +124,7 @@ def curve_table(grids_by_hurst, x_high):
 
 
 def variance_share(hurst, number, source):
-    """Return the share of the mean square height of a self-affine surface that the waves of a grid contain.
+    """Return the mean square height of the waves of a grid, divided by the mean square height of all waves.
 
     The waves of a disc have wave vectors k with 1 <= |k| <= N/2 in the plane and the weight |k|^(−2−2H). The waves of a
     line have 1 <= k <= N/2 and the weight k^(−1−2H). The function returns 1 for H = 0, where the sum over all waves

@@ -99,7 +99,7 @@ def measure_value(table, quantity, law, measure, hurst_min=0.0):
 
 
 def difference(law):
-    """Return the entry of the column "law" for the measures of `law` minus the measures of Eq. 11.
+    """Return the name that the column "law" has for the difference of measures, `law` minus Eq. 11.
 
     A positive difference means that Eq. 11 is nearer to the data.
     """

@@ -27,7 +27,7 @@ SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).pare
 
 
 def complete(given, files, options):
-    """Return all settings and the cases of scans, from what `complete_settings` takes; end the run if one is wrong."""
+    """Complete and check the settings; return them and the cases of scans. End the run if a setting is wrong."""
     try:
         defaults = PROJECT / "config" / "config.yaml"
         completed, sources = complete_settings(defaults, given, files, options)
@@ -57,7 +57,7 @@ def paper(name):
 
 
 def text_digests(paths):
-    """Return digests of text files, for params. As inputs of rules, their paths would depend on the project's place."""
+    """Return digests of text files, for params; as inputs, the files would have paths that depend on the folder."""
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in paths]
 
 
@@ -86,7 +86,7 @@ def indentation_memory(wildcards):
 
 
 def chapter(name):
-    """Return a function for the category of a result, called for a report only; it requires current results."""
+    """Return a function that returns the category of a result. Only a report calls it; it requires current results."""
 
     def category(wildcards):
         require_current()

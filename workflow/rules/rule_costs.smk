@@ -1,4 +1,4 @@
-# Rules that tabulate the time and memory of all rules. As all measured times, they differ from run to run.
+# Rules that tabulate the time and memory of all rules. Like all measured times, these times differ from run to run.
 
 # Rules in the tables of costs: all rules of the files included before this file. Rules that need scans are left out if
 # the settings name no scan.

@@ -1,7 +1,7 @@
 # Rules for the tables of workflow/results.yaml that fits.smk and verdicts.smk do not make. There is a rule for each
 # function that makes tables, and one script for all these rules.
 
-# {name of an input in workflow/results.yaml that is no single file: its files}
+# {name of an input in workflow/results.yaml that consists of several files: these files}
 TABLE_INPUTS = {
     "curves_of_combinations": cases.combination_curves(DISCS),
     "measured_curves": cases.pool_curves(CASES, "measured"),
@@ -9,7 +9,7 @@ TABLE_INPUTS = {
 SEED = {"seed": config["seed"]}
 BETA_HURST_MIN = paper("numbers")["agreement"]["beta_hurst_min"]["value"]
 CONTROLS = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
-# Settings of a measured surface that determine its contacts; its digest changes with the file.
+# Settings that determine the contacts of a measured surface. The digest changes with the content of its file.
 PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces", "young_modulus", "poisson_ratio")
 # {rule: further arguments of the function that makes its tables}
 TABLE_PARAMS = {

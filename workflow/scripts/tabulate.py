@@ -12,7 +12,7 @@ from viscorough_study.run.tables import read_table, recorded, write_table
 
 
 def read_input(path):
-    """Read a CSV file as a table, a NetCDF file as a dataset, or a list of NetCDF files as a sequence of contents."""
+    """Read a CSV file as a table, a NetCDF file as a dataset, or a list of NetCDF files as an iterator of Contents."""
     if not isinstance(path, str):
         return map(netcdf.read, path)
     return read_table(path) if path.endswith(".csv") else read_dataset(path)

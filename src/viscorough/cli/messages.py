@@ -40,7 +40,7 @@ def complain(command: str, text: str) -> None:
 
 
 def report(command: str, error: BaseException) -> None:
-    """Write the one-line message of an error to standard error; for a wrong option, add how to show the help."""
+    """Write the one-line message of an error to standard error; a wrong option adds the command for the help."""
     hint = ""
     if isinstance(error, click.UsageError):
         command = error.ctx.command_path if error.ctx else command

@@ -89,7 +89,7 @@ def tabulate(
     for surface in surfaces:
         files.check_output(output, heights=surface.path)
     files.check_output(unfinished)
-    surfaces[0].parsed()  # a wrong option ends the command here, not once for every file
+    surfaces[0].parsed()  # raises an error for a wrong option before any file is read
     spelled = _spelled(surfaces[0].options | settings)
     scans = []
     for name, surface in sorted({files.printable_path(surface.path): surface for surface in surfaces}.items()):

@@ -237,7 +237,7 @@ def interface_calibration() -> dict[str, Array]:
 
 @cache
 def scatter_calibration() -> dict[str, Array]:
-    """Return the intervals of 95 % of single surfaces: {key of SCATTER_COLUMNS: array}.
+    """Return the intervals that contain 95 % of single surfaces: {key of SCATTER_COLUMNS: array}.
 
     Each array has a number for each pair of H and X, sorted by H and then by X.
     """
@@ -245,7 +245,7 @@ def scatter_calibration() -> dict[str, Array]:
 
 
 def relative_interval(table: Mapping[str, Any], quantity: str, hurst: float, x: Numbers) -> Array:
-    """Return (lower, upper) ends of the interval of 95 % of single surfaces, divided by the value of the law.
+    """Return (lower, upper) ends of the interval that contains 95 % of single surfaces, divided by the law's value.
 
     The shape is (2, shape of X). The logarithms of the ends are interpolated linearly in H and in ln X.
 

@@ -63,8 +63,8 @@ _LISTS = ("moduli", "relaxation_times")
 # In a table of a concave J, the slope must not increase from one interval to the next. A relative increase up to this
 # number is allowed, since it may result from rounding in a table with ten digits.
 _TABLE_ROUNDING = 1e-9
-# Relative rounding error of the compliances of a table. Where J almost does not grow, this error may increase the slope
-# by more than _TABLE_ROUNDING. Therefore its effect on the slope is allowed, too.
+# Relative rounding error of the compliances of a table. If J almost does not grow, this error may increase the slope by
+# more than _TABLE_ROUNDING. Therefore the effect of this error on the slope is allowed, too.
 _LAST_DIGITS = 1e-14
 
 
@@ -595,7 +595,7 @@ def _set_parameters(
 def _numbers(medium: str, name: str, values: Any, unit: str) -> list[float]:
     """Return the values of a list as floats.
 
-    Raises ValueError if `values` is not a list, or if `_number` raises it for one of the values.
+    Raises ValueError if `values` is not a list, or if `_number` refuses one of the values.
     """
     entries = list(values) if isinstance(values, list | tuple) or np.ndim(values) == 1 else []
     if not entries:

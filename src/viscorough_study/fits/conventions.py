@@ -8,16 +8,16 @@ the law is vt/h = X^β/ζ. With the factor (Eq. 9) the law is vt/h = X^β/(ζ Γ
 factor is 1/Γ(1 + β) times ζ without the factor, and a single fit serves for both forms of the law.
 
 β, λ, the residual and the window are equal for both forms. The tables of fits therefore contain these values only once,
-and ζ only without the factor. They contain the 95 % interval of ζ for both forms, in the columns that
-`interval_columns` names. Its ends are percentiles of bootstrap samples, and each sample is scaled with its own β, so
-the interval for one form does not follow from the interval for the other form.
+and ζ only without the factor. The 95 % interval of ζ is in the tables for both forms, in the columns that
+`interval_columns` names. The ends of this interval are percentiles of bootstrap samples, and each sample is scaled with
+the β of the sample. So the interval for one form does not follow from the interval for the other form.
 """
 
 import numpy as np
 from scipy.special import gamma as gamma_function
 
 FITTED = {
-    "rms_convention": ("disc", "square", "ensemble"),  # the value of lines is "line"
+    "rms_convention": ("disc", "square", "ensemble"),  # for lines the value is "line"
     "average": ("arithmetic", "geometric"),
     "window_rule": ("default", "lower_half", "upper_half", "kappa"),
 }
@@ -86,6 +86,6 @@ def fits(table, conventions, **values):
 def source_values(source):
     """Return {column: value} by which `fits` selects a source, "discs" or "lines".
 
-    All fits of lines have the rms convention "line", so it is selected, too.
+    All fits of lines have the rms convention "line", so this value is required for lines.
     """
     return {"source": source} | ({"rms_convention": "line"} if source == "lines" else {})

@@ -1,7 +1,7 @@
 """Test the effect of the grid on Eq. 1: compare κ at given u/h, and vt/h and u/h at given X, on several grids.
 
-According to Eq. 1, F/(ηLv) = κ is a function of u/h and H alone; the paper expects an influence of the grid in region
-(a) only. The grid can act at two ends of a curve:
+X = F/(4GhL) is the reduced force. According to Eq. 1, F/(ηLv) = κ is a function of u/h and H alone. The paper expects
+an influence of the grid in region (a) only. The grid can act at two ends of a curve:
 
 - At the lower end, a single element touches up to X ∝ N^−(1+H) for N elements across. This leaves a term ∝ N^−H in u/h.
 - At the upper end, finer grids have a larger rms slope, so complete contact begins at larger X.

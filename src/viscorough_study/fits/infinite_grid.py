@@ -2,6 +2,8 @@
 
     vt/h = A X^β exp(B X^ω),    and the same law for the interface alone, vt/h − X/κ_c
 
+X = F/(4GhL) is the reduced force, and κ_c is the reduced stiffness of the flat punch.
+
 The theory of corrections to scaling has the factor 1 + B X^ω, which equals this exponential to first order. With the
 exponential, ln(vt/h) is linear in ln A, β and B for a given ω, so all bootstrap resamples are fitted at once.
 

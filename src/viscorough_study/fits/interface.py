@@ -2,7 +2,7 @@
 
 At large loads a rough disc acts as a flat punch in series with a compliant interface. The two compliances add, and so
 do the velocities: vt/h = X/κ_c + g(X). Here κ_c is the stiffness κ of the punch on the same grid, and g is the
-contribution of the interface. Lines of the MDR have κ_c = 1.
+contribution of the interface. X = F/(4GhL) is the reduced force. Lines of the MDR have κ_c = 1.
 
 If the force decreases exponentially with the mean separation s, F ∝ exp(−s/u₀), then the stiffness of the interface is
 F/u₀ (Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. u₀/h is therefore computed as the

@@ -1,6 +1,7 @@
 """Find the factor λ in C1D = λ q C2D (paper, Eq. 13) that makes a line equivalent to a rough surface, and its error.
 
-C1D is the power spectrum of the line, C2D is the power spectrum of the surface, and q is the wave number.
+C1D is the power spectrum of the line, C2D is the power spectrum of the surface, and q is the wave number. X = F/(4GhL)
+is the reduced force.
 
 A line of the same L whose rms height is s times the rms height of the surface, h1D = s h2D, has X1 = X/s and vt/h2D = s
 vt/h1D. Let y3(X) be the mean vt/h of discs, and y1(X) of lines. They match at X if y3(X) = s y1(X/s), that

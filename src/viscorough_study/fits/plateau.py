@@ -1,5 +1,7 @@
 """Test curves for a power law, by two tests of the local slope d ln y/d ln X, which must be constant.
 
+Here y is vt/h, and X = F/(4GhL) is the reduced force.
+
 1. Within region (b): half the spread of the local slopes, that is, half the difference of the largest and the smallest.
    The paper calls the curves nearly linear in this region.
 2. Without a region: the longest range of X, in decades, in which the largest and the smallest local slope differ by at

@@ -1,7 +1,8 @@
 """Find region (b) of an ensemble, and fit the power law in it (β, ζ).
 
-In region (b) κ = ζ X^α (paper, Eq. 3), hence vt/h = X/κ = X^β/ζ with β = 1 − α. Fits use this form of the law, without
-the factor 1/Γ(2 − α); viscorough_study.fits.conventions converts ζ to the form with this factor.
+In region (b) the reduced stiffness is κ = ζ X^α (paper, Eq. 3), where X = F/(4GhL) is the reduced force. Hence
+vt/h = X/κ = X^β/ζ with β = 1 − α. Fits use this form of the law, without the factor 1/Γ(2 − α);
+viscorough_study.fits.conventions converts ζ to the form with this factor.
 
 Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn with replacement, and fitted in a fixed
 window. The intervals include the scatter between surfaces, but not the choice of the window. Fits in other windows show

@@ -1,9 +1,9 @@
 """Test by a collapse of curves whether one scaling law holds on all grids, and find its exponents, without a fit.
 
-With N elements across, contact of a single element gives vt/h ∝ XN for every surface. The law vt/h ∝ X^(H/(1+H)) can
-begin at this contact on every grid only if (vt/h) N^H is a single function of X N^(1+H) below the crossover to the
-punch. The same holds for any exponent β, with H' = β/(1 − β) instead of H. The exponents with which the curves of all
-grids collapse form an interval.
+X = F/(4GhL) is the reduced force. With N elements across, contact of a single element gives vt/h ∝ XN for every
+surface. The law vt/h ∝ X^(H/(1+H)) can begin at this contact on every grid only if (vt/h) N^H is a single function of
+X N^(1+H) below the crossover to the punch. The same holds for any exponent β, with H' = β/(1 − β) instead of H. The
+exponents with which the curves of all grids collapse form an interval.
 
 The collapse is tested by the spread of the curves of all grids around their common curve. This spread is compared with
 the spread expected if all grids had this common curve. The expected spread is computed from bootstrap samples: the mean

@@ -1,6 +1,7 @@
 """Measure how far the paper's laws of the prefactor ζ(H) are from the data, also up to a factor common to all H.
 
-Each law is compared with two quantities. Each comparison gives the logarithm r of a ratio for each Hurst exponent:
+Each law is compared with two quantities. Each comparison gives the logarithm r of a ratio for each Hurst exponent. With
+the reduced force X = F/(4GhL), the ratios are
 
 - "zeta": the ratio of the measured ζ to ζ of the law. The measured ζ is fitted in region (b), together with β.
 - "curve": the ratio of the measured vt/h to X^(H/(1+H))/ζ with ζ of the law, at abscissae that lie in the regions (b)

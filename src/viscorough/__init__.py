@@ -15,7 +15,10 @@ __all__ = [*_MODULE_OF, "reference"]
 
 
 def __getattr__(name: str) -> object:
-    """Import a public name at its first use: the command line reports a typing error without loading the solvers."""
+    """Import a public name when it is first used.
+
+    The command line can therefore report a typing error without loading the solvers.
+    """
     if name == "__version__":
         from importlib.metadata import version
 

@@ -1,4 +1,4 @@
-"""Run the command line, also as `python -m viscorough`. Before the slow imports, let Ctrl-C end the process quietly."""
+"""Run the command line, also as `python -m viscorough`. Ctrl-C during the slow imports ends the process quietly."""
 
 import signal
 

@@ -4,7 +4,8 @@ Each point of a line with spacing Δx is a spring of stiffness 4G Δx, with the 
 point is its depth below the highest point. At the depth u of the indenter the springs carry the force F with
 F/G = 4 Δx Σ(u - g)₊. On a fluid of viscosity η the springs become dashpots of damping 4η Δx, and ∫F dt/η takes the
 place of F/G (paper, Sec. V). No equation has to be solved or integrated in time: the loading curve follows from the
-sorted gaps. Instead of sorting the gaps, it suffices to divide them into narrow bins, and to count and add them there.
+gaps. The gaps need not be sorted. It suffices to divide them into narrow bins, and to know their number and their sum
+in each bin.
 """
 
 from typing import Any
@@ -22,11 +23,12 @@ from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter, check_indenter
 from viscorough.surfaces.spectrum import seed_sequence
 
-# Number of bins per octave of gaps (factor of 2), a power of 2. Bins are then 0.8 to 1.6 % wide.
+# Number of bins per octave, which is a factor of 2 between gaps. It must be a power of 2. With 64 bins per octave, the
+# width of a bin is 0.8 to 1.6 % of the gap.
 _BINS_PER_OCTAVE = 64
-# Number of octaves, counted down from the largest gap, that are divided into bins. All smaller gaps share one bin.
+# Number of octaves below the largest gap that are divided into bins. All smaller gaps share one bin.
 _OCTAVES = 128
-# Number of the longest waves of a map that a window function changes (see `line_of_map`).
+# The window function in `line_of_map` changes the power of this number of waves, the longest of the map.
 _SPOILED = 3
 # Number of counters per bin. Neighbouring points often fall into the same bin. With several counters, the processor
 # does not wait for the update by the previous point.
@@ -47,9 +49,9 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
     contact between two levels, LoadingCurve.at_force is exact between these levels. Otherwise the levels are one bin
     apart, 0.8 to 1.6 % in depth, and the error of the interpolated depth is a small part of this width.
 
-    At the first level only the highest points touch. The last level is the first level that reaches `until_fraction` or
-    `until_force`, but the curve has at least two levels. On a flat line all gaps are zero, so its levels are at depths
-    of half a spacing and one spacing.
+    At the first level only the highest points touch. The curve ends at the first level that reaches `until_fraction` or
+    `until_force`, but it has at least two levels. If the line is flat, all gaps are zero, and the levels are at the
+    depths of half a spacing and of one spacing.
 
     Parameters
     ----------
@@ -59,7 +61,7 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
         Contact fraction of the last level, in (0, 1] [1].
     until_force : float, optional
         Force F/G of the last level [length²]. If the whole line is in contact at a smaller force, a level at exactly
-        `until_force` is added, unless `until_fraction` ends the curve.
+        `until_force` is added, unless the curve ends earlier at `until_fraction`.
 
     Returns
     -------
@@ -139,7 +141,7 @@ def _levels(heights: Array, spacing: float) -> tuple[Array, Array, Array, Intege
     """Return depth, force F/G, stiffness k/G and contact count at the edges of all bins that contain a gap."""
     edges, counts, sums = _binned_gaps(heights)
     grown = 1 + np.flatnonzero(counts[1:])
-    levels = np.union1d(grown, grown + 1)  # edge r is the lower edge of bin r
+    levels = np.union1d(grown, grown + 1)  # edges[r] and edges[r + 1] are the edges of bin r
     depth, below = edges[levels], levels - 1
     if levels.size == 0:
         depth, below = np.array([0.5, 1.0]) * spacing, np.array([0, 0])
@@ -241,7 +243,7 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     window = np.cos(np.pi / 2 * np.minimum(np.hypot(y[:, None], x), 1)) ** 2
     window[np.isnan(heights)] = 0
     wavenumber = length * np.hypot(np.fft.fftfreq(rows, dy)[:, None], np.fft.fftfreq(columns, dx))
-    with np.errstate(all="ignore"):  # heights whose squares overflow have no finite power
+    with np.errstate(all="ignore"):  # squares of heights may overflow, which is checked below
         long, rings = (
             _ring_sums(_power_of_piece(heights, weights), wavenumber, points) for weights in (window > 0, window)
         )
@@ -263,9 +265,10 @@ def _power_of_piece(heights: Array, weights: Array) -> Array:
 
 
 def _ring_sums(power: Array, wavenumber: Array, points: int) -> NDArray[Any]:
-    """Return the sums of the power of all waves whose wavenumber rounds to 0, 1, ..., points // 2.
+    """Return the sum of the powers of all waves whose wavenumber rounds to k, for k = 0, 1, ..., points // 2.
 
-    power, wavenumber : power of each wave, and number of its periods along the line
+    power : power of each wave
+    wavenumber : number of periods of each wave along the line
     points : number of points of the line
     """
     ring = np.rint(wavenumber).astype(int)
@@ -280,8 +283,8 @@ def _random_line(power: Array, points: int, seed: Seed) -> Array:
     """
     amplitude = np.sqrt(power / 2)
     if points % 2 == 0:
-        # The coefficient of a longer wave stands for itself and its complex conjugate. The coefficient of the shortest
-        # wave is real and stands only for itself.
+        # The power of a wave is divided between two complex conjugate coefficients. Only the shortest wave has a
+        # single, real coefficient, which must therefore be larger by √2.
         amplitude[-1] *= np.sqrt(2)
     phase = np.random.default_rng(seed_sequence(seed)).uniform(0, 2 * np.pi, amplitude.size)
     spectrum = amplitude * (np.exp(1j * phase) if points % 2 else np.append(np.exp(1j * phase[:-1]), 1.0))
@@ -320,13 +323,13 @@ def _bin_gaps(heights, highest, shift, base, table):
     gaps, bins = np.empty(_BLOCK), np.empty(_BLOCK, np.uint32)
     for start in range(0, heights.size, _BLOCK):
         block = heights[start : start + _BLOCK]
-        for i in range(block.size):  # this loop is separate from the next, so that the compiler can vectorize it
+        for i in range(block.size):  # separate from the next loop, so that the compiler can vectorize this loop
             gaps[i] = highest - np.float64(block[i])
             bins[i] = max(np.float64(gaps[i]).view(np.uint64) >> shift, base) - base
         for i in range(block.size):
             bin_, lane = (
                 np.uint64(bins[i]),
                 np.uint64(i % _LANES),
-            )  # unsigned indices cannot be negative, which saves a check
+            )  # an unsigned index such as bin_ is never negative, which saves a check
             table[bin_, lane, 0] += 1
             table[bin_, lane, 1] += gaps[i]

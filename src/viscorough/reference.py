@@ -3,8 +3,9 @@
 Elastic quantities are normalised with the shear modulus G of an incompressible half-space (ν = 1/2, E* = 4G):
 force is F/G [length²], stiffness is k/G = d(F/G)/du [length]. The contact is frictionless and non-adhesive.
 
-The paper's laws are dimensionless: X = F/(4GhL) is the elastic force, X = Ft/(4ηhL) the viscous force or time, and
-κ = k/(4GL) the stiffness, with rms height h and indenter diameter L. H is the Hurst exponent.
+The paper's laws are dimensionless. The reduced force is X = F/(4GhL) for an elastic half-space and X = Ft/(4ηhL) for a
+viscous half-space, with the time t and the viscosity η. The reduced stiffness is κ = k/(4GL). The indenter has the rms
+height h, the diameter L and the Hurst exponent H. Its velocity is v.
 
 The paper prints some of its laws with a factor 1/Γ(2−α). The functions give such a law in two forms. `gamma=True` is
 the printed law, which the paper derives by a Laplace transform although the depth is not linear in F/G. `gamma=False`
@@ -25,8 +26,8 @@ from viscorough.basics.elasticity import one_element_stiffness as one_element_st
 from viscorough.basics.types import Array, Numbers
 from viscorough.surfaces.indenter import Indenter
 
-# Dimensionless stiffness κ of a disc in complete contact, which is a flat punch of radius L/2 with k = 2E*·L/2. In
-# region (c) of the paper the stiffness has this value, so that vt/h = X.
+# Reduced stiffness κ = k/(E*L) of a disc in complete contact. The disc is then a flat punch of radius L/2 with
+# k = 2E*·L/2. In region (c) of the paper, κ has this value, so that vt/h = X.
 COMPLETE_CONTACT_STIFFNESS = 1.0
 
 
@@ -35,7 +36,7 @@ COMPLETE_CONTACT_STIFFNESS = 1.0
 
 @dataclass(frozen=True)
 class PowerLawBody:
-    """Body of revolution with the profile z = c rⁿ, with r the distance from its axis.
+    """Body of revolution with the profile z = c rⁿ, where r is the distance from the axis of the body.
 
     At contact radius a the depth is u = κₙ c aⁿ (κₙ: see `mdr_profile`), the force F = 2E*·n/(n+1)·u a, and the
     stiffness k = 2E*a (Sneddon).
@@ -182,7 +183,9 @@ def flat_disc_stiffness(radius: float) -> float:
 
 
 def zeta_elastic(hurst: Numbers) -> Numbers:
-    """Return the prefactor ζ ≈ π(3 − H)/10 of κ = ζ X^α, the paper's fit to elastic contact (Eq. 4).
+    """Return the prefactor ζ ≈ π(3 − H)/10 of the stiffness κ = ζ X^α, which the paper takes from elastic contact.
+
+    This is Eq. 4. X = F/(4GhL) and κ = k/(4GL) are the reduced force and stiffness.
 
     Examples
     --------
@@ -194,7 +197,9 @@ def zeta_elastic(hurst: Numbers) -> Numbers:
 
 
 def exponent_alpha(hurst: Numbers) -> Numbers:
-    """Return the exponent α = 1/(1 + H) of κ = ζ X^α, which the paper states for H in (0.4, 1) (Eq. 5).
+    """Return the exponent α = 1/(1 + H) of the stiffness κ = ζ X^α, which the paper states for 0.4 < H < 1 (Eq. 5).
+
+    X = F/(4GhL) and κ = k/(4GL) are the reduced force and stiffness.
 
     Examples
     --------
@@ -207,6 +212,8 @@ def exponent_alpha(hurst: Numbers) -> Numbers:
 
 def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
     """Return the depth u/h = X^(1−α)/(ζ(1−α)) (Eq. 6), divided by Γ(2−α) if `gamma` is true (Eq. 8).
+
+    X = Ft/(4ηhL) is the reduced time under a constant force F, and h is the rms height.
 
     Raises
     ------
@@ -228,7 +235,8 @@ def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False)
 def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
     """Return the velocity vt/h = X^(1−α)/ζ, divided by Γ(2−α) if `gamma` is true (Eq. 9).
 
-    Without the factor it is vt/h = X/κ (Eq. 1) with the stiffness κ = ζ X^α (Eq. 3).
+    X = Ft/(4ηhL) is the reduced time under a constant force F, and h is the rms height. Without the factor 1/Γ(2−α),
+    the law follows from vt/h = X/κ (Eq. 1) and the reduced stiffness κ = ζ X^α (Eq. 3).
 
     Examples
     --------
@@ -245,6 +253,8 @@ def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = Fal
 def exponent_beta(hurst: Numbers) -> Numbers:
     """Return the exponent β = 1 − α = H/(1 + H) of the velocity, vt/h ∝ X^β (Eq. 10).
 
+    X = Ft/(4ηhL) is the reduced time, and h is the rms height.
+
     Examples
     --------
     >>> from viscorough import reference
@@ -258,7 +268,8 @@ def exponent_beta(hurst: Numbers) -> Numbers:
 def zeta_viscous(hurst: Numbers) -> Numbers:
     """Return the prefactor ζ ≈ 2 − H, which the paper fits to viscous indentation (Eq. 11).
 
-    The fitted law is vt/h = X^(1−α)/(ζ Γ(2−α)), with the factor 1/Γ(2−α).
+    The law that the paper fits is vt/h = X^(1−α)/(ζ Γ(2−α)). Here v is the velocity, and X = Ft/(4ηhL) is the reduced
+    time.
 
     Examples
     --------
@@ -272,7 +283,8 @@ def zeta_viscous(hurst: Numbers) -> Numbers:
 def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
     """Return the velocity vt/h with the exponent α from Eq. 5 and the prefactor ζ from Eq. 11.
 
-    If `gamma` is true, this is Eq. 12, with Γ(2−α) = Γ((1+2H)/(1+H)).
+    The velocity is X^(1−α)/ζ, see `velocity_law`. If `gamma` is true, it is divided by Γ(2−α) = Γ((1+2H)/(1+H)), which
+    gives Eq. 12.
 
     Examples
     --------
@@ -308,5 +320,5 @@ def _hurst_exponent(hurst: Numbers) -> Numbers:
 
 
 def _element_centres(number: int, width: float) -> Array:
-    """Return the centres of equal elements that fill an interval of the given width around 0, shape (number,)."""
+    """Return the centres of `number` equal elements that fill the interval from -width/2 to width/2."""
     return (np.arange(number) - (number - 1) / 2) * width / number

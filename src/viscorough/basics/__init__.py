@@ -1,1 +1,1 @@
-"""Basic modules for all other packages: arrays, types, units, elastic constants, errors, messages, compilation."""
+"""Basic modules that all other packages use: arrays, types, units, elastic constants, errors, messages, compilation."""

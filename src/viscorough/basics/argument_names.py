@@ -22,15 +22,15 @@ def spelled_as_options() -> Iterator[None]:
 
 
 def spelled(option: str, argument: str) -> str:
-    """Return `option` on the command line (within `spelled_as_options`), and `argument` in Python."""
+    """Return the name that the user knows: `option` within the context `spelled_as_options`, otherwise `argument`."""
     return option if _AS_OPTIONS.get() else argument
 
 
 def argument(name: str, value: object = None, *, of: str = "") -> str:
     """Return the spelling of an argument, with its value unless the value is None.
 
-    of : name of the function that has the argument. It is added in Python only: messages of the command line start with
-        the name of the command
+    of : name of the function that has the argument. It is added only in Python, because messages of the command line
+        start with the name of the command
 
     Examples
     --------
@@ -47,5 +47,5 @@ def argument(name: str, value: object = None, *, of: str = "") -> str:
 
 
 def caller(function: str) -> str:
-    """Return "function: " in Python, and "" on the command line, where messages start with the name of the command."""
+    """Return the start of a message: "function: " in Python, "" on the command line, which adds the command's name."""
     return spelled("", f"{function}: ")

@@ -22,7 +22,7 @@ from viscorough.basics.types import Array, Mask, Numbers
 _PLAIN = {float, int, bool, str, complex, type(None), np.float64, np.ndarray}
 # Words for messages about arrays that hold no real numbers, by the attribute `kind` of the numpy.dtype.
 _KINDS = {"b": "truth values", "c": "complex numbers", "U": "texts", "S": "texts", "m": "times", "M": "dates"}
-# Truth values and durations pass as whole numbers in Python (numbers.Integral), although they are none.
+# Python counts these types as whole numbers (numbers.Integral), but truth values and durations are refused as numbers.
 _NO_NUMBERS = (bool, np.timedelta64)
 _BEYOND = "a number beyond double precision; a number that double precision holds is needed"
 
@@ -60,7 +60,7 @@ def unit_attribute(value: Any) -> str:
 
 @contextlib.contextmanager
 def named(name: str) -> Iterator[None]:
-    """Turn an error that numpy raises while it makes an array into a ValueError that starts with the name."""
+    """Replace errors that numpy raises within this context by a ValueError; its message starts with `name`."""
     try:
         yield
     except ValueError:
@@ -74,8 +74,8 @@ def real_numbers(name: str, values: Any) -> Array:
 
     values : real numbers of any type and shape, which may be nan or infinite
 
-    Raises ValueError, which starts with the name, for complex numbers, truth values, texts, other objects and
-    quantities with a unit, for rows of different lengths, and for numbers beyond double precision.
+    Raises ValueError, with a message that starts with `name`, for complex numbers, truth values, texts, other objects
+    and quantities with a unit, for rows of different lengths, and for numbers beyond double precision.
     """
     if unit := unit_attribute(values):
         raise ValueError(f"{name}: has the unit {unit}; plain numbers are needed")
@@ -105,7 +105,7 @@ def real_number(name: str, value: Any) -> float:
 
 
 def positive(name: str, value: float) -> float:
-    """Return the value as a float. Raises ValueError, which starts with the name, unless 0 < value < infinity."""
+    """Return the value as a float. Raises ValueError unless 0 < value < infinity; the message starts with `name`."""
     try:
         number = float(real_numbers(name, value))
     except (TypeError, ValueError):
@@ -141,7 +141,8 @@ def float_or_array(name: str, values: Any) -> Numbers:
 def whole_number(name: str, value: Any, at_least: int, at_most: float = 2**63 - 1) -> int:
     """Return the value as an int.
 
-    Raises ValueError, which starts with the name, unless the value is a whole number from `at_least` to `at_most`.
+    Raises ValueError, with a message that starts with `name`, unless the value is a whole number from `at_least` to
+    `at_most`.
     """
     if not is_whole(value) or value < at_least:
         raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {shown(value)}")
@@ -156,7 +157,7 @@ def is_whole(value: Any) -> bool:
 
 
 def fraction(name: str, value: Any) -> float:
-    """Return the value as a float. Raises ValueError, which starts with the name, unless 0 < value ≤ 1."""
+    """Return the value as a float. Raises ValueError unless 0 < value ≤ 1; the message starts with `name`."""
     number = real_number(name, value)
     if not 0 < number <= 1:
         raise ValueError(f"{name} must lie in (0, 1], not {number!r}")
@@ -174,12 +175,13 @@ def shown(value: Any) -> str:
 class ReadOnlyArrays:
     """Base class of frozen dataclasses whose arrays are read-only and are compared as a whole.
 
-    Fields that are declared as arrays of numbers, floats or ints accept real numbers only; other values raise
-    ValueError. Arrays stay read-only in copies and after pickling. If a class defines a text (`__str__`), notebooks
-    show this text instead of all numbers of the arrays.
+    A field that is declared as an array of numbers, a float or an int accepts only real numbers; other values raise
+    ValueError. Arrays stay read-only in copies and after pickling. If a class defines `__str__`, notebooks show this
+    text instead of all numbers of the arrays.
     """
 
-    # Without this attribute, `array == object` would compare the object with each entry of a numpy array.
+    # With None, numpy leaves `array == object` to the method __eq__ of this class. Otherwise numpy would compare the
+    # object with each entry of the array.
     __array_ufunc__ = None
 
     def __init_subclass__(cls, **options: Any) -> None:
@@ -228,7 +230,7 @@ def _kept_numbers(name: str, values: Any) -> NDArray[Any]:
 
 
 def _truth_values(name: str, values: Any) -> Mask:
-    """Return the values as a read-only array of truth values. Raises ValueError if they are of another type."""
+    """Return the values as a read-only array of truth values. Raises ValueError for values of other types."""
     array = read_only(values)
     if array.dtype != bool:
         raise ValueError(f"{name}: {array.dtype}; truth values are needed")
@@ -256,17 +258,18 @@ class ReadOnlyTuple(tuple[Any, ...]):
 
 
 def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:
-    """Return the values as a row of floats. Raises ValueError, which starts with the name, unless they increase.
+    """Return the values as a one-dimensional array of floats. Raises ValueError unless the values increase.
 
+    name : name of the values, with which the message of the error starts
     above_zero : True if the first value must be above 0
-    steps : None if no value may be given twice; otherwise values are times, and a time given twice marks a step of
-        this quantity, which the message names
+    steps : None if all values must differ. Otherwise the values are times, and a time may be given twice, which means a
+        step of a quantity at this time; `steps` is the name of this quantity for the message
     """
     values = real_numbers(name, values)
     if values.ndim == 1 and values.size and np.isfinite(values).all():
         rises = np.diff(values)
-        # Differences that must be above 0: from each value to the next, or, where steps are allowed, to the next but
-        # one, so that no time is given three times.
+        # These differences must be above 0: from each value to the next value, or, if steps are allowed, to the second
+        # next value, so that no time is given three times.
         apart = rises if steps is None else rises[1:] + rises[:-1]
         if (rises >= 0).all() and (apart > 0).all() and (values[0] > 0 or not above_zero):
             return values
@@ -275,7 +278,7 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
 
 
 def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "") -> Array:
-    """Return the samples of a load as floats. Raises ValueError unless each time has a finite sample of at least 0.
+    """Return the samples of a load as floats. Raises ValueError unless there is a finite sample ≥ 0 for each time.
 
     reason : end of the message, which explains why the load must be at least 0
     """
@@ -291,7 +294,7 @@ def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "")
 def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
     """Return the jump of a load just before each sample, and its slope from each sample to the next.
 
-    times, load : samples, shape (samples,). The load jumps where a time is repeated, and is 0 before the first sample
+    times, load : samples, shape (samples,). A repeated time means a jump. The load is 0 before the first sample
 
     Returns the jumps, shape (samples,), and the slopes, shape (samples − 1,); the slope is 0 at a jump.
     """

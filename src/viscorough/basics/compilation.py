@@ -31,7 +31,7 @@ from numba.misc.appdirs import AppDirs
 from viscorough.basics.interrupts import uninterrupted
 
 
-@functools.cache  # once per process
+@functools.cache  # so that the message appears only once per process
 def _announce_compilation() -> None:
     """Announce, on a terminal or in a notebook, that the first computation waits for the compiler."""
     if "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty()):
@@ -69,13 +69,13 @@ class _Cache(caching.NullCache):
         file = self._file(sig, target_context.codegen().magic_tuple())
         try:
             stored = file.read_bytes()
-        except OSError:  # usually because the file does not exist yet
+        except OSError:  # usually the file does not exist yet
             _announce_compilation()
             return None
         try:
             with uninterrupted():
                 return CompileResult._rebuild(target_context, *pickle.loads(stored))
-        except Exception as error:  # a file that a power failure cut off can raise an error of any type
+        except Exception as error:  # a file that is incomplete, for example after a power failure, can raise any error
             text = "compiled code of %s in %s is damaged (%s): it is compiled again"
             logging.warning(text, self._compiled.py_func.__name__, file.parent, error)
             with contextlib.suppress(OSError):
@@ -83,7 +83,8 @@ class _Cache(caching.NullCache):
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        if data.lifted or data.library.has_dynamic_globals:  # the code contains addresses of this process
+        # Code that contains addresses of this process cannot be cached.
+        if data.lifted or data.library.has_dynamic_globals:
             return
         file = self._file(sig, data.codegen.magic_tuple())
         temporary = file.with_name(f"{file.name}.{uuid.uuid4().hex}")
@@ -94,7 +95,7 @@ class _Cache(caching.NullCache):
                 temporary.replace(file)
             finally:
                 temporary.unlink(missing_ok=True)
-        except OSError:  # a full disk, for example
+        except OSError:  # for example because the disk is full
             _warn_cache_disabled()
 
 
@@ -102,8 +103,8 @@ def _content(value: Any, callers: tuple[Any, ...]) -> Any:
     """Return everything that determines the compiled code of a function, as nested tuples.
 
     value : function that `njit` decorates, or a value that such a function uses, such as an array or a module
-    callers : functions that are being described and lead to `value` by their calls. A recursive call of one of these
-        functions is described by its name only
+    callers : compiled functions through whose calls `value` was reached. If `value` is one of them (a recursive call),
+        only its name is returned
     """
     if isinstance(value, Dispatcher):
         function = value.py_func
@@ -118,7 +119,7 @@ def _content(value: Any, callers: tuple[Any, ...]) -> Any:
         return value.dtype.str, value.shape, value.tobytes()
     if isinstance(value, types.ModuleType):
         return value.__name__
-    if callable(value):  # for example the class of a named tuple, which has _fields
+    if callable(value):  # a function or a class; only classes of named tuples have _fields
         return getattr(value, "__module__", ""), getattr(value, "__qualname__", ""), getattr(value, "_fields", ())
     return type(value).__name__, repr(value)
 
@@ -134,7 +135,7 @@ def _instructions(code: types.CodeType, docstring: str | None) -> tuple[Any, ...
     return code.co_code, code.co_names, code.co_varnames, code.co_freevars, repr(constants)
 
 
-@functools.cache  # once per process
+@functools.cache  # so that the warning appears only once per process
 def _warn_cache_disabled() -> None:
     logging.warning(
         "compiled code cannot be kept on disk, so every process compiles it again, which takes up to half a minute; "
@@ -147,12 +148,13 @@ def njit(
 ) -> Callable[..., Any]:
     """Decorate a function so that numba compiles it for the types of its arguments and caches the code on disk.
 
-    All functions release the interpreter's lock, and divide by zero without an error, as numpy does. They share these
-    options because numba compiles its own functions (zeros, for example) once for each set of options.
+    All compiled functions release the interpreter's lock, and divide by zero without an error, as numpy does. These
+    options are the same for all functions, because numba compiles its own functions, such as zeros, anew for each set
+    of options.
 
-    inner : True if only other compiled functions call this function. Its code then becomes part of the code of its
-        callers. The function is neither cached nor callable from Python, which saves half of the compile time of a
-        short function
+    inner : True if only other compiled functions call this function. Its code then becomes part of the code of these
+        functions, and it is neither cached nor callable from Python. This saves half of the compile time of a short
+        function
     fastmath : True if the compiler may reorder sums and assume that numbers are finite
     """
     if function is None:
@@ -160,23 +162,24 @@ def njit(
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": fastmath}
     options |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": inner}  # no function is called from C
     compiled: Any = numba.njit(function, **options)
-    if compiled is function:  # numba does not compile, since NUMBA_DISABLE_JIT is set
+    if compiled is function:  # numba compiles nothing if NUMBA_DISABLE_JIT is set
         return function
     if inner:
 
         def refuse(*arguments: Any, **options: Any) -> Any:
             raise TypeError(f"{function.__name__} can only be called by other compiled functions")
 
-        # An inner function has no wrapper, so a call from Python would crash. Numba therefore must not find its
-        # compiled code; a call from Python then reaches `refuse`.
+        # An inner function has no wrapper, so a call of its compiled code from Python would crash. Therefore numba is
+        # not allowed to store this code, and a call from Python reaches `refuse`.
         compiled._compile_for_args, compiled._insert = refuse, lambda *arguments, **options: None
     else:
         compiled._cache = _Cache(compiled)
     compile_types = uninterrupted()(compiled.compile)
 
     def compile_once(argument_types: Any) -> Any:
-        # Treat a literal number in a call like a variable, so that numba compiles no variant for each value.
         with _no_garbage_collection():
+            # `unliteral` replaces types of single values by general types. Otherwise numba would compile the function
+            # again for each literal number with which it is called.
             return compile_types(tuple(map(unliteral, argument_types)))
 
     compiled.compile = compile_once
@@ -185,8 +188,8 @@ def njit(
 
 @contextlib.contextmanager
 def _no_garbage_collection() -> Iterator[None]:
-    """Pause Python's garbage collection in this context, where it would take a tenth of the compile time."""
-    if not gc.isenabled():  # paused already, while the compiler compiles a caller of this function
+    """Pause Python's garbage collection within this context, because it would take a tenth of the compile time."""
+    if not gc.isenabled():  # already paused, if numba compiles this function for another function
         yield
         return
     gc.disable()

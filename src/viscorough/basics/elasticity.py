@@ -5,9 +5,9 @@ half-space with the shear modulus
 
     G = E/(1 − ν²)/4, which is E/3 if ν = 1/2.
 
-In a linear viscoelastic medium with a constant Poisson ratio, this relation holds at every time. The contact responds
-as on an incompressible medium. The shear moduli and shear viscosities of the incompressible medium are the shear moduli
-E/(2(1 + ν)) and shear viscosities of the given medium, divided by 2(1 − ν).
+In a linear viscoelastic medium with a constant Poisson ratio, this relation holds at every time. A contact therefore
+responds as on an incompressible medium. The shear moduli and shear viscosities of the incompressible medium are
+obtained if the shear moduli E/(2(1 + ν)) and shear viscosities of the given medium are divided by 2(1 − ν).
 """
 
 import math
@@ -17,8 +17,8 @@ from viscorough.basics import units
 from viscorough.basics.argument_names import spelled
 
 INCOMPRESSIBLE = 0.5  # Poisson ratio of an incompressible medium
-# K₀₀ = πE*u/(pd), where u is the deflection at the centre of a square of side d under the uniform pressure p, and
-# E* = E/(1 − ν²).
+# K₀₀ = πE*u/(pd), where u is the deflection at the centre of a square of side d under the uniform pressure p. The
+# modulus is E* = E/(1 − ν²).
 UNIT_SQUARE_DEFLECTION = 4 * math.log(1 + math.sqrt(2))
 
 
@@ -33,7 +33,7 @@ def shear_modulus_of(
     Raises ValueError, which names the argument, for numbers out of range, and for arguments that exclude each other.
     """
     from viscorough.basics.arrays import (
-        positive,  # imported here, since the command line reads its options without the slow import of numpy
+        positive,  # imported here, so that the command line can read its options before the slow import of numpy
     )
 
     names = {"shear_modulus": spelled("--shear-modulus", "shear_modulus"), "young": spelled("--young", "young_modulus")}
@@ -53,7 +53,7 @@ def shear_modulus_of(
 def poisson_ratio(name: str, value: Any) -> float:
     """Return a Poisson ratio ν as a float; 0.5 for None.
 
-    Raises ValueError, which starts with the name, unless −1 < ν ≤ 0.5.
+    Raises ValueError, with a message that starts with `name`, unless −1 < ν ≤ 0.5.
     """
     from viscorough.basics.arrays import real_number
 
@@ -77,11 +77,11 @@ def shear_over_incompressible(poisson: float) -> float:
 
 
 def one_element_stiffness(elements_across: int) -> float:
-    """Return the dimensionless stiffness κ = π/(K₀₀ n) while one square element is in contact (region a).
+    """Return the reduced stiffness κ = k/(E*L) = π/(K₀₀ n) of an indenter with one square element in contact.
 
-    n is the number of elements across the diameter L of the indenter. A square of side d = L/n under the uniform
-    pressure p sinks by u = pd K₀₀/(πE*) at its centre. In region (a), vt/h = X/κ; `viscorough.reference` defines X
-    and κ.
+    n is the number of elements across the diameter L of the indenter. Under the uniform pressure p, the centre of a
+    square of side d = L/n sinks by u = pd K₀₀/(πE*). One element is in contact in region (a) of the paper, where
+    vt/h = X/κ; `viscorough.reference` defines X.
 
     Examples
     --------

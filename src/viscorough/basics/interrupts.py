@@ -11,7 +11,7 @@ from typing import Any
 def on_interrupt(handler: Callable[..., Any] | signal.Handlers) -> Iterator[None]:
     """Call handler(signal number, frame) when an interrupt (Ctrl-C) arrives within this context.
 
-    In other threads than the main thread this context has no effect, since interrupts never reach them.
+    Interrupts reach only the main thread, so this context has no effect in other threads.
     """
     if threading.current_thread() is not threading.main_thread():
         yield

@@ -6,7 +6,7 @@ import psutil
 def require(needed: float, purpose: str) -> None:
     """Raise MemoryError, which states the needed and the available memory, unless `needed` bytes are available.
 
-    purpose : name of the object that needs the memory, with which the message starts
+    purpose : name of the object that needs the memory; the message starts with this name
     """
     available = psutil.virtual_memory().available
     if needed > available:

@@ -27,5 +27,5 @@ def unit_power(unit: str, exponent: int) -> str:
 
 
 def si_unit(unit: str, length_unit: str) -> str:
-    """Return an SI unit such as "s"; "1" if the unit of length is "1": the user has then chosen all units."""
+    """Return the SI unit `unit`, or "1" if the unit of length is not known, because the user then chooses all units."""
     return "1" if length_unit == "1" else unit

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.floating[Any]]  # double precision; fields of the contact solver on a grid may have single precision
+Array = NDArray[np.floating[Any]]  # in double precision, except for some fields of the grid solver
 Integers = NDArray[np.integer[Any]]
 Mask = NDArray[np.bool_]
 Complex = NDArray[np.complexfloating[Any, Any]]

@@ -1,8 +1,8 @@
 """Read and convert units as users and files write them: "um", "1e-6 m", "µm", "micron", "Pa s", "N s m-2".
 
 Results spell units like UDUNITS, the units library of the CF conventions: a number after a unit is its exponent, as in
-m2. The library pint converts units. Its import takes a second, so a short table serves for the common units. The unit
-"1" means that the unit of length is not known.
+m2. The library pint converts units. Since the import of pint takes a second, common units are converted by a short
+table. The unit "1" means that the unit of length is not known.
 """
 
 import contextlib
@@ -23,7 +23,8 @@ _ALLOWED = r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}"
 _POWER = r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])"
 _LONG_POWER = r"(\*\*|\^)(?!\s*[+-]?\d(?![\d.eE]|\s*(\*\*|\^)))"
 _POINTS = r"(?i:px|pix|pixels?|pts?|points?|dots?|samples?|punkte?|bildpunkte?)"
-# Ends of the names of printers' units of length in pint. Files of heights use these names for the points of a picture.
+# pint takes units whose names end in these words for printers' units of length. In files of heights they mean points of
+# the map, so they are refused.
 _PRINTED = ("pixel", "point", "pica", "didot", "cicero")
 _QUANTITY = r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.+?)\s*"
 
@@ -60,7 +61,7 @@ def with_unit(value: Any) -> Any:
     Raises the errors of `quantity`.
     """
     from viscorough.basics.arrays import (
-        real_number,  # imported here, since the command line reads its options without the slow import of numpy
+        real_number,  # imported here, so that the command line can read its options before the slow import of numpy
     )
 
     if hasattr(value, "magnitude") and hasattr(value, "units"):
@@ -74,8 +75,8 @@ def number(value: Any, unit: str, length_unit: str, name: str) -> float:
     length_unit : unit of length of the indenter; if it is "1" (not known), numbers are in consistent units and are not
         converted
 
-    Raises ValueError, which starts with the name, for other values, and for a number with a unit if the unit of length
-    is not known.
+    Raises ValueError, with a message that starts with `name`, for other values, and for a number with a unit if the
+    unit of length is not known.
     """
     from viscorough.basics.arrays import real_number
 
@@ -115,10 +116,10 @@ def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
 def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: str, name: str) -> Any:
     """Convert a force or several forces F to F/G [length²], an array of the same shape.
 
-    shear_modulus : G [Pa]; forces are then in N. Both are in consistent units if the unit of length is not known. None
-        if the given forces are F/G already
+    shear_modulus : G [Pa], with forces in N. If the unit of length is not known, G and F are in consistent units. None
+        if the given forces are already F/G
 
-    Raises ValueError, which starts with the name, like `numbers`, and for a force with a unit if G is not given.
+    Raises the errors of `numbers`, and ValueError for a force with a unit if G is not given.
     """
     from viscorough.basics.arrays import unit_attribute
 
@@ -137,20 +138,20 @@ def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: s
 
 
 def square_metres(length_unit: str) -> float:
-    """Return the square of a unit of length in m²; 1 if the unit is not known, since all units are then consistent.
+    """Return the square of a unit of length in m², for example 1e-12 for "um"; 1 if the unit is not known.
 
-    A modulus in Pa times this area is a force in N per squared unit of length.
+    If F/G is given in squared units of length, the force in N is F/G times this area times the modulus G in Pa.
     """
     return in_metres(length_unit) ** 2
 
 
 def in_metres(length_unit: str) -> float:
-    """Return a unit of length in m; 1 if the unit is not known, since all units are then consistent."""
+    """Return the length of a unit in m, for example 1e-6 for "um"; 1 if the unit is not known."""
     return 1.0 if length_unit == UNKNOWN else metres(length_unit)
 
 
 class ResultUnit(NamedTuple):
-    """Unit in which users read a quantity: its name, and the factor that converts a number of the solver to this unit.
+    """Unit in which users read a quantity: the name of the unit, and the factor that converts a result of the solver.
 
     The solver computes lengths in the unit of the heights, areas in the square of this unit, and the ratios F/G, k/G
     and p/G of force, stiffness and pressure to the shear modulus.
@@ -160,7 +161,7 @@ class ResultUnit(NamedTuple):
     factor: float
 
     def text(self, value: float, digits: int = 4) -> str:
-        """Return a number of the solver as text in this unit."""
+        """Convert a result of the solver to this unit, and return it as text."""
         return summaries.with_unit(value * self.factor, self.name, digits)
 
 
@@ -207,7 +208,7 @@ def counts_points(unit: str) -> bool:
 
 
 def metres(unit: str) -> float:
-    """Return a unit of length in metres. Raises ValueError for units that are no lengths, and for "1" (not known)."""
+    """Return the length of a unit in m, for example 1e-6 for "um". Raises ValueError unless it is a unit of length."""
     return factor(length_unit(unit), "m")
 
 
@@ -260,7 +261,7 @@ def _parsed(text: str) -> Any:
     try:
         parsed = _registry().Quantity(spelled)
         size = float(parsed.to_base_units().magnitude)
-    except Exception as error:  # pint raises errors of many kinds
+    except Exception as error:  # pint raises errors of many types
         raise ValueError(f"unit {text!r}: {needed}") from error
     if not (math.isfinite(size) and size > 0):
         raise ValueError(f"unit {text!r}: {needed}")

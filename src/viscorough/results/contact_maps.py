@@ -10,9 +10,9 @@ from viscorough.basics.summaries import span, unit_power, with_unit
 from viscorough.basics.types import Mask
 from viscorough.basics.units import in_metres, result_units, square_metres
 
-# Elements at the edge of the contact are counted as a whole, so the area of the elements in contact is too large. For
-# each pair of neighbouring elements, one in contact and one not, the mean excess is this share of the area of an
-# element.
+# The area of the elements in contact is too large, because elements at the edge of the contact are counted as a whole.
+# For each pair of neighbouring elements of which only one is in contact, the area is too large by this share of an
+# element on average.
 EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 
 
@@ -166,12 +166,12 @@ class Contact(ReadOnlyArrays):
 
     @property
     def corrected_contact_area(self) -> float:
-        """Return the contact area, corrected for whole elements at the edge of the contact [length²].
+        """Return the contact area, corrected for the error of counting whole elements [length²].
 
-        The contact area A of whole elements is too large, since contact covers only a part of an element at its edge.
-        The corrected area is A* = A − ((π − 1 + ln 2)/24) M dx dy, where M is the number of pairs of neighbouring
-        elements, along rows and columns, with contact in only one element of the pair. Both elements must belong to the
-        indenter. The formula for square elements also holds for rectangular elements, because stretching a map changes
+        The area A of the elements in contact is too large, since an element at the edge of the contact is only partly
+        in contact. The corrected area is A* = A − ((π − 1 + ln 2)/24) M dx dy. M is the number of pairs of neighbouring
+        elements, along rows and columns, of which only one element is in contact. Pairs at the edge of the indenter do
+        not count. The formula for square elements also holds for rectangular elements, because stretching a map changes
         neither M nor A/(dx dy).
 
         Source: V. A. Yastrebov, G. Anciaux, J.-F. Molinari, Tribology International 114, 161 (2017).
@@ -192,8 +192,8 @@ class Contact(ReadOnlyArrays):
         return float(np.nanmax(self.pressure))
 
     def patches(self) -> Patches:
-        """Return the Patches of the contact: regions in contact whose elements are connected by common sides."""
-        from scipy import ndimage  # this import takes long
+        """Return the Patches of the contact. Two elements in contact with a common side belong to the same patch."""
+        from scipy import ndimage  # imported here, because this import is slow
 
         labels, count = ndimage.label(self.contact)
         sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]

@@ -1,7 +1,7 @@
 """Define the loading curve: force and stiffness of an indenter as functions of its depth in an elastic half-space.
 
-The elastic loading curve also determines the solution of the viscous problem (paper, Eqs. 1-3): for other forces,
-viscosities and times the curve is only rescaled.
+The elastic loading curve also determines the solution of the viscous problem (paper, Eqs. 1-3). A different force,
+viscosity or time only rescales the curve.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ _CANCELLATION = 4 * np.finfo(float).eps
 _HALVINGS = 90
 
 
-# Attributes with the error of the grid: arrays with one value per level, or None.
+# Attributes of a LoadingCurve that describe the error of the grid: arrays with one value per level, or None.
 _GRID_QUANTITIES = ("grid_error", "force_grid_error", "area_change")
 
 
@@ -32,8 +32,9 @@ _GRID_QUANTITIES = ("grid_error", "force_grid_error", "area_change")
 class LoadingCurve(ReadOnlyArrays):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
-    Arrays are copied and read-only. If the shear modulus G is replaced by a viscosity η, and the force F by ∫F dt, the
-    curve is the solution of the problem of a linearly viscous half-space (Radok; paper, Sec. III).
+    A level is one computed contact. Arrays are copied and read-only. If the shear modulus G is replaced by a viscosity
+    η, and the force F by ∫F dt, the same curve describes an indenter in a linearly viscous half-space (Radok; paper,
+    Sec. III).
 
     Attributes
     ----------
@@ -42,7 +43,7 @@ class LoadingCurve(ReadOnlyArrays):
     force : array
         Force F/G, with G the shear modulus of the incompressible half-space, shape (levels,) [length²].
     stiffness : array
-        Tangent stiffness k/G = d(F/G)/du of the elements in contact at the level, shape (levels,) [length].
+        Tangent stiffness k/G = d(F/G)/du of the elements in contact, shape (levels,) [length].
     contact_count : array
         Number of elements in contact, shape (levels,) [1].
     elements : int
@@ -58,9 +59,9 @@ class LoadingCurve(ReadOnlyArrays):
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if the unit is not known.
     grid_error : array
-        Estimated relative error of the velocity due to the spacing of the map, at the force of each level, shape
-        (levels,) [1]. This attribute and the next four attributes are None unless an estimate of the grid error was
-        requested; `viscorough.contact.grid_error` has the formulas.
+        Estimated relative error of the viscous velocity due to the spacing of the map, at the force of each level,
+        shape (levels,) [1]. This attribute and the next four attributes are None unless an estimate of the grid error
+        was requested; `viscorough.contact.grid_error` has the formulas.
     force_grid_error : array
         Estimated relative error of the force due to the spacing, at the depth of each level, shape (levels,) [1]. The
         depth is counted from the highest point of the map.
@@ -68,12 +69,12 @@ class LoadingCurve(ReadOnlyArrays):
         Estimated relative change of the contact area when the spacing of the map is halved, shape (levels,) [1]. As the
         spacing decreases, the contact area of a rough surface approaches no limit, so it has no error.
     mean_grid_error, mean_area_change : float
-        Means of `grid_error` and `area_change` over all forces from F/G = hL/25 on, with the rms height h of the map
-        and the diameter L of a disc of its area. If the curve ends before 0.4 hL, the means are over the last decade of
-        force.
+        Means of `grid_error` and `area_change` over all forces F/G above hL/25. Here h is the rms height of the map,
+        and L the diameter of a disc with the same area. If the curve ends at F/G < 0.4 hL, the means are over the last
+        decade of force.
     sampling : int
-        Step n of a curve that was computed on every n-th point of the map in both directions; 1 for all points. Depths
-        are counted from the highest point of the full map.
+        If the curve was computed on every n-th point of the map in both directions, the number n; 1 for all points.
+        Depths are counted from the highest point of the full map.
     choice : str
         Reason for the sampling and the tolerance, if they were chosen to meet a requested error; otherwise "".
 
@@ -155,7 +156,7 @@ class LoadingCurve(ReadOnlyArrays):
 
     @property
     def grid_error_text(self) -> str:
-        """Return a line of text with the error of the grid and its meaning, or "" if this error was not estimated."""
+        """Return a line of text that states and explains the error of the grid, or "" if it was not estimated."""
         if self.mean_grid_error is None or self.mean_area_change is None:
             return ""
         grid = "a scan" if self.sampling == 1 else "a sampling"
@@ -173,7 +174,9 @@ class LoadingCurve(ReadOnlyArrays):
         return bool(abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0])
 
     def normalised(self, rms: Scalar, diameter: Scalar) -> tuple[Array, Array]:
-        """Return X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) at all levels, each of shape (levels,).
+        """Return the reduced force X = F/(4GhL) and stiffness κ = k/(4GL) at all levels, each of shape (levels,).
+
+        See Eq. 3 of the paper.
 
         rms, diameter : rms height h and diameter L [length], as numbers or texts with a unit
         """
@@ -186,10 +189,10 @@ class LoadingCurve(ReadOnlyArrays):
     def at_force(self, force: "ArrayLike") -> tuple[Array, Array]:
         """Interpolate depth u and stiffness k/G at given forces F/G; nan beyond the last level.
 
-        If at most one element joins the contact between two levels, the curve between them consists of their two
-        tangents, exactly. Otherwise ln u is interpolated as a function of ln F by a cubic Hermite polynomial, which is
-        exact for a power law. The true curve F(u) is convex and lies in the triangle of the chord and the two tangents,
-        so the interpolated curve is limited to this triangle.
+        If at most one element comes into contact between two levels, the curve between them consists exactly of the
+        tangents at both levels. Otherwise ln u is interpolated as a function of ln F by a cubic Hermite polynomial,
+        which is exact for a power law. The true curve F(u) is convex, so it lies in the triangle of the chord and the
+        two tangents. The interpolated curve is limited to this triangle.
 
         Before the first level the curve is a straight line through the origin, if the tangent at the first level passes
         through the origin (`starts_straight`). Otherwise depth and stiffness are nan, except that the depth is zero at
@@ -207,7 +210,7 @@ class LoadingCurve(ReadOnlyArrays):
         """
         unit = self.length_unit
         force = units.numbers(force, unit_power(unit, 2), unit, "force")
-        # A force that was computed back from the first or last level may differ from the force there by rounding.
+        # Set forces that equal the force of the first or last level within rounding to exactly this force.
         for end in (self.force[0], self.force[-1]):
             force = np.where(np.abs(force - end) <= _ROUNDING * end, end, force)
         depth, stiffness = np.full(force.shape, np.nan), np.full(force.shape, np.nan)
@@ -248,7 +251,7 @@ class LoadingCurve(ReadOnlyArrays):
         0.01
         """
         depth = units.numbers(depth, self.length_unit, self.length_unit, "depth")
-        # A depth that was computed back from the first or last level may differ from the depth there by rounding.
+        # Set depths that equal the depth of the first or last level within rounding to exactly this depth.
         for end in (self.depth[0], self.depth[-1]):
             depth = np.where(np.abs(depth - end) <= _ROUNDING * end, end, depth)
         force = np.full(depth.shape, np.nan)
@@ -266,11 +269,11 @@ class LoadingCurve(ReadOnlyArrays):
         return np.where(np.isnan(at_force), np.nan, force), stiffness
 
     def _levels_around(self, after: Integers) -> tuple[Pair, Pair, Pair, Array]:
-        """Return forces, depths and stiffnesses at two successive levels, and the number of elements that join.
+        """Return forces, depths and stiffnesses at two levels, and the number of elements that touch between them.
 
-        Each of the first three results is a pair: the values at the first and at the second level.
+        Forces, depths and stiffnesses are pairs: the values at the first and at the second of the two levels.
 
-        after : index of the second level, for each point of interpolation
+        after : for each point of interpolation, index of the second level, which follows the point
         """
         forces, depths, stiffnesses = ((at[after - 1], at[after]) for at in (self.force, self.depth, self.stiffness))
         return forces, depths, stiffnesses, self.contact_count[after] - self.contact_count[after - 1]
@@ -289,18 +292,18 @@ def check_curve(caller: str, curve: object) -> None:
 def interpolate_between(
     forces: Pair, depths: Pair, stiffnesses: Pair, joined: Any, force: Array
 ) -> tuple[Array, Array]:
-    """Return depth and tangent stiffness at forces between two levels, as LoadingCurve.at_force does.
+    """Interpolate depth and tangent stiffness at forces between two levels, like LoadingCurve.at_force.
 
-    forces, depths, stiffnesses : pairs of the values at the first and at the second level, numbers or arrays of shape
-        (n,)
-    joined : number of elements that join the contact between the levels, number or array of shape (n,)
+    forces, depths, stiffnesses : each a pair, the value at the first and at the second level; numbers, or arrays of
+        shape (n,)
+    joined : number of elements that come into contact between the two levels; number, or array of shape (n,)
     force : forces F/G between the levels, shape (n,) [length²]
 
     Returns (depth, stiffness), both of shape (n,).
     """
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
-    # Far below the second level, rounding makes the tangent of this level inaccurate. The margin keeps rounding from
-    # putting it below the tangent of the first level.
+    # Depths on the tangents at the first and at the second level. Rounding errors alone could make `right` smaller than
+    # `left`, so `right` gets a small margin.
     left, right = u0 + (force - f0) / k0, u1 - (f1 - force) / k1 + _CANCELLATION * u1
     is_left = left <= right
     tangents = np.clip(np.minimum(left, right), u0, u1)
@@ -308,8 +311,8 @@ def interpolate_between(
     cubic, cubic_stiffness = _hermite_in_logarithms(force, forces, depths, stiffnesses)
     tangent_stiffness = np.where(is_left & (force < f1), k0, k1)
 
-    # Use the tangents if at most one element joins. Otherwise use the cubic polynomial inside the triangle of chord and
-    # tangents, and elsewhere the side of the triangle that the polynomial has crossed.
+    # Use the tangents if at most one element comes into contact between the levels, or if the cubic polynomial lies
+    # above the tangents. Use the chord if the polynomial lies below the chord. Otherwise use the polynomial.
     on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
     where = [on_tangents, cubic < chord * (1 - 1e-12)]
     stiffness = np.select(where, [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness)
@@ -317,9 +320,10 @@ def interpolate_between(
 
 
 def _hermite_in_logarithms(force: Array, forces: Pair, depths: Pair, stiffnesses: Pair) -> tuple[Array, Array]:
-    """Return depth and stiffness from ln u, interpolated as a cubic Hermite polynomial of ln F between two levels.
+    """Interpolate ln u between two levels by a cubic Hermite polynomial of ln F; return depth u and stiffness dF/du.
 
-    The arguments are those of `interpolate_between`. The stiffness is limited to the range between the two levels.
+    The stiffness is limited to the range between its values at the two levels. See `interpolate_between` for the
+    arguments.
     """
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
     span = np.log(f1 / f0)

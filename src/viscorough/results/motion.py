@@ -18,13 +18,14 @@ class Motion(ReadOnlyArrays):
     time : array
         Times t, in s if the unit of length is known, otherwise in the unit of viscosity × length² / force.
     depth : array
-        Depth u [length]. At zero force the depth is not unique; the indenter then rests on the surface that recovers.
+        Depth u [length]. At zero force the depth is not unique: the indenter is assumed to rest on the recovering
+        surface.
     force : array
         Force F, in N if the unit of length is known.
     velocity : array
-        Velocity v = du/dt [length/time]. If the velocity jumps at a time, its limit just after this time is given. At
-        the last time of a history, and at the sample just before a step of the load, its limit just before the time is
-        given.
+        Velocity v = du/dt [length/time]. If the velocity jumps at a time, this is the velocity just after the jump,
+        except at the last time, and at the sample just before a step of the load. There it is the velocity just before
+        the jump.
     contact_fraction : array
         Share of the elements of the indenter that are in contact [1].
     length_unit : str

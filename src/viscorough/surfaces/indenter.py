@@ -48,10 +48,10 @@ class Indenter(ReadOnlyArrays):
     Raises
     ------
     ValueError
-        For heights that are not real numbers in one or two dimensions, contain whole numbers beyond 2**53, are
-        infinite, differ by more than double precision can represent, are all nan, or contain nan on a line; for
-        spacings that are not positive, differ by more than a factor of five, or differ on a line; and for a unit that
-        is not a text.
+        If the heights are not real numbers in one or two dimensions, contain whole numbers beyond 2**53 or infinite
+        numbers, or are all nan; if the heights of a line contain nan; if the difference of two heights is too large for
+        double precision. If a spacing is not positive, if dx and dy differ by more than a factor of five, or if dy is
+        given for a line and differs from dx. If the unit is not a text.
 
     Examples
     --------
@@ -85,12 +85,12 @@ class Indenter(ReadOnlyArrays):
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
         if heights.ndim not in (1, 2):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
-        whole = np.ma.asanyarray(self.heights)  # methods of masked arrays ignore masked entries
+        whole = np.ma.asanyarray(self.heights)  # min and max of a masked array ignore masked entries
         if whole.dtype.kind in "iu" and whole.count() and max(-int(whole.min()), int(whole.max())) > _LARGEST_WHOLE:
             raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
         # Store heights in single or double precision, row by row, and in the byte order of this machine.
         precision = np.float32 if heights.dtype == np.float32 else np.float64
-        with np.errstate(over="ignore"):  # numbers that are too large become infinite, which is checked below
+        with np.errstate(over="ignore"):  # too large numbers become infinite, which is checked below
             heights = np.ascontiguousarray(heights, dtype=precision)
         heights.flags.writeable = False
         if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
@@ -109,7 +109,7 @@ class Indenter(ReadOnlyArrays):
         object.__setattr__(self, "row_spacing", row_spacing)
 
     def __str__(self) -> str:
-        """Return a summary: map or line, numbers of points and elements, spacings, and difference of the heights."""
+        """Return a summary: map or line, numbers of points and elements, spacings, and range of the heights."""
         points, unit = " x ".join(map(str, self.heights.shape)), self.length_unit
         difference = np.nanmax(self.heights) - np.nanmin(self.heights)
         text = f"Indenter: {'map' if self.heights.ndim == 2 else 'line'} of {points} points, {self.elements} elements\n"
@@ -148,7 +148,7 @@ class Indenter(ReadOnlyArrays):
     def rms_slope(self) -> float:
         """Return the rms slope √⟨(∇h)²⟩ of the heights h from differences of neighbours; 0 for a single element [1]."""
         slopes = [0.0]
-        with np.errstate(over="ignore", under="ignore"):  # a slope that overflows is infinite
+        with np.errstate(over="ignore", under="ignore"):  # slopes that are too large become infinite
             for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):
                 slope = np.abs(np.diff(self.heights.astype(float), axis=axis)) / spacing
                 largest = np.fmax.reduce(slope, axis=None, initial=0.0)
@@ -164,7 +164,7 @@ class Indenter(ReadOnlyArrays):
 
 
 def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, float]:
-    """Check the spacings, and return (dx, dy) in the unit of length.
+    """Check the spacings of an Indenter, and return (dx, dy) in the unit of length.
 
     spacing, row_spacing, length_unit : arguments of Indenter
     """

@@ -26,9 +26,9 @@ _U64, _U32, _I32, _F32 = np.uint64, np.uint32, np.int32, np.float32
 
 # Number of rounds, multiplier and key increment (Weyl constant) of Philox2x32, and mask of the lower 32 bits.
 _ROUNDS, _MULTIPLIER, _WEYL, _LOW = 10, _U64(0xD256D193), _U64(0x9E3779B9), _U64(0xFFFFFFFF)
-# Coefficients, highest power first, of polynomials in single precision with relative errors of 1e-7, from S. Moshier's
-# Cephes library: _LOG in z for (ln(1+z) - z + z²/2) / z³, _SINE in x² for (sin x - x) / x³ and _COSINE in x² for
-# (cos x - 1) / x², both for |x| <= π/4.
+# Coefficients of polynomials from S. Moshier's Cephes library, the highest power first. In single precision, their
+# relative error is 1e-7. _LOG is a polynomial of z for (ln(1+z) - z + z²/2) / z³. For |x| <= π/4, _SINE is a polynomial
+# of x² for (sin x - x) / x³, and _COSINE is a polynomial of x² for (cos x - 1) / x².
 _LOG = tuple(
     _F32(c)
     for c in (
@@ -57,7 +57,9 @@ def key_of(seed_sequence: np.random.SeedSequence) -> Integers:
 
 
 def waves(first: int, key: Integers, amplitude: Array, *, fixed: bool) -> Complex:
-    """Return the coefficients X_k of the waves k = first, first + 1, ... in double precision, shape of `amplitude`.
+    """Return the coefficients X_k of the waves k = first, first + 1, ..., one for each entry of `amplitude`.
+
+    The coefficients are in double precision.
 
     first : number k of the first wave, at least 0
     key : key of the realization, from `key_of`
@@ -105,8 +107,8 @@ def shortest_wave(points: int, key: Integers, amplitude: float, *, fixed: bool) 
 def fill_packed_spectrum(spectrum: Complex, key: Integers, amplitude: Array, *, fixed: bool) -> float:
     """Fill `spectrum` with the spectrum of a line whose points are combined in pairs; return the mean square height.
 
-    Let y be the real heights of a line with the waves X_k at its n = 2m points. They are combined to the m complex
-    numbers y_2j + i y_2j+1. The spectrum Z of these numbers is
+    A line with the waves X_k has the real heights y at its n = 2m points. Neighbouring heights are combined into the m
+    complex numbers y_2j + i y_2j+1. The spectrum Z of these numbers is
         Z_k = X_k + X*_(m-k) + i exp(iπk/m) (X_k - X*_(m-k)).
     The complex Fourier transform of Z, with positive exponents and without a factor, gives the pairs of heights.
 
@@ -138,7 +140,8 @@ def _fill_pairs(spectrum, key, amplitude, fixed):
     rotation = np.empty((2, _BLOCK), np.float32)
     for start in range(1, (half + 1) // 2, _BLOCK):
         size = min(_BLOCK, (half + 1) // 2 - start)
-        mirrored = half - start - size + 1  # smallest number of the waves m - k for the waves k of this block
+        # The block contains the waves k = start, start + 1, ...; `mirrored` is the smallest of the numbers m - k.
+        mirrored = half - start - size + 1
         square += _draw(start, key, amplitude[start : start + size], fixed, longer)
         square += _draw(mirrored, key, amplitude[mirrored : mirrored + size], fixed, shorter)
         _unit_vectors(start, turn, rotation)
@@ -168,7 +171,8 @@ def _draw(first, key, amplitude, fixed, parts):
 def _moduli(size, amplitude, modulus):
     """Compute random moduli A √(-2 ln U), with U = (size + 1/2) / 2^32 from 32-bit random numbers `size`.
 
-    amplitude, modulus : amplitudes A, and array for the moduli
+    amplitude : amplitudes A
+    modulus : array for the results
     """
     for i in range(size.size):
         modulus[i] = amplitude[i] * np.sqrt(_TWO * _minus_log(size[i]))
@@ -228,11 +232,11 @@ def _store(parts, numbers):
 
 @njit
 def twiddle(spectrum, factor):
-    """Multiply the complex number [j, k] of a spectrum in place by factor · exp(2πi jk/m).
+    """Multiply the complex number in row j and column k of a spectrum by factor · exp(2πi jk/m), in place.
 
-    Here m is the number of complex numbers in the spectrum.
+    m is the number of all complex numbers in the spectrum.
 
-    spectrum : complex numbers stored as pairs of real numbers, single precision; shape (rows, 2 columns)
+    spectrum : real and imaginary parts in turn along each row, single precision, shape (rows, 2 · columns)
     factor : real number
     """
     rows, columns = spectrum.shape[0], spectrum.shape[1] // 2
@@ -244,10 +248,10 @@ def twiddle(spectrum, factor):
 
 @njit(inner=True, fastmath=True)
 def _rotate(pairs, rotation, factor):
-    """Multiply complex numbers in place by factor · rotation.
+    """Multiply complex numbers by factor · rotation, in place.
 
-    pairs : complex numbers stored as pairs of real numbers, shape (2 columns,)
-    rotation : complex numbers of modulus 1, real parts in rotation[0], imaginary parts in rotation[1]
+    pairs : complex numbers to be multiplied, as real and imaginary parts in turn, shape (2 · columns,)
+    rotation : complex numbers of modulus 1, with the real parts in rotation[0] and the imaginary parts in rotation[1]
     """
     for i in range(rotation.shape[1]):
         j, k = _U64(2 * i), _U64(2 * i + 1)
@@ -258,9 +262,9 @@ def _rotate(pairs, rotation, factor):
 
 @njit(inner=True, fastmath=True)
 def _cos_sin(direction):
-    """Return cosine and sine of an angle, for direction = 2^32 · angle / 2π.
+    """Return cosine and sine of an angle, which is given as the whole number direction = 2^32 · angle / 2π.
 
-    The angle is reduced to the quadrant and an angle x between -π/4 and π/4, for polynomials of sin x and cos x.
+    The angle is split into a multiple of π/2 and a rest x between -π/4 and π/4. Polynomials then give sin x and cos x.
     """
     quadrant = _U32(_U32(direction + _U32(1 << 29)) >> _U32(30))
     x = _F32(_I32(_U32(direction << _U32(2)))) * _EIGHTH_TURN
@@ -278,7 +282,7 @@ def _cos_sin(direction):
 def _minus_log(size):
     """Return -ln((size + 1/2) / 2^32), computed from the exponent and the mantissa of size + 1/2."""
     bits = np.float32(_F32(size) + _HALF).view(np.int32)
-    exponent = (bits - _ROOT_HALF) >> _MANTISSA  # chosen so that the mantissa lies between √(1/2) and √2
+    exponent = (bits - _ROOT_HALF) >> _MANTISSA  # this exponent leaves a mantissa between √(1/2) and √2
     z = np.int32(bits - (exponent << _MANTISSA)).view(np.float32) - _ONE
     cubic = _LOG[0]
     for c in _LOG[1:]:

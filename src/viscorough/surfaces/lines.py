@@ -1,9 +1,9 @@
 """Generate realizations of self-affine lines; quantities that do not depend on the realization are computed once.
 
 Heights are the Fourier transform of random waves (see `line_waves`). For an even number n of points in single
-precision, neighbouring points are combined to m = n/2 complex numbers z_j, j = 0, 1, ..., m - 1. Their spectrum is Z_k.
-The transform from Z to z consists of short transforms, which fit in the cache (four-step method; D. H. Bailey, FFTs in
-external or hierarchical memory, 1990). With m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂ it is
+precision, neighbouring points are combined into m = n/2 complex numbers z_j, j = 0, 1, ..., m - 1. Their spectrum is
+Z_k. The transform from Z to z consists of short transforms, which fit in the cache (four-step method; D. H. Bailey,
+FFTs in external or hierarchical memory, 1990). With m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂ it is
     z_j = Σ_k₂ exp(2πi j₂k₂/N₂) exp(2πi j₁k₂/m) Σ_k₁ exp(2πi j₁k₁/N₁) Z_k.
 The result is an array [j₁, j₂], so the points are not stored in their order along the line. This order is irrelevant to
 the method of dimensionality reduction. All other lines are computed by an ordinary real transform.
@@ -22,19 +22,19 @@ from viscorough.basics.arrays import positive, whole_number
 from viscorough.basics.types import Array, Integers, Seed
 from viscorough.surfaces import line_waves, spectrum
 
-# The rms height must differ at least by this factor from the smallest and from the largest number of the floating-point
-# type.
+# The rms height must be at least this factor above the smallest number of the floating-point type, and at least this
+# factor below the largest number.
 _ROOM = 1000
 # Number of waves computed at a time in double precision.
 _BLOCK = 16384
-# Memory that must be available, in multiples of the memory for the heights of a line, because the Fourier transform
-# copies the heights. The second value holds if the number of points has large prime factors
+# The Fourier transform copies the heights of a line. The memory that must be available is therefore this multiple of
+# the memory for the heights. The second value is for numbers of points with large prime factors
 # (tests/viscorough/basics/test_memory.py).
 _COPIES, _MOST_COPIES = 2.6, 17
 
 
 class SelfAffineLines:
-    """Generator of periodic self-affine lines, all with the same spectrum.
+    """Generator of periodic self-affine lines with the same spectrum and different random waves.
 
     hurst, points, rms, length, dtype : arguments of `self_affine.self_affine_line`
     waves : further arguments of `self_affine_line`, by name: roll_off_wavelength, roll_off_level and amplitudes
@@ -82,7 +82,7 @@ class SelfAffineLines:
     def heights(self, seed: Seed) -> Array:
         """Return the heights along the line for a seed, read-only, shape (points,) [length]."""
         heights = self.heights_in_any_order(seed)
-        if self._in_pairs:  # pair j of neighbouring points is stored as a complex number at [j₁, j₂] (see the module)
+        if self._in_pairs:  # each pair of points is stored at [j₁, j₂], see the docstring of the module
             ordered = heights.view(np.complex64).reshape(self._packed.shape).T.copy()
             ordered.flags.writeable = False  # an Indenter does not copy read-only heights
             heights = ordered.reshape(-1).view(np.float32)
@@ -108,7 +108,7 @@ class SelfAffineLines:
     def _by_real_transform(self, key: Integers) -> Array:
         points = self._points
         memory_ = np.empty(2 * (points // 2 + 1), self._dtype)
-        # Complex coefficients of the waves k = 0, 1, ..., in the same memory.
+        # The complex coefficients of the waves k = 0, 1, ... share the memory of the heights.
         coefficients = memory_.view(np.result_type(self._dtype, np.complex64))
         mean_square = 0.0
         for start in range(1, len(coefficients), _BLOCK):
@@ -120,7 +120,8 @@ class SelfAffineLines:
             shortest = line_waves.shortest_wave(points, key, amplitude[-1], fixed=self._fixed)
             mean_square += shortest**2 - 2 * abs(waves[-1]) ** 2
             coefficients[-1] = shortest
-        # The heights overwrite their spectrum. It consists of the mean (0), then real and imaginary part of each wave.
+        # The heights overwrite their spectrum. The spectrum begins with the mean height, 0. Then follow the real and
+        # the imaginary part of each wave.
         heights = memory_[1 : points + 1]
         heights[0] = 0
         heights *= spectrum.scale_factor(self._rms, mean_square)

@@ -1,7 +1,7 @@
 """Prepare measured maps of heights for contact computations.
 
 `prepare` marks missing values, crops the map, changes the sign, removes tilt or form, and fills holes. `doubts`
-describes defects of a map that is not prepared. The solver would accept such a map, but its results would be wrong.
+describes defects of a map that was not prepared. The solver would accept such a map, but the results would be wrong.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,12 +18,12 @@ DETREND = ("none", "mean", "plane", "sphere")
 FILL = ("none", "harmonic")
 # A map is called tilted if the fitted plane rises by more than this multiple of the rms height about the plane.
 _NOTABLE_TILT = 6
-# A value is suspicious if its distance from all other values is more than this multiple of the range of the others. For
-# a common mark of missing values the multiple is 1.
+# A height is suspicious if its distance from all other heights is more than this multiple of the range of the other
+# heights. For heights that are common marks of missing values, once the range is enough.
 _FAR = 10
 # Values that instruments and programs often write for missing heights.
 _MARKS = (9999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
-# A point is called a spike if it is higher than all its neighbours by more than this multiple of the usual difference
+# A point is called a spike if it is higher than all its neighbours by more than this multiple of the median difference
 # between neighbours.
 _SPIKE = 20
 # The distance of the corners of the map from its middle must be less than this share of the radius of a fitted sphere.
@@ -31,7 +31,7 @@ _LARGEST_SLOPE = 0.99
 # Largest number of iterations in the fit of a sphere.
 _MAX_ITERATIONS = 20
 
-# A part of a map, as ((first column, end), (first row, end)).
+# Part of a map, as ((first column, end), (first row, end)), where the ends are not included.
 Crop = Sequence[Sequence[int]]
 
 
@@ -121,7 +121,7 @@ def doubts(indenter: Indenter) -> list[str]:
     if indenter.heights.ndim != 2 or min(indenter.heights.shape) < 3:
         return []
     heights = indenter.heights
-    # Suspicious values cause tilt and spikes. If there are any, tilt and spikes are therefore not described.
+    # Suspicious values cause tilt and spikes, so tilt and spikes are described only if no value is suspicious.
     texts = [*_suspicious_values(heights)] or [*_tilt(indenter), *_spikes(heights)]
     return [*texts, *_holes(heights)]
 
@@ -132,8 +132,8 @@ def doubts(indenter: Indenter) -> list[str]:
 def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
     """Return the heights of a form that is fitted to a map by least squares, at the points of the map.
 
-    A sphere is fitted by the Gauss-Newton method. In this fit, all lengths are divided by the distance of the corners
-    from the middle of the map.
+    A sphere is fitted by the Gauss-Newton method. In this fit, all lengths are in units of the distance from the middle
+    of the map to its corners.
 
     dx, dy : spacings of the map
     form : "mean", "plane" or "sphere"
@@ -168,7 +168,7 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
 
 
 def _factors(functions: Array, target: Array) -> Array:
-    """Return the factor of each function, so that the weighted sum of the functions is closest to the target.
+    """Return factors of functions, so that the sum of factor times function is closest to the target.
 
     functions : values of the functions, shape (functions, points)
     target : values to fit by least squares, shape (points,)
@@ -179,7 +179,7 @@ def _factors(functions: Array, target: Array) -> Array:
 def _sag(curvature: float, squared: Array) -> Array:
     """Return k r²/(1 + √(1 − k²r²)), the height of a sphere of curvature k > 0 above its lowest point.
 
-    For k < 0 it is the height above the highest point, which is negative.
+    For k < 0, return the height above the highest point of the sphere, which is negative.
 
     squared : r², squared distance from the middle
     """
@@ -203,9 +203,9 @@ def _tilt(indenter: Indenter) -> Iterator[str]:
 
 
 def _suspicious_values(heights: Array) -> Iterator[str]:
-    """Yield a text for the lowest and for the highest value if it is far from all other values.
+    """Yield a text if the lowest value is suspicious, and a text if the highest value is suspicious.
 
-    The value must also be repeated, or be a common mark of missing values.
+    A value is suspicious if it is far from all other values, and is either repeated or a common mark of missing values.
     """
     for extreme in (np.fmin, np.fmax):
         value = float(extreme.reduce(heights, axis=None))
@@ -228,7 +228,7 @@ def _suspicious_values(heights: Array) -> Iterator[str]:
 
 
 def _spikes(heights: Array) -> Iterator[str]:
-    """Yield a text about single points that are far higher than all their neighbours."""
+    """Yield a text about spikes, which are single points far above all their neighbours, if the map has spikes."""
     from scipy import ndimage
 
     neighbours = np.array([[1, 1, 1], [1, 0, 1], [1, 1, 1]])
@@ -274,7 +274,7 @@ def _holes(heights: Array) -> Iterator[str]:
 
 
 def _filled(heights: Array, aspect: float) -> Array:
-    """Return the heights with enclosed regions of nan filled according to the five-point Laplace equation.
+    """Fill enclosed regions of nan by the five-point Laplace equation, and return the heights.
 
     The height of each filled point is the weighted mean of its four neighbours. The weights are 1/dx² along x and 1/dy²
     along y.

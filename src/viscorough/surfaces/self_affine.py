@@ -19,7 +19,7 @@ from viscorough.surfaces import spectrum
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.lines import SelfAffineLines
 
-# Memory in bytes that must be available for each point of a square: three times the memory of the arrays.
+# Memory in bytes that must be available for each point of a square. It is three times the memory of all arrays.
 _BYTES_PER_POINT = 100
 
 
@@ -163,9 +163,9 @@ def self_affine_square(
 def _expected_mean_square(amplitude: Array, points: int, *, fixed: bool) -> float:
     """Return the mean square height of a square, averaged over all realizations, from Parseval's theorem.
 
-    amplitude : factors of the waves of white noise, in the layout of a real Fourier transform. Each entry also stands
-        for the wave with the opposite wave vector, except in the first column and, for an even number of points, in the
-        last column
+    amplitude : factors by which waves of white noise are multiplied, in the layout of a real Fourier transform. The
+        first column contains all its waves; so does the last column if the number of points is even. All other entries
+        are also the factors of the waves with opposite wave vectors
     points : number of points per period
     fixed : True if the waves of the noise have the modulus 1, False if the noise at each point has the variance 1
     """
@@ -207,7 +207,7 @@ def cut_disc(square: Array, elements_across: int) -> Array:
     n, square = whole_number("elements_across", elements_across, at_least=1), real_numbers("cut_disc: square", square)
     if square.ndim != 2 or min(square.shape) < n:
         raise ValueError(f"square: the map must have at least {n} x {n} points, its shape is {square.shape}")
-    twice = 2 * np.arange(n) - (n - 1)  # twice the distance from the centre: whole numbers for odd and even n
+    twice = 2 * np.arange(n) - (n - 1)  # twice the coordinate from the centre, a whole number for any n
     return np.where(twice[:, None] ** 2 + twice**2 <= (n - 1) ** 2, square[:n, :n], np.nan)
 
 

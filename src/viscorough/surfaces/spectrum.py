@@ -30,12 +30,13 @@ def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) 
 def wave_options(
     *, period: float, roll_off_wavelength: float | None = None, roll_off_level: float = 0.0, amplitudes: str = "random"
 ) -> tuple[float, float, bool]:
-    """Check the arguments of `self_affine.self_affine_disc` that describe waves, and convert them for `amplitude`.
+    """Check the arguments of `self_affine.self_affine_disc` that describe the roll-off and the amplitudes of waves.
 
     period : period of the surface, in the unit of `roll_off_wavelength`
 
-    Returns (longest, level, fixed). The first two are arguments of `amplitude`; `fixed` is True if only phases are
-    random.
+    Returns (longest, level, fixed): the arguments `longest` and `level` of the function `amplitude`, and True if only
+    the phases of the waves are random.
+
     Raises ValueError for values out of range.
     """
     if amplitudes not in ("random", "fixed"):
@@ -44,7 +45,7 @@ def wave_options(
 
 
 def _roll_off(wavelength: float | None, level: float, period: float) -> tuple[float, float]:
-    """Return the ratio of the period to the wavelength of the roll-off (0 without a roll-off), and the checked level.
+    """Return period/wavelength of the roll-off (0 without a roll-off), and the checked level.
 
     wavelength : wavelength of the roll-off, or None without a roll-off
     level : spectral density of longer waves, relative to the spectral density at the roll-off
@@ -55,7 +56,8 @@ def _roll_off(wavelength: float | None, level: float, period: float) -> tuple[fl
         raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
     if wavelength is None:
         return 0.0, level
-    rounding = 1 - 1e-12  # waves of exactly the roll-off wavelength then belong to the power law in spite of rounding
+    # Due to this factor, waves of exactly the roll-off wavelength belong to the power law in spite of rounding.
+    rounding = 1 - 1e-12
     return rounding * period / positive(_name_of_wavelength(), wavelength), level
 
 

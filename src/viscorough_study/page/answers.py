@@ -1,4 +1,4 @@
-"""Collect the numbers for the answers at the top of the page, and for the section on failures of methods."""
+"""Collect the numbers for the answers at the top of the page, and for its section on methods that fail."""
 
 from collections import Counter
 
@@ -10,9 +10,9 @@ from viscorough_study.verdicts.claims import counted_verdicts
 
 
 def verdict_counts(results):
-    """Return the number of claims on physics with each verdict, a list of `Number` from the best verdict to the worst.
+    """Count the claims on physics with each verdict; return a list of `Number`, from the best verdict to the worst.
 
-    A claim has a single verdict, which takes all its cases into account.
+    A claim is counted once, by its overall verdict, even if it was tested in several cases.
     """
     numbers = counted_verdicts(results.tables["claims"])
     column, origin = "verdict over all cases of a claim on physics", results.origin("claims")
@@ -52,16 +52,19 @@ def answers(results):
 
 
 def failures(results):
-    """Return the numbers of the failure map (robustness.failure_map) that the page states.
+    """Return the numbers that the page states about the stress tests of all methods (robustness.failure_map).
 
-    cases : number of stress-test cases; unnoticed, warned : number of results with this verdict
-    worst_model : largest finite error among models outside their documented range, or with a warning
-    methods : {method: {verdict: number of cases}}
+    cases : number of stress tests
+    unnoticed : number of results that are wrong without a warning
+    warned : number of results that are wrong, but come with a warning
+    worst_model : largest finite error of an approximate model that warned or was used outside its documented range
+    methods : {method: {verdict: number of stress tests}}
     """
     table = results.tables["failure_map"]
     outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
     return {
-        "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # each method has one row per case
+        # each method has one row per stress test
+        "cases": results.count("failure_map", "method", table["method"].iloc[0]),
         **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned")},
         "worst_model": results.extremes(outside[np.isfinite(outside["error"])], "failure_map", "error")[1],
         "methods": {name: Counter(rows["verdict"]) for name, rows in table.groupby("method", sort=False)},

@@ -1,4 +1,4 @@
-"""Make the article, results/article.pdf: fill its Typst template with the contents of the page and further tables."""
+"""Make the article, results/article.pdf: fill its Typst template with the results on the page and further tables."""
 
 import json
 import re
@@ -17,9 +17,12 @@ from viscorough_study.page.results import Number, read_published
 from viscorough_study.run.readable import readable
 from viscorough_study.verdicts.claims import HELD, KINDS, counted_verdicts
 
-# Tolerances of the audits and of the plain loading curves whose sum rules the article shows (benchmarks/sum_rules.py).
+# Tolerances with which viscorough.audit and viscorough.indent computed the loading curves of `sum_rules_shown`
+# (benchmarks/sum_rules.py).
 AUDITED, PLAIN = "1e-05", "1e-03"
-CASES_MAX = 4  # for each outcome of a claim the article lists at most this number of cases
+# A claim is tested in several cases, such as Hurst exponents. The article lists at most this number of cases with the
+# same outcome (pass, undecided or fail).
+CASES_MAX = 4
 _MARKUP = re.compile(r"""([\\#*_`$<>@\[\]~/"'=+-])""")
 
 
@@ -27,8 +30,10 @@ def article(project, contents, *, paper, figures, repository):
     """Return the article as the bytes of a PDF file.
 
     project : folder of the project, which contains template, style, citation, literature and published results
-    contents : contents of a run (assembly.contents_of); paper : content of resources/paper/numbers.yaml
-    figures : folder of the figures; repository : address of the code, or an empty text
+    contents : contents of the page for this run, from assembly.contents_of
+    paper : content of resources/paper/numbers.yaml
+    figures : folder of the figures
+    repository : address of the code, or an empty text
     """
     names = ("style.typ", "article.typ.jinja")
     style, template = ((project / "workflow/article" / name).read_text("utf-8") for name in names)
@@ -47,7 +52,7 @@ def article(project, contents, *, paper, figures, repository):
         raw=Markup,
         citation=citation,
         original=original,
-        repository=Markup(json.dumps(repository)) if repository else "",  # a string literal of Typst
+        repository=Markup(json.dumps(repository)) if repository else "",  # text in quotes, as Typst needs it
         paper=paper,
         physics=counted_physics(results.tables["claims"]),
         cases={name: cases_by_outcome(results, name) for name in contents["overall"]},
@@ -73,7 +78,8 @@ def article(project, contents, *, paper, figures, repository):
 def as_markup(value):
     """Return the Typst text of a value that fills a placeholder of the template.
 
-    Numbers have three digits. In texts the characters that mean markup in Typst are escaped, except in `Markup`.
+    Numbers are written with three digits. In other values, all characters that mean markup in Typst are escaped. A
+    value of the type `Markup` is returned unchanged.
     """
     if isinstance(value, Markup):
         return value
@@ -85,20 +91,23 @@ def as_markup(value):
 
 
 def counted_physics(table):
-    """Return heading, number, and {verdict: number}, from the best verdict to the worst, of the claims on physics.
+    """Count the claims on physics by verdict; return {"heading", "all", "counts"}.
 
-    table : table of the cases of all claims
+    heading : heading of these claims on the page
+    all : number of these claims
+    counts : {verdict: number of claims with this verdict}, from the best verdict to the worst
+    table : table of all claims, with one row for each case in which a claim is tested
     """
     counts = dict(counted_verdicts(table))
     return {"heading": KINDS["physics"], "all": sum(counts.values()), "counts": counts}
 
 
 def cases_by_outcome(results, claim):
-    """Return the cases of a claim by outcome, {"pass", "undecided" and "fail": {"cases": list, "more": number}}.
+    """Sort the cases in which a claim was tested by their outcome; return {"pass", "undecided", "fail", "paper"}.
 
-    If an outcome has more than `CASES_MAX` cases, the list has only the cases farthest from the paper's value, and
-    `more` is the number of omitted cases. The key "paper" has the paper's value if it is the same for all cases;
-    otherwise it is None, and each case states the paper's value.
+    pass, undecided, fail : {"cases": list, "more": number} of the cases with this outcome. The list has at most
+        `CASES_MAX` cases, those farthest from the paper's value; `more` is the number of omitted cases
+    paper : the paper's value if it is the same for all cases; otherwise None, and each case states the paper's value
     """
     rows = results.rows("claims", claim=claim)
     undecided = rows["verdict"] == "undecided"
@@ -114,15 +123,20 @@ def cases_by_outcome(results, claim):
 
 
 def prefactors(results, conventions):
-    """Compare ζ of the run with Eqs. 4 and 11, at each Hurst exponent of the discs; return a dict.
+    """Compare the prefactor ζ of the discs with the paper's Eqs. 4 and 11, at each Hurst exponent H; return a dict.
 
-    rows : a dict for each H: ζ in the usual conventions with its interval; the least and largest ζ in any conventions;
-        Eq. 4; Eq. 11 without its factor 1/Γ(2 − α); and ratio_if_radius, the ratio of ζ to Eq. 11, both with the
-        factor, if L were the radius of the disc
-    between : True if ζ lies between both formulas at every H
+    ζ depends on conventions, which are choices that the paper leaves open, such as the mean over surfaces.
+
+    rows : a dict for each H, with
+        value, low, high : ζ and its interval in the conventions of the figures
+        least, largest : smallest and largest ζ in any conventions
+        eq_4 : ζ from Eq. 4
+        eq_11 : ζ from Eq. 11, converted to a law without the factor 1/Γ(2 − α)
+        ratio_if_radius : ratio of ζ to Eq. 11, both for a law with this factor, if L were the radius of the disc
+    between : True if ζ lies between Eq. 4 and Eq. 11 at every H
     conventions : number of combinations of conventions
-    agreeing : number of combinations for which ζ equals a formula within its tolerance; the largest number for any
-        formula and H
+    agreeing : number of combinations in which ζ agrees with a formula within the tolerance; the largest such number for
+        any formula and H
     radius : smallest and largest ratio_if_radius
     """
     every, rows = results.rows("scaling", source="discs", case_group="base"), []
@@ -132,7 +146,7 @@ def prefactors(results, conventions):
         numbers |= {"least": zeta.min(), "largest": zeta.max()}
         without_gamma = eq_11 * _gamma(reference.exponent_beta(row.hurst))
         numbers |= {"eq_4": reference.zeta_elastic(row.hurst), "eq_11": without_gamma}
-        # If L is the radius instead of the diameter, X and κ double, so ζ = κ/X^α grows by the factor 2^β.
+        # If L is the radius instead of the diameter, X and κ double, so ζ = κ/X^α grows by the factor 2^(1−α) = 2^β.
         rows.append(numbers | {"ratio_if_radius": 2**row.beta * row.zeta / _gamma(row.beta) / eq_11})
     ratios = [row["ratio_if_radius"] for row in rows]
     both = results.tables["claims"].query("claim in ('zeta_elastic', 'zeta_viscous')")
@@ -151,15 +165,17 @@ def _gamma(beta):
 
 
 def small_hurst(results):
-    """Return the numbers that discuss the smallest Hurst exponent of the discs, where β departs from H/(1 + H).
+    """Return numbers for the discussion of the smallest Hurst exponent of the discs, where β differs from H/(1 + H).
 
-    hurst : smallest Hurst exponent; region : its row of table `plateaus`, with the length of region (b)
+    hurst : smallest Hurst exponent H
+    region : row of table `plateaus` for this H, with the length of region (b), where vt/h follows a power law of X
     own : β of lines minus β of discs, with lines and discs fitted in their own regions (b)
-    equal : β of lines minus β of discs, with both fitted in the same range of X
-    grid : factor by which a tenfold number of elements changes κ at u/h = 1
-    literature : row of table `literature` with the range of α that others found from H = 1 to H = 0, and with α of
+    equal : β of lines minus β of discs, with lines and discs fitted in the same range of X
+    grid : factor by which a tenfold number of elements changes the stiffness κ at the depth u = h
+    literature : row of table `literature` with the range of α that others found between H = 1 and H = 0, and with α of
         this run at its smallest H
-    The last four are None if the run has no value.
+
+    `own`, `equal`, `grid` and `literature` are None if the run has no such value.
     """
     claims, plateaus = results.tables["claims"], results.rows("plateaus", case_group="base")
     hurst = plateaus["hurst"].min()
@@ -190,9 +206,9 @@ def citation_key(source):
 
 
 def sources_by_basis(sources):
-    """Return {basis: keys of the sources}: the basis on which statements on these sources rest, such as "abstract".
+    """Group sources by how their findings are known, for example from the "abstract"; return {basis: keys of sources}.
 
-    sources : entries of resources/literature/stiffness.yaml, with the basis as `sure`
+    sources : entries of resources/literature/stiffness.yaml; their field `sure` is the basis
     """
     groups = {}
     for source in sources:
@@ -203,7 +219,8 @@ def sources_by_basis(sources):
 def bibliography(original, sources):
     """Return the bibliography as YAML text in the format Hayagriva, which Typst reads.
 
-    The paper has the key "paper", a source has its `citation_key`.
+    The key of the paper is "paper". The key of each source is its `citation_key`.
+
     original : entry of the paper in CITATION.cff
     sources : entries of resources/literature/stiffness.yaml that have a title
     """
@@ -225,10 +242,14 @@ def _entry(title, authors, place, year):
 
 
 def control(results):
-    """Return, for each Hurst exponent, the rows of table `periodic` with the largest g.
+    """Return the largest compliance g of periodic rough interfaces, as a list with a dict for each Hurst exponent.
 
-    g is the compliance of the interface (comparisons.periodic_control).
-    whole, rolled : row with the largest g without a roll-off, and with a roll-off
+    The numbers are from the table `periodic` (comparisons.periodic_control).
+
+    hurst : Hurst exponent
+    surfaces : number of surfaces
+    whole : row with the largest g among the rows for spectra without a roll-off
+    rolled : row with the largest g among the rows for spectra with a roll-off
     """
     table, rows = results.tables["periodic"], []
     for hurst, part in table.groupby("hurst"):
@@ -239,9 +260,13 @@ def control(results):
 
 
 def sum_rules_shown(content):
-    """Return, for each indenter, the relative deviations from the two sum rules (viscorough.contact.sum_rules).
+    """Return, for each indenter, how far loading curves deviate from the sum rules, two integrals with exact values.
 
-    plain : deviations of a plain loading curve; audit : deviations of an audit; levels : number of levels of the audit
+    See viscorough.contact.sum_rules.
+
+    plain : relative deviations, as absolute values, for a curve from viscorough.indent
+    audit : relative deviations, as absolute values, for a curve from viscorough.audit
+    levels : number of levels, which are computed contacts, of the curve from viscorough.audit
     content : content of docs/results/sum_rules.json
     """
     return [

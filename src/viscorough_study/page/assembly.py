@@ -1,4 +1,4 @@
-"""Assemble the contents of the page and of the article from tables and ensembles."""
+"""Collect the contents of the page and of the article from the tables and loading curves of a run."""
 
 from pathlib import Path
 
@@ -16,11 +16,10 @@ from viscorough_study.verdicts.claims import findings
 
 
 def contents_of(project, discs, lines, *, tables, claims, numbers):
-    """Return {name: content} of a run, the variables of the templates of page and article.
+    """Return the variables for the templates of the page and of the article, {name: content}.
 
-    project : folder of the project, which contains published numbers, the verdicts at full scale, and the list of
-        tables
-    discs, lines : paths of the pools (ensembles.pool)
+    project : folder of the project, which contains published numbers and verdicts, and the list of tables
+    discs, lines : NetCDF files with the loading curves of all discs and of all lines of the run (ensembles.pool)
     tables : paths of CSV files; a table has the name of its file without the suffix
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
     """

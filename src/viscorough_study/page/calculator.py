@@ -1,4 +1,4 @@
-"""Write the calculator of the page, which gives the estimates of viscorough.estimate in a browser."""
+"""Write the calculator of the page, which computes the results of viscorough.estimate in a browser."""
 
 import json
 
@@ -9,18 +9,20 @@ from viscorough.reference import one_element_stiffness
 
 
 def calculator(section, script):
-    """Return the calculator as HTML: its section of the page, the numbers of the law, and the script.
+    """Return the calculator as HTML: a section of the page, the constants of the penetration law, and a script.
 
-    section : HTML of the section; script : JavaScript that calculates
+    section : HTML of the section
+    script : JavaScript of the calculation
     """
     law = f'<script id="law" type="application/json">{json.dumps(law_table())}</script>'
     return Markup(f"{section}{law}\n<script>\n{script}</script>\n")
 
 
 def law_table():
-    """Return the numbers of the calibrated law, {name: list of values at ascending H}.
+    """Return the constants of the calibrated penetration law, {name: list of values at ascending Hurst exponents}.
 
-    one_element : constant c of g = cX while a single element touches (viscorough.law.calibrated_law)
+    The term g of the law, and the reduced time X, are defined in viscorough.law.calibrated_law. The constant
+    one_element is the ratio g/X while a single element touches.
     """
     table = {name: values.tolist() for name, values in interface_calibration().items()}
     return table | {"one_element": [1 / one_element_stiffness(ACROSS) - 1] * len(table["hurst"])}

@@ -1,4 +1,4 @@
-"""Collect the contents of the page below the answers: verdicts, tables and scale of the run."""
+"""Collect the results for the lower part of the page: verdicts on the paper's claims, tables, and size of the run."""
 
 import json
 
@@ -29,13 +29,14 @@ VERDICT_SHORT = {
 
 
 def verdicts(results, statements, published):
-    """Return the claims by kind, {heading of the kind: list of claims}.
+    """Return the paper's claims with their verdicts, grouped by kind: {heading of the kind: list of claims}.
 
-    A claim is a dict with its statement, its verdict, and the numbers of the displayed cases. The key `full_scale` has
-    the verdict at full scale, with the case that decides it, if this verdict differs from the verdict of the run;
-    otherwise it is None.
+    A claim is tested in several cases, such as Hurst exponents. Each claim is a dict with its statement, its verdict,
+    and the numbers of the cases that the page shows. If the published verdict differs from the verdict of this run,
+    `full_scale` is the published verdict with the case that decides it; otherwise it is None.
 
-    statements : content of resources/paper/claims.yaml; published : table of claims at full scale
+    statements : content of resources/paper/claims.yaml
+    published : published table of claims, from a run with the grids and numbers of surfaces of the paper
     """
     claims, at_full_scale = {heading: [] for heading in KINDS.values()}, overall(published)
     for name, verdict in overall(results.tables["claims"]).items():
@@ -64,9 +65,10 @@ def verdicts(results, statements, published):
 
 
 def other_solvers(path):
-    """Return published ratios of the times of other solvers to the time of viscorough's elastic path.
+    """Return published computing times of other solvers, divided by the time of viscorough.indent for the same levels.
 
-    rows : a dict for each task, with the ratios by solver; versions : {solver: version}
+    rows : a dict for each task (which levels on which grid), with the ratio of times for each solver
+    versions : {solver: version}
     measured, machine : date and machine of the measurement
     path : CSV file of the published ratios
     """
@@ -81,9 +83,10 @@ def other_solvers(path):
 
 
 def media(results):
-    """Return the exponent of vt/h in time, for each medium and H, at three times: first, middle and last.
+    """Return the local exponent d ln(vt/h)/d ln t, for each medium and Hurst exponent, at three times.
 
-    The middle time is the time with X nearest to 0.01.
+    The keys "first" and "last" are the first and the last time of the table `media`. The key "middle" is the time t
+    when the reduced time X is nearest to 0.01.
     """
     table, rows = results.tables["media"], []
     for (name, hurst), part in table.groupby(["medium", "hurst"], sort=False):
@@ -95,9 +98,12 @@ def media(results):
 
 
 def measured(results, conventions):
-    """Return measured scans, their contacts, and the power law of each group of scans in the given conventions.
+    """Return the rows of three tables on measured surfaces: scans, contacts, and power laws of groups of scans.
 
     The lists are empty if the run has no measured scans.
+
+    conventions : settings of the figures for choices that the paper leaves open: the mean over surfaces, and the range
+        of the fit. Only power laws for these settings are returned
     """
     if "measured_scans" not in results.tables:
         return {"scans": [], "contacts": [], "groups": []}
@@ -113,12 +119,13 @@ def measured(results, conventions):
 
 
 def scale(discs, lines, numbers):
-    """Return the scale of a run and of the paper: numbers of elements, discs and lines.
+    """Return the size of a run and of the paper: number of elements across a disc, and numbers of discs and lines.
 
-    The scale of the run is read from its ensembles. Its name is "coarse" if the discs are too coarse for a power law.
-    The name is "paper" if the run has at least as many discs and lines as the paper, and discs that are at least as
-    fine. Otherwise the name is "trial".
-    discs, lines : paths of the pools (ensembles.pool); numbers : content of resources/paper/numbers.yaml
+    The name of the size is "coarse" if the discs have too few elements for a power law. It is "paper" if the run has at
+    least as many discs, lines and elements across a disc as the paper. Otherwise it is "trial".
+
+    discs, lines : NetCDF files with the loading curves of all discs and of all lines of the run (ensembles.pool)
+    numbers : content of resources/paper/numbers.yaml
     """
     pools = {"discs": _pool(discs), "lines": _pool(lines)}
     elements, reduction = numbers["boundary_elements"], numbers["reduction"]
@@ -140,11 +147,14 @@ def scale(discs, lines, numbers):
 
 
 def _pool(path):
-    """Return numbers that describe the size of a pool of cases (ensembles.pool), read from its file.
+    """Read how many random surfaces a NetCDF file of loading curves contains (ensembles.pool), and their settings.
 
-    realizations : number of realizations of the first case; description : settings of the first case
-    hurst : Hurst exponents in the group of the first case
-    cases_per_hurst : number of cases in this group with the Hurst exponent of the first case
+    A case in the file is a set of random surfaces with the same settings. Cases form groups.
+
+    realizations : number of surfaces of the first case
+    description : settings of the first case
+    hurst : Hurst exponents of all cases in the group of the first case
+    cases_per_hurst : number of cases in the same group that have the Hurst exponent of the first case
     groups : names of all groups
     """
     with opened(path) as file:

@@ -1,4 +1,4 @@
-"""Present published results and the results of this run, from the table `literature`."""
+"""Collect published results and the corresponding results of this run, from the table `literature`."""
 
 from viscorough_study.comparisons.literature import cited
 
@@ -18,11 +18,11 @@ KNOWN = {
 
 
 def discussion(results):
-    """Return published sources, and the values of each quantity in this study and in the literature.
+    """Return the published sources, and the values of each quantity in this study and in the literature.
 
-    sources : rows of the table, one for each source, by year
-    quantities : {quantity: a record for each H}. A record has the value of this study, and as `theirs` the list of
-        published ranges, [(citation, low, high)]
+    sources : list with one row of the table for each source, sorted by year
+    quantities : {quantity: list with a dict for each Hurst exponent}. The dict has the value of this study with its
+        interval, and as `theirs` the list of published ranges, [(citation, low, high)]
     """
     table, quantities = results.tables["literature"], {name: [] for name in QUANTITIES}
     for (name, hurst), rows in table.dropna(subset="hurst").groupby(["quantity", "hurst"]):
@@ -40,5 +40,5 @@ def discussion(results):
 
 
 def _credit(row):
-    """Return the citation of a published number, with a remark if the number was quoted from later work."""
+    """Return the citation of a published number, with "as quoted" if the number is known only from later work."""
     return cited(row["source"], row["year"]) + (", as quoted" if row["sure"] == "quoted" else "")

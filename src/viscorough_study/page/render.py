@@ -11,16 +11,17 @@ from markupsafe import Markup
 
 from viscorough_study.run.readable import readable
 
-SCALE = 0.675  # pixels of the page per pixel of a figure
-WIDE = 600  # images of more pixels in width scroll on a phone
+SCALE = 0.675  # ratio of the width of a figure on the page to its width in the PNG file, both in pixels
+WIDE = 600  # on a phone, images that are wider than this number of pixels can be scrolled
 
 
 def render(template, style, figures, captions, *, conventions, **content):
     """Return the HTML of the page.
 
     template, style : text of the template and of the style sheet
-    figures : {name: path of its PNG}; captions : {name: path of its caption for Snakemake's report}
-    conventions : conventions of the figures, which the captions state
+    figures : {name of a figure: path of its PNG file}
+    captions : {name of a figure: path of its caption, as written for Snakemake's report}
+    conventions : settings for choices that the paper leaves open. Captions state the settings of their figures
     content : variables of the template
     """
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True)
@@ -34,9 +35,10 @@ def render(template, style, figures, captions, *, conventions, **content):
 
 
 def number(value, scale=1, unit=""):
-    """Return a Number as an HTML element, whose attributes name its place in a table; a dash for None or nan.
+    """Return a Number as an HTML element whose attributes name its place in a table, or a dash for None or nan.
 
-    scale : factor of the displayed value; unit : text after it
+    scale : factor by which the value is multiplied before it is displayed
+    unit : text after the displayed value
     """
     if value is None or (text := readable(scale * value.value)) == "–":
         return "–"
@@ -45,15 +47,17 @@ def number(value, scale=1, unit=""):
 
 
 def percent(value):
-    """Return a Number as an HTML element, see `number`, in percent."""
+    """Return a Number in percent as an HTML element, like `number`."""
     return number(value, scale=100, unit=" %")
 
 
 def embedded_png(content):
-    """Return {"src", "width", "height", "wide"} of an image element; wide is True if the image scrolls on a phone.
+    """Return the attributes of an HTML image with an embedded PNG file: {"src", "width", "height", "wide"}.
 
-    The width is chosen so that the smallest text of the figures, 7 points, becomes 13 pixels high.
-    content : bytes of a PNG file
+    The width is chosen so that the smallest text of the figures, 7 points, becomes 13 pixels high. `wide` is True if
+    the image is too wide for a phone and must be scrolled.
+
+    content : bytes of the PNG file
     """
     width, height = struct.unpack(">II", content[16:24])
     source = "data:image/png;base64," + base64.b64encode(content).decode("ascii")
@@ -64,7 +68,8 @@ def embedded_png(content):
 def caption(text, conventions):
     """Return a caption of Snakemake's report as HTML.
 
-    text : reStructuredText with placeholders for the conventions
+    text : reStructuredText of the caption, with placeholders for conventions
+    conventions : settings for choices that the paper leaves open; they replace the placeholders
     """
     snakemake = {"params": {"conventions": conventions}}
     text = jinja2.Template(text, undefined=jinja2.StrictUndefined).render(snakemake=snakemake)

@@ -1,7 +1,7 @@
 """Read tables of results for the page, and keep numbers together with their place in a table.
 
-Every number that the page states in a sentence is a `Number`. Its place in a table, the rule that made the table and
-the source file of the computation become part of the page, and a reader or a test can look them up.
+Every number that the page states in a sentence is a `Number`. The page contains, for each Number, its place in a table,
+the Snakemake rule that made the table, and the source file of the computation. A reader or a test can look these up.
 """
 
 from dataclasses import dataclass, field
@@ -12,8 +12,8 @@ import pandas as pd
 from viscorough_study.run.tables import read_recorded, read_table
 from viscorough_study.verdicts.claims import JUDGES
 
-MAY_BE_EMPTY = ("convention", "reason", "setting")  # columns of texts, which may be empty
-# Options of pandas.read_csv, by which only empty fields are nan.
+MAY_BE_EMPTY = ("convention", "reason", "setting")  # names of columns with texts, of which some may be empty
+# With these options, pandas.read_csv replaces only empty fields by nan, and keeps texts such as "none".
 _ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}
 
 
@@ -21,10 +21,13 @@ _ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}
 class Number:
     """A number on the page, and its place in a table of results/tables.
 
-    value : the number; table : name of the table; column : name of the column
-    row : row of the CSV file, counted from 0 without the header; None if the number is a count of rows
-    counted : if the number is a count of rows, the value in the column that these rows have
-    origin : rule that made the table and source file of the computation, as text
+    A Number is either the value in one cell of the table, or the number of rows that have a certain value in a column.
+
+    value : the number
+    table, column : names of the table and of the column
+    row : row of the cell, counted from 0 without the header; None for a number of rows
+    counted : for a number of rows, the value that these rows have in the column; otherwise None
+    origin : text that names the Snakemake rule that made the table, and the source file of the computation
     """
 
     value: float
@@ -36,7 +39,7 @@ class Number:
 
     @property
     def attributes(self):
-        """Return attributes of the HTML element that holds the number: its value, a tooltip, and its place.
+        """Return attributes of the HTML element that holds the number: value, tooltip, and place in the table.
 
         The tooltip states the line of the CSV file, counted from 1, with the header as line 1.
         """
@@ -52,11 +55,11 @@ class Number:
 
 @dataclass(frozen=True)
 class Results:
-    """The tables of a run, with their recorded settings and their origins.
+    """The tables of a run, with the settings and the code that made them.
 
     tables : {name: pandas.DataFrame}, indexed by the row of the CSV file
-    settings : {name of a table: mapping}; the mapping is empty if no settings were recorded
-    origins : {name of a table: (rule, source file)} from `table_origins`; numbers of other tables state no origin
+    settings : {name of a table: its recorded settings}; the settings are empty if none were recorded
+    origins : {name of a table: (Snakemake rule, source file)} from `table_origins`; a table may be missing here
     """
 
     tables: dict
@@ -64,7 +67,7 @@ class Results:
     origins: dict = field(default_factory=dict)
 
     def rows(self, table, **chosen):
-        """Return the rows of a table that have the values in `chosen`, {column: value}."""
+        """Return the rows of a table that have, in each column named in `chosen`, the given value."""
         rows = self.tables[table]
         return rows[(rows[list(chosen)] == list(chosen.values())).all(axis=1)]
 
@@ -74,31 +77,32 @@ class Results:
         return Number(value, table, column, int(row), origin=self.origin(table, row))
 
     def record(self, table, row):
-        """Return one row of a table as a record, {column: Number, or text}."""
+        """Return one row of a table as a dict, {column: Number or text}."""
         values = self.tables[table].loc[row].items()
         return {name: value if isinstance(value, str) else self.number(table, row, name) for name, value in values}
 
     def records(self, table, **chosen):
-        """Return the records of the rows that have the values in `chosen`, {column: value}."""
+        """Return, as dicts (see `record`), the rows that have the given value in each column named in `chosen`."""
         return [self.record(table, row) for row in self.rows(table, **chosen).index]
 
     def extremes(self, rows, table, column):
         """Return the smallest and the largest Number in a column; (None, None) if the column has no number.
 
-        rows : rows of the table that are searched
+        rows : the rows of the table to be searched
         """
         ends = rows[column].dropna().agg(["idxmin", "idxmax"]) if rows[column].notna().any() else ()
         return tuple(self.number(table, row, column) for row in ends) or (None, None)
 
     def count(self, table, column, counted):
-        """Return the number of rows with the value `counted` in a column, as a Number."""
+        """Count the rows with the value `counted` in a column, and return this count as a Number."""
         number = int((self.tables[table][column] == counted).sum())
         return Number(number, table, column, counted=counted, origin=self.origin(table))
 
     def origin(self, table, row=None):
-        """Return the rule that made a table and the source file of the computation as text, empty if unknown.
+        """Return a text that names the Snakemake rule that made a table, and the source file of the computation.
 
-        For a row of the table `claims`, the source file is the module with the criterion of this claim.
+        For a row of the table `claims`, the source file is the module that tests this claim. The text is empty if the
+        origin of the table is unknown.
         """
         if table not in self.origins:
             return ""
@@ -109,9 +113,11 @@ class Results:
 
 
 def table_origins(registry):
-    """Return {table: (rule that makes the table, source file of the computation)}.
+    """Return {table: (Snakemake rule that makes the table, source file of the computation)}.
 
-    The source file contains the function of the rule, or is the script of a rule that has no function.
+    If the registry names a function for the rule, the source file is the module of this function. Otherwise it is the
+    script of the rule.
+
     registry : section `tables` of workflow/results.yaml
     """
     origins = {}
@@ -131,7 +137,7 @@ def read_results(tables, origins):
     """Read the Results of a run: tables from CSV files, and their settings from NetCDF files.
 
     tables : {name: path of the CSV file}; the NetCDF file has the same path, except for the suffix .nc
-    origins : {name of a table: (rule, source file)} from `table_origins`
+    origins : {name of a table: (Snakemake rule, source file)} from `table_origins`
     """
     files = {name: Path(path).with_suffix(".nc") for name, path in tables.items()}
     settings = {name: read_recorded(file, "settings", missing={}) for name, file in files.items()}

@@ -23,12 +23,12 @@ from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter, check_indenter
 from viscorough.surfaces.spectrum import seed_sequence
 
-# Number of bins per octave, which is a factor of 2 between gaps. It must be a power of 2. With 64 bins per octave, the
-# width of a bin is 0.8 to 1.6 % of the gap.
+# Number of bins between any gap g and the gap 2g (an octave). It must be a power of 2. With 64 bins, the width of a bin
+# is 0.8 to 1.6 % of the gap.
 _BINS_PER_OCTAVE = 64
-# Number of octaves below the largest gap that are divided into bins. All smaller gaps share one bin.
+# Number of octaves (factors of 2) below the largest gap that are divided into bins. All smaller gaps share one bin.
 _OCTAVES = 128
-# The window function in `line_of_map` changes the power of this number of waves, the longest of the map.
+# Number of waves, the longest of a map, whose powers are changed by the window function in `line_of_map`.
 _SPOILED = 3
 # Number of counters per bin. Neighbouring points often fall into the same bin. With several counters, the processor
 # does not wait for the update by the previous point.

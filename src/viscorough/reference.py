@@ -183,9 +183,9 @@ def flat_disc_stiffness(radius: float) -> float:
 
 
 def zeta_elastic(hurst: Numbers) -> Numbers:
-    """Return the prefactor ζ ≈ π(3 − H)/10 of the stiffness κ = ζ X^α, which the paper takes from elastic contact.
+    """Return the prefactor ζ ≈ π(3 − H)/10 of the stiffness κ = ζ X^α in elastic contact (Eq. 4 of the paper).
 
-    This is Eq. 4. X = F/(4GhL) and κ = k/(4GL) are the reduced force and stiffness.
+    X = F/(4GhL) and κ = k/(4GL) are the reduced force and stiffness.
 
     Examples
     --------

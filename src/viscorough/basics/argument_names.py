@@ -47,5 +47,8 @@ def argument(name: str, value: object = None, *, of: str = "") -> str:
 
 
 def caller(function: str) -> str:
-    """Return the start of a message: "function: " in Python, "" on the command line, which adds the command's name."""
+    """Return the start of a message: "function: " in Python, and "" on the command line.
+
+    The command line itself puts the name of the command before each message.
+    """
     return spelled("", f"{function}: ")

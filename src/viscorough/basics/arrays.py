@@ -20,7 +20,7 @@ from viscorough.basics.types import Array, Mask, Numbers
 
 # Values of these types have no unit. Comparing the type is faster than looking for an attribute `units`.
 _PLAIN = {float, int, bool, str, complex, type(None), np.float64, np.ndarray}
-# Words for messages about arrays that hold no real numbers, by the attribute `kind` of the numpy.dtype.
+# Names, for messages, of values that are no real numbers: {attribute `kind` of their numpy.dtype: name}.
 _KINDS = {"b": "truth values", "c": "complex numbers", "U": "texts", "S": "texts", "m": "times", "M": "dates"}
 # Python counts these types as whole numbers (numbers.Integral), but truth values and durations are refused as numbers.
 _NO_NUMBERS = (bool, np.timedelta64)

@@ -178,8 +178,8 @@ def njit(
 
     def compile_once(argument_types: Any) -> Any:
         with _no_garbage_collection():
-            # `unliteral` replaces types of single values by general types. Otherwise numba would compile the function
-            # again for each literal number with which it is called.
+            # `unliteral` replaces the type of a literal number, such as 3, by a general type, such as int64. Otherwise
+            # numba would compile the function again for each literal number in a call.
             return compile_types(tuple(map(unliteral, argument_types)))
 
     compiled.compile = compile_once
@@ -189,7 +189,7 @@ def njit(
 @contextlib.contextmanager
 def _no_garbage_collection() -> Iterator[None]:
     """Pause Python's garbage collection within this context, because it would take a tenth of the compile time."""
-    if not gc.isenabled():  # already paused, if numba compiles this function for another function
+    if not gc.isenabled():  # already paused while numba compiles a function that calls this function
         yield
         return
     gc.disable()

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.floating[Any]]  # in double precision, except for some fields of the grid solver
+Array = NDArray[np.floating[Any]]  # array in double precision; some fields of the grid solver have single precision
 Integers = NDArray[np.integer[Any]]
 Mask = NDArray[np.bool_]
 Complex = NDArray[np.complexfloating[Any, Any]]

@@ -116,8 +116,8 @@ def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
 def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: str, name: str) -> Any:
     """Convert a force or several forces F to F/G [length²], an array of the same shape.
 
-    shear_modulus : G [Pa], with forces in N. If the unit of length is not known, G and F are in consistent units. None
-        if the given forces are already F/G
+    shear_modulus : G [Pa]; the forces are then in N. If the unit of length is not known, G and F are in consistent
+        units. None if the given forces are already F/G
 
     Raises the errors of `numbers`, and ValueError for a force with a unit if G is not given.
     """

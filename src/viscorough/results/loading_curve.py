@@ -19,8 +19,8 @@ from viscorough.basics.types import Array, Integers, Pair, Scalar
 _ROUNDING = 1e-12
 # Bound on the rounding error of the difference of two depths, relative to the larger depth.
 _CANCELLATION = 4 * np.finfo(float).eps
-# Number of bisections that find the force at a depth between two levels within rounding, even if the forces of the two
-# levels differ by a factor of up to 1e10.
+# Number of bisections for the force at a given depth between two levels. With this number the force is exact to
+# rounding, even if the forces of the two levels differ by a factor of up to 1e10.
 _HALVINGS = 90
 
 
@@ -73,8 +73,8 @@ class LoadingCurve(ReadOnlyArrays):
         and L the diameter of a disc with the same area. If the curve ends at F/G < 0.4 hL, the means are over the last
         decade of force.
     sampling : int
-        If the curve was computed on every n-th point of the map in both directions, the number n; 1 for all points.
-        Depths are counted from the highest point of the full map.
+        Number n if the curve was computed on every n-th point of the map in both directions; 1 for all points. Depths
+        are counted from the highest point of the full map.
     choice : str
         Reason for the sampling and the tolerance, if they were chosen to meet a requested error; otherwise "".
 
@@ -210,7 +210,7 @@ class LoadingCurve(ReadOnlyArrays):
         """
         unit = self.length_unit
         force = units.numbers(force, unit_power(unit, 2), unit, "force")
-        # Set forces that equal the force of the first or last level within rounding to exactly this force.
+        # A force that differs only by rounding from the first or last force of the curve is replaced by this force.
         for end in (self.force[0], self.force[-1]):
             force = np.where(np.abs(force - end) <= _ROUNDING * end, end, force)
         depth, stiffness = np.full(force.shape, np.nan), np.full(force.shape, np.nan)
@@ -251,7 +251,7 @@ class LoadingCurve(ReadOnlyArrays):
         0.01
         """
         depth = units.numbers(depth, self.length_unit, self.length_unit, "depth")
-        # Set depths that equal the depth of the first or last level within rounding to exactly this depth.
+        # A depth that differs only by rounding from the first or last depth of the curve is replaced by this depth.
         for end in (self.depth[0], self.depth[-1]):
             depth = np.where(np.abs(depth - end) <= _ROUNDING * end, end, depth)
         force = np.full(depth.shape, np.nan)
@@ -269,11 +269,12 @@ class LoadingCurve(ReadOnlyArrays):
         return np.where(np.isnan(at_force), np.nan, force), stiffness
 
     def _levels_around(self, after: Integers) -> tuple[Pair, Pair, Pair, Array]:
-        """Return forces, depths and stiffnesses at two levels, and the number of elements that touch between them.
+        """Return forces, depths and stiffnesses at the levels around each point, and the number of joining elements.
 
-        Forces, depths and stiffnesses are pairs: the values at the first and at the second of the two levels.
+        Forces, depths and stiffnesses are pairs: the values at the levels just before and just after the point of
+        interpolation. Joining elements come into contact between these two levels.
 
-        after : for each point of interpolation, index of the second level, which follows the point
+        after : for each point of interpolation, index of the level just after the point
         """
         forces, depths, stiffnesses = ((at[after - 1], at[after]) for at in (self.force, self.depth, self.stiffness))
         return forces, depths, stiffnesses, self.contact_count[after] - self.contact_count[after - 1]
@@ -302,8 +303,8 @@ def interpolate_between(
     Returns (depth, stiffness), both of shape (n,).
     """
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
-    # Depths on the tangents at the first and at the second level. Rounding errors alone could make `right` smaller than
-    # `left`, so `right` gets a small margin.
+    # `left` and `right` are the depths on the tangents at the first and at the second level. Rounding errors alone
+    # could make `right` smaller than `left`, so `right` gets a small margin.
     left, right = u0 + (force - f0) / k0, u1 - (f1 - force) / k1 + _CANCELLATION * u1
     is_left = left <= right
     tangents = np.clip(np.minimum(left, right), u0, u1)

@@ -48,10 +48,10 @@ class Indenter(ReadOnlyArrays):
     Raises
     ------
     ValueError
-        If the heights are not real numbers in one or two dimensions, contain whole numbers beyond 2**53 or infinite
-        numbers, or are all nan; if the heights of a line contain nan; if the difference of two heights is too large for
-        double precision. If a spacing is not positive, if dx and dy differ by more than a factor of five, or if dy is
-        given for a line and differs from dx. If the unit is not a text.
+        For heights that are not real numbers in one or two dimensions, contain whole numbers beyond 2**53 or infinite
+        numbers, or are all nan. For a line with nan. For heights whose difference is too large for double precision.
+        For spacings that are not positive or differ by more than a factor of five, and for a line whose row_spacing
+        differs from its spacing. For a unit that is not a text.
 
     Examples
     --------
@@ -90,7 +90,7 @@ class Indenter(ReadOnlyArrays):
             raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
         # Store heights in single or double precision, row by row, and in the byte order of this machine.
         precision = np.float32 if heights.dtype == np.float32 else np.float64
-        with np.errstate(over="ignore"):  # too large numbers become infinite, which is checked below
+        with np.errstate(over="ignore"):  # numbers that are too large become infinite, which is checked below
             heights = np.ascontiguousarray(heights, dtype=precision)
         heights.flags.writeable = False
         if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):

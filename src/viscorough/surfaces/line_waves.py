@@ -134,7 +134,7 @@ def _fill_pairs(spectrum, key, amplitude, fixed):
     See `fill_packed_spectrum` for Z, X, m and the arguments.
     """
     half, square = spectrum.size, 0.0
-    # The angle π/m, as a whole number; 2^64 is a full turn.
+    # The angle π/m, where m is `half`, as a whole number; 2^64 is a full turn.
     turn = _U64(2.0**63 / half)
     longer, shorter = np.empty((2, _BLOCK), np.float32), np.empty((2, _BLOCK), np.float32)
     rotation = np.empty((2, _BLOCK), np.float32)
@@ -236,7 +236,7 @@ def twiddle(spectrum, factor):
 
     m is the number of all complex numbers in the spectrum.
 
-    spectrum : real and imaginary parts in turn along each row, single precision, shape (rows, 2 · columns)
+    spectrum : alternating real and imaginary parts along each row, single precision, shape (rows, 2 · columns)
     factor : real number
     """
     rows, columns = spectrum.shape[0], spectrum.shape[1] // 2
@@ -250,7 +250,7 @@ def twiddle(spectrum, factor):
 def _rotate(pairs, rotation, factor):
     """Multiply complex numbers by factor · rotation, in place.
 
-    pairs : complex numbers to be multiplied, as real and imaginary parts in turn, shape (2 · columns,)
+    pairs : complex numbers to be multiplied, as alternating real and imaginary parts, shape (2 · columns,)
     rotation : complex numbers of modulus 1, with the real parts in rotation[0] and the imaginary parts in rotation[1]
     """
     for i in range(rotation.shape[1]):
@@ -264,7 +264,8 @@ def _rotate(pairs, rotation, factor):
 def _cos_sin(direction):
     """Return cosine and sine of an angle, which is given as the whole number direction = 2^32 · angle / 2π.
 
-    The angle is split into a multiple of π/2 and a rest x between -π/4 and π/4. Polynomials then give sin x and cos x.
+    The angle is split into a multiple of π/2 and a remainder x between -π/4 and π/4. Polynomials then give sin x and
+    cos x.
     """
     quadrant = _U32(_U32(direction + _U32(1 << 29)) >> _U32(30))
     x = _F32(_I32(_U32(direction << _U32(2)))) * _EIGHTH_TURN

@@ -19,7 +19,7 @@ FILL = ("none", "harmonic")
 # A map is called tilted if the fitted plane rises by more than this multiple of the rms height about the plane.
 _NOTABLE_TILT = 6
 # A height is suspicious if its distance from all other heights is more than this multiple of the range of the other
-# heights. For heights that are common marks of missing values, once the range is enough.
+# heights. For a common mark of missing values, the distance must only exceed the range.
 _FAR = 10
 # Values that instruments and programs often write for missing heights.
 _MARKS = (9999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
@@ -153,7 +153,7 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
     curvature, squared = 0.0, x**2 + y**2
     for _ in range(_MAX_ITERATIONS):
         root = np.sqrt(1 - curvature**2 * squared)
-        slope = squared / (root * (1 + root))  # derivative of the sag with respect to the curvature
+        slope = squared / (root * (1 + root))  # derivative of `_sag` with respect to the curvature
         functions = np.concatenate([plane, [slope]])[:, measured]
         tangent = _sag(curvature, squared) - curvature * slope
         values, last = _factors(functions, target - tangent[measured]), curvature

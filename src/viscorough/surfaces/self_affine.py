@@ -163,9 +163,9 @@ def self_affine_square(
 def _expected_mean_square(amplitude: Array, points: int, *, fixed: bool) -> float:
     """Return the mean square height of a square, averaged over all realizations, from Parseval's theorem.
 
-    amplitude : factors by which waves of white noise are multiplied, in the layout of a real Fourier transform. The
-        first column contains all its waves; so does the last column if the number of points is even. All other entries
-        are also the factors of the waves with opposite wave vectors
+    amplitude : factors by which waves of white noise are multiplied, in the layout of a real Fourier transform. Two
+        waves with opposite wave vectors have the same factor. The array contains both factors in the first column and,
+        for an even number of points, in the last column; in all other columns it contains only one of them
     points : number of points per period
     fixed : True if the waves of the noise have the modulus 1, False if the noise at each point has the variance 1
     """

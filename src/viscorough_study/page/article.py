@@ -1,4 +1,4 @@
-"""Make the article, results/article.pdf: fill its Typst template with the results on the page and further tables."""
+"""Make the article, results/article.pdf: fill its Typst template with the numbers of the page and further tables."""
 
 import json
 import re
@@ -125,7 +125,7 @@ def cases_by_outcome(results, claim):
 def prefactors(results, conventions):
     """Compare the prefactor ζ of the discs with the paper's Eqs. 4 and 11, at each Hurst exponent H; return a dict.
 
-    ζ depends on conventions, which are choices that the paper leaves open, such as the mean over surfaces.
+    ζ depends on conventions, which are choices that the paper leaves open, such as the kind of mean over surfaces.
 
     rows : a dict for each H, with
         value, low, high : ζ and its interval in the conventions of the figures
@@ -242,14 +242,14 @@ def _entry(title, authors, place, year):
 
 
 def control(results):
-    """Return the largest compliance g of periodic rough interfaces, as a list with a dict for each Hurst exponent.
+    """Return the rows of table `periodic` with the largest compliance g, as a list with a dict for each Hurst exponent.
 
-    The numbers are from the table `periodic` (comparisons.periodic_control).
+    g is the compliance of the rough interface on a periodic half-space (comparisons.periodic_control).
 
     hurst : Hurst exponent
     surfaces : number of surfaces
-    whole : row with the largest g among the rows for spectra without a roll-off
-    rolled : row with the largest g among the rows for spectra with a roll-off
+    whole : row with the largest g, for surfaces whose spectrum has no roll-off
+    rolled : row with the largest g, for surfaces whose spectrum has a roll-off
     """
     table, rows = results.tables["periodic"], []
     for hurst, part in table.groupby("hurst"):

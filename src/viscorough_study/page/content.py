@@ -102,8 +102,8 @@ def measured(results, conventions):
 
     The lists are empty if the run has no measured scans.
 
-    conventions : settings of the figures for choices that the paper leaves open: the mean over surfaces, and the range
-        of the fit. Only power laws for these settings are returned
+    conventions : settings of the figures for choices that the paper leaves open: the kind of mean over surfaces, and
+        the range of the fit. Only power laws for these settings are returned
     """
     if "measured_scans" not in results.tables:
         return {"scans": [], "contacts": [], "groups": []}

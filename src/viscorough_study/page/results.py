@@ -12,7 +12,7 @@ import pandas as pd
 from viscorough_study.run.tables import read_recorded, read_table
 from viscorough_study.verdicts.claims import JUDGES
 
-MAY_BE_EMPTY = ("convention", "reason", "setting")  # names of columns with texts, of which some may be empty
+MAY_BE_EMPTY = ("convention", "reason", "setting")  # columns of texts; some of these texts may be empty
 # With these options, pandas.read_csv replaces only empty fields by nan, and keeps texts such as "none".
 _ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}
 
@@ -59,7 +59,7 @@ class Results:
 
     tables : {name: pandas.DataFrame}, indexed by the row of the CSV file
     settings : {name of a table: its recorded settings}; the settings are empty if none were recorded
-    origins : {name of a table: (Snakemake rule, source file)} from `table_origins`; a table may be missing here
+    origins : {name of a table: (Snakemake rule, source file)} from `table_origins`; some tables have no entry
     """
 
     tables: dict
@@ -82,7 +82,7 @@ class Results:
         return {name: value if isinstance(value, str) else self.number(table, row, name) for name, value in values}
 
     def records(self, table, **chosen):
-        """Return, as dicts (see `record`), the rows that have the given value in each column named in `chosen`."""
+        """Return the rows that have the given value in each column named in `chosen`, as dicts (see `record`)."""
         return [self.record(table, row) for row in self.rows(table, **chosen).index]
 
     def extremes(self, rows, table, column):

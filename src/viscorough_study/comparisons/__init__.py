@@ -1,1 +1,1 @@
-"""Comparisons with the MDR, direct integration, exact solutions, other media, measured surfaces and the literature."""
+"""Comparisons of results with exact solutions, other methods and media, measured surfaces, and the literature."""

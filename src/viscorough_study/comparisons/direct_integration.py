@@ -1,9 +1,9 @@
-"""Compare direct integration of the viscous problem with the law, with and without the factor 1/Γ(2 − α).
+"""Compare direct integration of the viscous problem with the paper's law, with and without its factor 1/Γ(2 − α).
 
 Direct integration proceeds from one contact event to the next; at each event another element of the indenter touches.
 It never uses the elastic problem. If the viscous problem corresponds exactly to the elastic problem, the depth at time
 t under the force F is the elastic depth under the force GFt/η, for any topography. Eqs. (7) to (9) of the paper
-multiply this elastic depth by 1/Γ(2 − α).
+multiply this elastic depth by 1/Γ(2 − α), where α is the exponent of the stiffness k ∝ F^α.
 """
 
 import numpy as np
@@ -24,24 +24,26 @@ COLUMNS = {
 }
 # {name: (body of revolution, α of its stiffness k ∝ F^α)}. A body z ∝ rⁿ has F ∝ u^(1 + 1/n), so α = 1/(n + 1).
 BODIES = {"sphere": (reference.sphere(1.0), 1 / 3), "cone": (reference.cone(1.0), 1 / 2)}
-# Contact radii of sphere and cone: smallest radius in elements, which the grid still resolves; largest radius in units
-# of L.
+# Smallest and largest contact radius of sphere and cone. The smallest is in elements, and the grid still resolves it;
+# the largest is in units of L.
 RADII = 6, 0.35
-# Last contact fraction in the integration of sphere and cone, slightly above the fraction at the largest radius.
+# Integrate sphere and cone up to this contact fraction. It is slightly above the fraction at the largest radius.
 BODY_FRACTION = 0.4
-DISC_FRACTION = 0.5  # last contact fraction in direct integration and elastic curve of a rough disc
+DISC_FRACTION = 0.5  # contact fraction at which the integration and the elastic curve of a rough disc end
 # The comparison of a rough disc begins at this contact event: before it, too few elements touch for a power law.
 FIRST_EVENT = 10
-# The comparison of a rough disc ends at this share of the largest force that integration and elastic curve both reach.
+# The comparison of a rough disc ends at this share of the largest force that the integration and the elastic curve
+# both reach.
 LAST_FORCE = 0.9
 TOLERANCE = 1e-6  # tolerance of the elastic loading curve of a rough disc
 
 
 def compare_direct(*, hursts, elements, impulses, seed):
-    """Return ratios of the depth by direct integration to the elastic depth, a pandas.DataFrame with `COLUMNS`.
+    """Compare depths by direct integration with elastic depths; return a pandas.DataFrame with `COLUMNS`.
 
-    For sphere and cone the elastic depth is the exact solution, so the ratio includes the error of the grid. For rough
-    discs, one per Hurst exponent, the elastic depth is computed by boundary elements on the grid of the same disc.
+    For sphere and cone the elastic depth is the exact solution, so the ratio of the two depths includes the error of
+    the grid. For rough discs, one per Hurst exponent, the elastic depth is computed by boundary elements on the same
+    grid.
     hursts : Hurst exponents of the rough discs
     elements : number of elements across every indenter
     impulses : number of impulses ∫F dt/η at which the depths of an indenter are compared
@@ -65,7 +67,11 @@ def compare_direct(*, hursts, elements, impulses, seed):
 
 
 def _rows(case, alpha, events, impulse, elastic_depth):
-    """Return the table rows of one indenter, with the columns of `COLUMNS`: one row for each impulse."""
+    """Return the table rows of one indenter, one row for each impulse ∫F dt/η, with the columns of `COLUMNS`.
+
+    case : name of the indenter; alpha : exponent α of its stiffness; events : its motion by `march_events`
+    impulse : values of the impulse; elastic_depth : elastic depths at F/G equal to these values
+    """
     counts = events.contact_count[events.event_at(impulse)]
     ratios = events.depth_at(impulse) / elastic_depth
     factor = 1 / gamma_function(2 - alpha)

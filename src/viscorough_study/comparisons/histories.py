@@ -33,25 +33,26 @@ COLUMNS = {
     "deviation_coarse": ("the same with time steps twice as long", "1"),
 }
 MEDIUM = StandardLinearSolid(4.0, 1.0, 1.0)  # its shear modulus relaxes from 4 G to G with the relaxation time τ = 1
-# Durations of a ramp, or of a constant force, in units of τ: fast, as fast as the medium relaxes, and slow.
+# Durations of a ramp, or of a constant force, in units of the relaxation time τ: a fast motion, a motion about as fast
+# as the medium relaxes, and a slow motion.
 DURATIONS = 0.1, 1.0, 10.0
-RAMPS = 0.0, 1.0, 0.0, 1.0  # depths between which the ramps of a force curve lead, as shares of the largest depth
-# Time over which the depth is recorded after the force is removed, in units of τ; the retardation time is 4 τ.
+RAMPS = 0.0, 1.0, 0.0, 1.0  # depths at the ends of the ramps of a force curve, as shares of the largest depth
+# Record the depth for this time after the force is removed, in units of τ. The retardation time of the medium is 4 τ.
 RECOVERY_TIME = 10.0
-# Number of coarse time steps in every linear part of a history; fine steps are half as long.
+# Number of coarse time steps between two samples of the load. Fine steps are half as long.
 STEPS = 60
-# Largest contact fraction of the loading curves, about 165 elements of a disc with 65 elements across.
+# Largest contact fraction of the loading curves. On a disc with 65 elements across, about 165 elements then touch.
 FRACTION = 0.05
 LAST = 0.99  # the motions use the loading curve up to this share of its last depth and force
 TOLERANCE = 1e-6  # tolerance of the loading curves
 
 
 def compare_histories(*, hursts, elements, seed):
-    """Return motions by the row of springs and by direct integration, a pandas.DataFrame with `COLUMNS`.
+    """Compute motions of discs by the row of springs and by direct integration; return a table with `COLUMNS`.
 
-    There is one disc per Hurst exponent. Each disc undergoes two kinds of motion, and each kind has three durations. In
-    a force curve the depth is prescribed; the contact opens and closes again. In a recovery a constant force is
-    removed; all recoveries of a disc start at the same depth.
+    There is one disc per Hurst exponent. Each disc undergoes two kinds of motion, each with three durations. In a force
+    curve the depth is prescribed; the contact opens and closes again. In a recovery a constant force is removed; all
+    recoveries of a disc start at the same depth.
     hursts : Hurst exponents; elements : number of elements across every disc; seed : root of the discs' seeds
     """
     tables = []
@@ -69,9 +70,9 @@ def compare_histories(*, hursts, elements, seed):
 
 
 def _compare(disc, curve, load):
-    """Return {column: values} of one motion at the ends of the coarse time steps.
+    """Compute one motion by both methods; return {column: values} at the ends of the coarse time steps.
 
-    disc : rough disc with h = L = 1; curve : its LoadingCurve; load : history of force or depth
+    disc : rough disc with h = L = 1; curve : LoadingCurve of the disc; load : prescribed force or depth as a Load
     """
     fine, coarse = (_with_steps(load, number) for number in (2 * STEPS, STEPS))
     quantity = "force" if load.by_depth else "depth"
@@ -90,6 +91,6 @@ def _compare(disc, curve, load):
 
 
 def _with_steps(load, number):
-    """Return the load with `number` time steps in each of its linear parts."""
+    """Return the load with `number` equal time steps between any two of its samples."""
     parts = [np.linspace(start, end, number + 1) for start, end in pairwise(load.time)]
     return load.with_times(np.unique(np.concatenate(parts)))[0]

@@ -25,20 +25,23 @@ COLUMNS = {
     "low": ("lower end of its 95 % interval", "1"),
     "high": ("upper end of its 95 % interval", "1"),
 }
-# Columns of a value of this study. Only comparisons with Persson's law need `across`, the elements across the discs.
+# Columns that describe a value of this study. `across`, the number of elements across the discs, is needed only for
+# comparisons with Persson's law.
 OURS = ["hurst", "value", "low", "high", "across"]
 NONE = dict.fromkeys(OURS, np.nan)
-X_COMPARED = 0.01  # X, in region (b), at which lines are compared with their discs
+X_COMPARED = 0.01  # reduced force X, in region (b), at which lines are compared with their discs
 
 
 def literature(scaling, interface, reduction, *, entries, conventions):
-    """Return published values and the values of this study, a pandas.DataFrame with `COLUMNS`.
+    """Compare published values with the values of this study; return a pandas.DataFrame with `COLUMNS`.
 
-    The table has a row for every source, quantity and Hurst exponent, and is sorted by year.
+    The table has a row for every publication, quantity and Hurst exponent, and is sorted by year.
 
-    scaling, interface, reduction : tables of results with these names
+    scaling : table of fitted power laws; interface : table of fits.interface
+    reduction : table of comparisons.mdr_comparison
     entries : published findings, content of resources/literature/stiffness.yaml
-    conventions : {convention: value} of the figures (fits.conventions)
+    conventions : choices that the paper leaves open, {name of the choice: value used in the figures}
+        (fits.conventions)
     """
     fitted = fits(scaling, conventions, source="discs", case_group="base")
     alpha = {"alpha": 1 - fitted["beta"], "alpha_low": 1 - fitted["beta_high"], "alpha_high": 1 - fitted["beta_low"]}
@@ -61,18 +64,18 @@ def literature(scaling, interface, reduction, *, entries, conventions):
 
 
 def _values(table, name):
-    """Return the values and intervals of a column, as a list of dicts with the keys `OURS`, by ascending H.
+    """Return the values and intervals of one column as dicts with the keys `OURS`, sorted by ascending H.
 
-    table : table with the columns `name`, `name`_low and `name`_high
+    table : table with the columns `name` (values), `name`_low and `name`_high (intervals)
     """
     table = table.rename(columns={name: "value", f"{name}_low": "low", f"{name}_high": "high"})
     return table.reindex(columns=OURS).sort_values("hurst").to_dict("records")
 
 
 def cited(source, year):
-    """Return the citation of a source in running text: its authors and the year.
+    """Return a citation in running text: the authors (`source`) and the year.
 
-    Of more than three authors it names only the first, followed by "et al.".
+    If there are more than three authors, only the first is named, followed by "et al.".
     """
     names = source.replace(" and ", ", ").split(", ")
     return f"{source if len(names) < 4 else names[0] + ' et al.'} {year}"
@@ -81,9 +84,10 @@ def cited(source, year):
 def persson_u0(hurst, band):
     """Return u₀/h of Persson's law p ∝ exp(−u/u₀) at small pressures p, where u is the mean separation.
 
-    The factor γ that later work fitted to this law is not included. The surface has the spectrum C ∝ q^(−2−2H) at wave
-    numbers q from q₀ to ζq₀. The theory gives the elastic energy U = (π/2)E* ∫ q² C P dq per unit area. Here P is
-    erf(w p/E*), and w(q) is (π ∫ q³ C dq)^(−1/2), integrated from q₀ to q. From p du = −dU follows at small pressures
+    Later work multiplied this law by a fitted factor γ, which is not included. The surface has the spectrum
+    C ∝ q^(−2−2H) at wave numbers q from q₀ to ζq₀. The theory gives the elastic energy U = (π/2)E* ∫ q² C P dq per unit
+    area, where P = erf(w p/E*), and w(q) = (π ∫ q³ C dq)^(−1/2) is integrated from q₀ to q. With p du = −dU, the result
+    at small pressures is
 
         u₀ = √π ∫ q² C w dq = h √(H/π) ∫₁^ζ x^(−2H) [(x^(2−2H) − 1)/(2 − 2H)]^(−1/2) dx / √(1 − ζ^(−2H)).
 
@@ -100,9 +104,10 @@ def persson_u0(hurst, band):
 
 
 def _theirs(entry, row):
-    """Return the columns `theirs_low` and `theirs_high`: the range that a source states, or that its law gives.
+    """Return {"theirs_low", "theirs_high"}: the range that a publication states, or that its law gives.
 
-    entry : source in stiffness.yaml; row : values of this study, whose Hurst exponent and grid enter the law
+    entry : the publication in stiffness.yaml
+    row : a value of this study; a law is evaluated at the Hurst exponent and for the grid of this value
     """
     theirs = entry.get("theirs") or entry.get("factor") or {"low": 1.0, "high": 1.0}
     laws = {"exponent_alpha": reference.exponent_alpha(row["hurst"]), "persson_u0": _persson(row)}
@@ -111,8 +116,9 @@ def _theirs(entry, row):
 
 
 def _persson(row):
-    """Return u₀/h of Persson's law without γ for the wavelengths on the grid of `row`; nan if `row` has no grid.
+    """Return u₀/h of Persson's law without the factor γ, for all wavelengths that the grid of `row` resolves.
 
-    The wavelengths extend from the diameter of the disc to the width of two elements.
+    These wavelengths extend from the diameter of the disc to the width of two elements. The result is nan if `row`
+    names no grid.
     """
     return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["across"]) else np.nan

@@ -37,22 +37,22 @@ COLUMNS = {
     "chance": ("bound within which 95 % of the correlations of as many unrelated pairs lie, ±", "1"),
     "realizations": ("realizations", "1"),
 }
-FORCE_MARGIN = 1.01  # ratio of the largest force of a disc's loading curve to the largest force of the comparison
+FORCE_MARGIN = 1.01  # the loading curve of a disc ends at this multiple of the largest force of the comparison
 
 
 def compare_reduction(*, hursts, elements, realizations, tolerance, seed, **abscissae):
-    """Compare lines with discs of the same spectrum; return a pandas.DataFrame with the columns of `COLUMNS`.
+    """Compare MDR lines with discs of the same spectrum; return a pandas.DataFrame with the columns of `COLUMNS`.
 
     Each disc has diameter and rms height 1, and is cut from a periodic square whose side is one period.
 
     hursts : Hurst exponents; realizations : number of discs for each Hurst exponent
     elements : number of elements across a disc
     tolerance : tolerance of the loading curves of the discs; seed : root of the surfaces' seeds
-    abscissae : x_low, x_high and per_decade, the range of X and the number of X per decade
-    The table omits every X beyond the end of any loading curve of this Hurst exponent.
+    abscissae : x_low, x_high and per_decade; range and number per decade of the values of X = F/(4GhL)
+    The table omits an X if any loading curve of the same Hurst exponent ends at a smaller X.
     """
     x, tables = abscissa(abscissae["x_low"], abscissae["x_high"], abscissae["per_decade"]), []
-    force = 4 * x  # values of F/G, which is 4hLX with h = L = 1
+    force = 4 * x  # F/G = 4hLX, with h = L = 1
     force_with_gap = np.where(is_power_of_ten(x), force, np.nan)
     for hurst in hursts:
         compared = []
@@ -71,15 +71,15 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, **absc
 
 
 def _compare(disc, line, force):
-    """Return four logarithms, each at all forces on the disc.
+    """Compare a line with its disc; return the logarithms of four quantities, each of shape (forces,).
 
-    They are ln κ of the disc; ln κ of the line; ln of the ratio of the line's contact fraction to the disc's; and ln of
-    the ratio of the line's force to the disc's, where the line has the depth of the disc.
+    The quantities are κ of the disc, κ of the line, the ratio of their contact fractions (line to disc), and the ratio
+    of their forces (line to disc) at equal depths. The first three are taken at equal forces.
     disc, line : loading curves; force : F/G on the disc, shape (forces,)
     """
     (depth, stiffness), log_force = disc.at_force(force), np.log(force)
     fractions = [np.interp(log_force, np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)]
-    # Up to the first level of the line its force is proportional to the depth.
+    # Below the first point of the line's loading curve, the force is proportional to the depth.
     straight = np.minimum(np.log(depth / line.depth[0]), 0)
     line_force = straight + np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
     logarithms = np.log([stiffness / 4, line.at_force(force)[1] / 4])
@@ -96,10 +96,11 @@ def mean_gaps(indenter, curve, force, tolerance):
     """Return the gap between indenter and deformed surface, averaged over all elements; shape (forces,) [length].
 
     indenter : map or line; curve : its LoadingCurve; force : F/G, shape (forces,)
-    tolerance : tolerance of the contacts of a map, which are solved at the depths of the curve at these forces
-    The mean gap of a line is ⟨g⟩ − u + F/(4GL), where g is the gap before loading and u the depth: springs in contact
-    deflect by u − g, and the mean deflection of all springs is F/(4GL). The gap is nan if the force is nan or beyond
-    the end of the curve.
+    tolerance : tolerance of the contact problems of a map
+    The contact problems of a map are solved at the depths that the curve has at the given forces. The mean gap of a
+    line is ⟨g⟩ − u + F/(4GL), where g is the gap before loading and u the depth: springs in contact deflect by u − g,
+    and the mean deflection of all springs is F/(4GL). The gap is nan if the force is nan or beyond the end of the
+    curve.
     """
     depth, _ = curve.at_force(force)
     if indenter.heights.ndim == 1:
@@ -113,10 +114,11 @@ def mean_gaps(indenter, curve, force, tolerance):
 
 
 def _table(hurst, x, compared):
-    """Return the table rows of one Hurst exponent: a row for each X with all quantities defined, except the gap.
+    """Return the table rows of one Hurst exponent, one row for each X. An X with undefined results is omitted.
 
-    compared : results of `_compare`, then ln of the ratio of the line's mean gap to the disc's; shape (realizations, 5,
-        abscissae)
+    Only the mean gap may be undefined.
+    compared : for each disc the four results of `_compare`, and ln of the ratio of the mean gaps (line to disc); shape
+        (realizations, 5, abscissae)
     """
     disc, line, fraction, force, gap = np.moveaxis(compared, 1, 0)
     number = len(compared)
@@ -129,7 +131,8 @@ def _table(hurst, x, compared):
         "stiffness_scatter": (line - disc).std(axis=0, ddof=1),
         "force_ratio": np.exp(force.mean(axis=0)),
         "correlation": correlation,
-        "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,  # Fisher's transform gives the bound
+        # Bound of 95 % of the correlations of independent pairs, by Fisher's transform.
+        "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,
         "realizations": number,
     }
     for name, ratios in (("stiffness_ratio", line - disc), ("area_ratio", fraction), ("gap_ratio", gap)):

@@ -1,12 +1,13 @@
-"""Compare mean curves of lines and discs of equal H: λ(X), the error of a constant λ, and exponents in equal windows.
+"""Compare the mean curves of MDR lines with the mean curves of discs of the same Hurst exponent H.
 
-The factor λ of C1D = λ q C2D (Eq. 13) relates the spectrum of a line of the MDR to the spectrum of the discs. All
-curves are means over ensembles. The best single λ of a Hurst exponent minimizes the largest error of vt/h in region (b)
-of the discs, so no other λ(H) does better there.
+The factor λ of C1D = λ q C2D (Eq. 13) relates the spectrum of a line of the MDR to the spectrum of the discs. The
+comparison has three results: λ as a function of X, the error of vt/h with a constant λ, and the difference of the
+exponents β of lines and discs. All curves are means over ensembles. The best single λ of a Hurst exponent minimizes the
+largest error of vt/h in region (b) of the discs, so no other λ(H) does better there.
 
 The scatter of the surfaces always enlarges the largest error and the range of λ(X). Claims are therefore judged by
 straight lines, which are fitted to ln λ and to the error of ln(vt/h) as functions of ln X. The rise of a straight line
-can have either sign, so its interval is free of this bias.
+can be positive or negative, so scatter does not bias its interval.
 """
 
 import numpy as np
@@ -17,7 +18,7 @@ from viscorough_study.fits.intervals import described, three_columns, with_inter
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, named_windows
 
-# An X of the curves is used if at least this fraction of the discs has a value there: all of them, within rounding.
+# Use an X only if at least this fraction of the discs has a value there, which means all discs, within rounding.
 FRACTION_KEPT = 1 - 1e-9
 REALIZATIONS = ("realizations: the smaller of the numbers of discs and lines", "1")
 
@@ -49,10 +50,11 @@ TABLES = {"mdr_lambda": LAMBDA_COLUMNS, "mdr_summary": SUMMARY_COLUMNS, "mdr_exp
 
 
 def mdr_tables(discs, lines, *, seed, fit, conventions):
-    """Return the tables of `compare_ensembles` for the base discs and the lines of two pools (ensembles.pool).
+    """Compare the base discs, which all figures use, with the MDR lines; return the tables of `compare_ensembles`.
 
+    discs, lines : pools of the loading curves of discs and lines (ensembles.pool)
     fit : number of bootstrap resamples, and settings of region (b)
-    conventions : {"average": average of discs and lines, "rms_convention": rms convention of the discs}
+    conventions : {"average": kind of mean over discs or lines, "rms_convention": where h of the discs is measured}
     """
     lines = lines.isel(realization=np.flatnonzero(np.isin(lines["hurst"], discs["hurst"])))
     discs = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
@@ -61,14 +63,14 @@ def mdr_tables(discs, lines, *, seed, fit, conventions):
 
 
 def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
-    """Return the three tables that compare discs with lines, {name: table}, with the names and columns in `TABLES`.
+    """Compare discs with MDR lines; return three tables, {name: table}, with the names and columns in `TABLES`.
 
-    discs, lines : {H: ensemble (ensembles.averages) in one rms convention}; all ensembles have the same abscissae. Only
-        Hurst exponents that discs and lines share are compared
+    discs, lines : {H: ensemble (ensembles.averages)}, with a single rms height h per surface, and the same abscissae X
+        in all ensembles. Only Hurst exponents that discs and lines share are compared
     average, resamples, seed : arguments of the bootstrap, see viscorough_study.fits.power_law.fit_power_law
     limits : arguments of viscorough_study.fits.power_law.named_windows
-    If the discs have no region (b), the table of λ has no rows for this Hurst exponent, and the values of the summary
-    are nan. A difference of exponents is nan if discs or lines lack the window.
+    If the discs of a Hurst exponent have no region (b), the table of λ has no rows for this exponent, and the values of
+    the summary are nan. A difference of exponents is nan if the window does not exist for the discs or for the lines.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, {name: [] for name in TABLES}
     for hurst in sorted(set(discs) & set(lines)):
@@ -84,10 +86,11 @@ def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
 
 
 def _lambda_rows(discs, lines, window, number, **bootstrap):
-    """Return the rows of table mdr_lambda, one for each X, and the row of mdr_summary, for one Hurst exponent.
+    """Compare λ and velocities of one Hurst exponent; return the rows of mdr_lambda and the row of mdr_summary.
 
-    window : region (b) of the discs as (X_low, X_high), or None
-    number : the smaller of the numbers of discs and lines
+    The table mdr_lambda has one row for each X.
+    window : region (b) of the discs as (X_low, X_high); None if the discs have no region (b)
+    number : number of discs or number of lines, whichever is smaller
     """
     if window is None:
         return [], {}
@@ -120,12 +123,12 @@ def _rise(x, values):
 
 
 def _exponent_rows(discs, lines, windows, number, *, seed, **bootstrap):
-    """Return the rows of table mdr_exponents for one Hurst exponent: a row for each of `WINDOWS`.
+    """Compare exponents β of one Hurst exponent; return a row of the table mdr_exponents for each of `WINDOWS`.
 
-    The row of a window that discs or lines do not have contains only its name.
+    If a window does not exist for the discs or for the lines, its row contains only the name of the window.
 
-    windows : windows of the discs and windows of the lines, each from `named_windows`
-    number : the smaller of the numbers of discs and lines
+    windows : windows of the discs, and windows of the lines, each as returned by `named_windows`
+    number : number of discs or number of lines, whichever is smaller
     """
     regions, kappa = ([rules[rule] for rules in windows] for rule in ("default", "kappa"))
     # Different seeds make the bootstrap samples of discs and lines independent.

@@ -1,11 +1,13 @@
-"""Compare error and cost of every model of the mean of many surfaces: boundary elements on grids, the MDR, the law.
+"""Compare error and cost of every model of the mean velocity of many surfaces.
 
-The exact mean is the geometric mean of all discs on the finest grid; the law, which describes arithmetic means, is
-compared with the arithmetic mean of the same discs. If a model averages the velocities of n surfaces, its error is
-√⟨b² + s²/n⟩. Here b is the deviation of the model's mean from the exact mean, less the part that the scatter of the
-realizations explains, and s is the standard deviation among single surfaces. Both refer to ln(vt/h) at fixed
-X = Ft/(4ηhL), and ⟨ ⟩ is the mean over X from 0.01 to 1. A model that needs no surfaces has the error b. The processor
-time is n times the time of one curve (performance.one_surface).
+The models are boundary elements on several grids, lines of the MDR, and the law of the library. The exact mean is the
+geometric mean over all discs on the finest grid. The law describes arithmetic means, so it is compared with the
+arithmetic mean over the same discs.
+
+If a model averages the velocities of n surfaces, its error is √⟨b² + s²/n⟩, where ⟨ ⟩ is the mean over X = Ft/(4ηhL)
+from 0.01 to 1. At each X, s is the standard deviation of ln(vt/h) among single surfaces, and b is the deviation of the
+model's mean of ln(vt/h) from the exact mean, less the part that the scatter of the realizations explains. A model that
+needs no surfaces has the error b. The processor time is n times the time of one curve (performance.one_surface).
 """
 
 import numpy as np
@@ -19,7 +21,7 @@ from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, PAPER
 
 X = (0.01, 1.0)
 SURFACES = (1, 4, 16, 64, 256)
-# Tolerance of the loading curves whose times are used. Curves of finer tolerance have the same mean
+# Use the processor times of loading curves with this tolerance. Curves with finer tolerances have the same mean
 # (docs/verification.md).
 TOLERANCE = 1e-2
 COLUMNS = {
@@ -34,11 +36,12 @@ COLUMNS = {
 
 
 def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *, conventions):
-    """Return error and cost of every model of the mean, a pandas.DataFrame with the columns of `COLUMNS`.
+    """Compute error and cost of every model of the mean; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    discs, lines, size_discs : pools (ensembles.pool); size_discs has grids from coarse to fine
+    discs, lines, size_discs : pools (ensembles.pool) of discs, of MDR lines, and of discs on grids from coarse to fine
     mdr_lambda, scaling, one_surface : tables of results with these names
-    conventions : {convention: value} of the figures (fits.conventions)
+    conventions : choices that the paper leaves open, {name of the choice: value used in the figures}
+        (fits.conventions)
     """
     rms = conventions["rms_convention"]
     base = ensembles(select(discs, group="base"), "hurst", rms_convention=rms)
@@ -77,7 +80,7 @@ def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *,
 
 
 class _Mean:
-    """Mean and scatter of ln(vt/h) of an ensemble, at the X from 0.01 to 1 that are compared."""
+    """Mean and scatter of ln(vt/h) over the surfaces of an ensemble, at the values of X from 0.01 to 1."""
 
     def __init__(self, ensemble):
         here = (ensemble["x"].values >= X[0] * 0.999) & (ensemble["x"].values <= X[1] * 1.001)
@@ -88,13 +91,13 @@ class _Mean:
 
     @property
     def scatter(self):
-        """Return the standard deviation of ln(vt/h) among single surfaces, a root mean square over X."""
+        """Return the standard deviation of ln(vt/h) among single surfaces, as a root mean square over all X."""
         return float(np.sqrt(np.nanmean(self.variance)))
 
     def deviation(self, other):
-        """Return the deviation of another mean from this mean, a root mean square over X.
+        """Return the root mean square over all X of the difference between another mean and this mean.
 
-        The part that the scatter of the two ensembles explains is subtracted.
+        The part of the difference that the scatter of the two ensembles explains is subtracted.
         """
         by_chance = self.variance / self.number + other.variance / other.number
         return float(np.sqrt(max(np.nanmean((other.logarithm - self.logarithm) ** 2 - by_chance), 0.0)))
@@ -112,10 +115,10 @@ def _grid_time(times, across):
 
 
 def _line_time(times, points):
-    """Return the processor time of a line with this number of points.
+    """Estimate the processor time of an MDR line with the given number of points from the lines that were timed.
 
-    It is the time of the timed line with the nearest number of points. If the requested line has more points, the time
-    is increased in proportion to them.
+    The timed line with the nearest number of points is used. If the requested line has more points, the time is
+    increased in proportion to the number of points.
     """
     timed = times[times["model"] == MDR]
     nearest = timed.loc[np.abs(np.log(timed["value"] / points)).idxmin()]
@@ -123,9 +126,9 @@ def _line_time(times, points):
 
 
 def _exponent_rows(hurst, scaling, conventions, lines, times):
-    """Yield table rows with the errors of exponents β in region (b), relative to β of the discs.
+    """Yield a table row with the error of the exponent β in region (b), relative to β of the discs, for each model.
 
-    Yields nothing if the discs have no region (b).
+    No rows are yielded if the discs have no region (b).
     """
     discs = fits(scaling, conventions, source="discs", case_group="base").set_index("hurst")["beta"]
     if not np.isfinite(exact := discs.get(hurst, np.nan)):

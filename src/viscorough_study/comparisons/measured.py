@@ -1,4 +1,4 @@
-"""Make the tables of measured surfaces: their lengths, power laws of groups of them, kinetics, and elastic contacts."""
+"""Make the tables of measured surfaces: lengths, power laws of groups of scans, kinetics, and elastic contacts."""
 
 import json
 import logging
@@ -45,8 +45,8 @@ CONTACTS = {
     "group": ("group of scans", None),
     **SI_COLUMNS,
 }
-# Settings of a scan that, together with its file of heights, determine its rows in the table of contacts: settings for
-# reading the file, and the load.
+# Settings for reading the file of a scan, and settings of the load. Together with the content of the file, they
+# determine the rows of the scan in the table of contacts.
 _READING = ("spacing", "unit", "preparation")
 _LOADING = ("forces", "young_modulus", "poisson_ratio")
 
@@ -86,14 +86,15 @@ def _evaluated_scan(scan):
 
 
 def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):
-    """Return three tables of measured surfaces, {"measured_scans", "measured_fits", "measured_kinetics": table}.
+    """Return the tables of scans, fits and kinetics of measured surfaces, as {name: pandas.DataFrame}.
 
-    Their columns are `COLUMNS`, fit_table.COLUMNS and `KINETICS`, in this order.
+    The names are "measured_scans", "measured_fits" and "measured_kinetics". The columns are `COLUMNS`,
+    fit_table.COLUMNS and `KINETICS`, in this order.
     pool : pool of all scans (ensembles.pool)
-    curves, names, forces : for each scan, the Content of the file of its loading curve, its name, and a list of its
-        forces [N]
+    curves : for each scan, the Content of the file that stores its loading curve
+    names, forces : for each scan, its name, and a list of its forces [N]
     fit : settings in section `scaling`; seed : seed of the bootstrap of the fits
-    loading : media and times, arguments of `measured_motions`
+    loading : the arguments `media` and `times` of `measured_motions`
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
     for name, batch, scan_forces in zip(names, curves, forces, strict=True):
@@ -111,12 +112,12 @@ def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):
 
 
 def measured_motions(curve, forces, *, media, times):
-    """Return tables of time, depth and velocity of a measured surface, one for each medium and constant force.
+    """Return tables of time, depth and velocity of a measured surface, one table for each medium and constant force.
 
     curve : LoadingCurve of the surface; forces : constant forces [N]
     media : mappings, each with a name and the parameters of a medium (io.medium_files)
     times : {"low", "high", "per_decade"}, the range [s] and the number per decade of the times
-    Times at which the depth lies beyond the end of the curve are omitted. A table that has no times left is left out.
+    Times at which the depth lies beyond the end of the curve are omitted. If no time remains, there is no table.
     """
     tables = []
     for (name, medium), force in product(named_media(media).items(), forces):

@@ -28,19 +28,19 @@ COLUMNS = {
     "exponent": ("local exponent d ln(vt/h)/d ln t, fitted over a quarter of a decade to either side", "1"),
     "realizations": ("realizations in the mean", "1"),
 }
-HALF_WIDTH = 0.25  # the fit of a local exponent extends over this many decades of time to either side
+HALF_WIDTH = 0.25  # the fit of a local exponent at a time extends over this many decades to either side of this time
 
 
 def named_media(cases):
-    """Return {name: medium} of mappings, each with a name and the parameters of a medium (io.medium_files)."""
+    """Return {name: medium} for mappings that contain a name and the parameters of a medium (io.medium_files)."""
     return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
 
 
 def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
-    """Return the `media_table` of the loading curves in batch files.
+    """Return the `media_table` of loading curves that are stored in files (ensembles.batches).
 
-    curves : iterable of the Content of each file; discs : names of the cases whose discs are used
-    rms_convention : convention of the rms height h (fits.conventions); force : F [N]
+    curves : iterable of the Content of each file; discs : names of the ensembles of discs that are used
+    rms_convention : where the rms height h is measured (fits.conventions); force : F [N]
     cases : media, as mappings for `named_media`
     times : {"low", "high", "per_decade"}, the range [s] and the number per decade of the times
     """
@@ -58,14 +58,14 @@ def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
 
 
 def media_table(ensembles, media, *, force, times):
-    """Return means over the realizations of every ensemble in every medium, a pandas.DataFrame with `COLUMNS`.
+    """Average the motion over each ensemble in each medium; return a pandas.DataFrame with `COLUMNS`.
 
-    ensembles : {H: groups of realizations}. A group is (curves, rms heights [m], diameter [m]); its loading curves were
+    ensembles : {H: groups of surfaces}. A group is (loading curves, rms heights [m], diameter [m]); all its curves were
         computed up to the same X
     media : {name: medium of viscorough.media.kinds} in Pa and s; force : F [N]
-    times : t > 0, logarithmically uniform [s]
-    A curve reaches a time if the depth at this time is on the curve. The mean at a time includes a group if all
-    its curves reach this time. Times that no group reaches are omitted, and so are times with a velocity of 0. X is
+    times : times t > 0, logarithmically uniform [s]
+    A curve reaches a time if the depth at this time is on the curve. The mean at a time contains only groups whose
+    curves all reach this time. The table omits times that no group reaches, and times at which a velocity is 0. X is
     computed with the mean rms height.
     """
     parts = []
@@ -92,7 +92,10 @@ def media_table(ensembles, media, *, force, times):
 
 
 def _motions(curves, rms, _, medium, *, force, times):
-    """Return u/h and vt/h of a group of curves, each of shape (curves, times); nan if not all curves reach a time."""
+    """Return u/h and vt/h of a group of loading curves, each of shape (curves, times).
+
+    The values at a time are nan unless all curves of the group reach this time.
+    """
     time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
     depth, velocity = np.full((2, len(curves), times.size), np.nan)
     for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
@@ -103,7 +106,7 @@ def _motions(curves, rms, _, medium, *, force, times):
 
 
 def reached_times(last, force, medium, times):
-    """Return the times at which the depth under a constant force is on a loading curve, that is F J(t) <= last.
+    """Return those of the `times` at which the depth under a constant force F is on a loading curve: F J(t) <= last.
 
     last : F/G at the end of the loading curve; J : creep compliance of the medium
     """

@@ -1,12 +1,12 @@
 """Check the model of interface and flat punch in series (fits.interface) on a periodic half-space, which has no punch.
 
 The periodic surfaces have the same spectra as the discs. If p is the mean pressure and ū the mean separation, the
-compliance of the interface is g_per = −dū/(h d ln p); there is no compliance of a punch to subtract. The contribution
-of the interface to vt/h of a disc is g. If g is a property of the interface alone, g and g_per are equal at the same
-mean pressure, p/E* = (4/π) X h/L. If g_per is constant, the pressure is exponential in the separation, like in
-Persson's theory, with u₀/h = g_per; for extended surfaces u₀/h = 0.4 is quoted from Pastewka et al. (Phys. Rev. E 87,
-062809 (2013)). If the spectrum has a roll-off, g_per is largest at a larger X. Therefore the largest values of g_per
-are compared, not the values at the same X.
+compliance of the interface is g_per = −dū/(h d ln p); there is no compliance of a punch to subtract. For a disc, g is
+the contribution of the interface to vt/h. If g is a property of the interface alone, g and g_per are equal at the same
+mean pressure, p/E* = (4/π) X h/L. If g_per is constant, the pressure is exponential in the separation, as in Persson's
+theory, with u₀/h = g_per. For extended surfaces, the value u₀/h = 0.4 is quoted from Pastewka et al. (Phys. Rev. E 87,
+062809 (2013)). If the spectrum has a roll-off, the maximum of g_per is at a larger X. Therefore the maxima of g_per are
+compared, not the values at the same X.
 
 The contact problem is solved by conjugate gradients, projected on pressures that are nowhere negative and have the mean
 p (Polonsky & Keer, Wear 231, 206 (1999)). In Fourier space the displacement is the pressure times 2/(E*|q|), and 0 at
@@ -25,7 +25,7 @@ from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
 from viscorough_study.run.seeds import periodic_key, realization_seed
 
-# Tolerance of the gap in units of the rms height. A tolerance ten times smaller changes g by less than 1e-4.
+# Tolerance of the gap in units of the rms height. A tolerance ten times smaller changes g_per by less than 1e-4.
 TOLERANCE = 1e-3
 ITERATIONS_MAX = 5000
 COLUMNS = {
@@ -38,14 +38,16 @@ COLUMNS = {
 
 
 def periodic_control(*, hursts, points, surfaces, roll_off, seed, **levels):
-    """Return g_per at several X, for spectra with and without a roll-off, a pandas.DataFrame with `COLUMNS`.
+    """Compute the compliance g_per of periodic surfaces at several X; return a pandas.DataFrame with `COLUMNS`.
+
+    The surfaces have spectra with and without a roll-off.
 
     points : points along a side of the square; surfaces : number of surfaces for each Hurst exponent and spectrum
     roll_off : {"wavelength": roll-off wavelength as a share of the period, "level": roll_off_level of
         self_affine_square}
     seed : root of the surfaces' seeds
-    levels : x_low, x_high and per_decade, the range and the number per decade of the levels X of the contacts; g_per is
-        a difference quotient between neighbouring levels
+    levels : x_low, x_high and per_decade; range and number per decade of the X at which contacts are solved. g_per is
+        the difference quotient between neighbouring X
     """
     x, tables = abscissa(levels["x_low"], levels["x_high"], levels["per_decade"]), []
     rolled_off = {"roll_off_wavelength": points * roll_off["wavelength"], "roll_off_level": roll_off["level"]}
@@ -74,12 +76,12 @@ def mean_separations(heights, pressures):
 
 
 def periodic_contact(heights, start, tolerance=TOLERANCE):
-    """Return mean separation and pressures of the contact that has the same mean pressure as `start`.
+    """Solve the periodic contact with the mean pressure of `start`; return its mean separation and its pressures.
 
     heights : shape (n, n), mean 0, in any unit; the separation and the tolerance have the same unit
     start : first guess of the pressures, as p L/E* in this unit, shape (n, n)
-    Raises ConvergenceError if after ITERATIONS_MAX iterations an overlap, or the gap at an element with pressure, is
-    still above the tolerance.
+    Raises ConvergenceError if ITERATIONS_MAX iterations do not reduce all overlaps, and all gaps at elements under
+    pressure, to the tolerance.
     """
     n, mean, pressure = len(heights), start.mean(), start
     waves = 2 * np.pi * np.hypot(fft.fftfreq(n, 1 / n)[:, None], fft.rfftfreq(n, 1 / n))

@@ -1,8 +1,8 @@
 """Find the cheapest of all measured models that answers a question within an allowed error.
 
-The error and the processor time of a model are its largest values at any Hurst exponent of the tables, so a model that
-suffices does so for every H. The error of a model of one surface is its deviation from the full map, the map of all
-points. The full map does not deviate from itself; its error is the error that it states for its own grid.
+The error and the processor time of a model are its largest values at any Hurst exponent of the tables. A sufficient
+model is therefore sufficient for every Hurst exponent. The error of a model of one surface is its deviation from the
+full map, the map of all points. The error of the full map itself is the error that it estimates for its own grid.
 """
 
 import pandas as pd
@@ -10,7 +10,8 @@ import pandas as pd
 from viscorough_study.run.names import CONTACT, GRID, LAW, MDR, MDR_FITTED, MDR_PI, PAPER, REQUEST
 from viscorough_study.run.readable import readable
 
-# Questions: (text, table of the models' errors, quantity in this table, allowed relative errors).
+# Each question is a tuple: text, name of the table with the models' errors, quantity in this table, and allowed
+# relative errors.
 QUESTIONS = (
     ("mean exponent β", "mean", "exponent", (0.05,)),
     ("mean velocity", "mean", "velocity", (0.05,)),
@@ -32,7 +33,7 @@ COLUMNS = {
 
 
 def sufficient_models(one_surface, mean_accuracy):
-    """Return the cheapest sufficient model for every question and allowed error, a pandas.DataFrame with `COLUMNS`.
+    """Find the cheapest sufficient model for every question and allowed error; return a table with `COLUMNS`.
 
     one_surface, mean_accuracy : tables of performance.one_surface and comparisons.mean_of_surfaces
     """
@@ -57,10 +58,11 @@ def sufficient_models(one_surface, mean_accuracy):
 
 
 def _judged_by_itself(table):
-    """Return the table of one surface, with the error that the full map states instead of its deviation.
+    """Replace the error of the full map by its own estimate of this error, and return the changed table.
 
-    The full map is the map of all points; the errors of all other models are deviations from it. It states only an
-    error of the velocity; its rows of other quantities are dropped.
+    The full map is the map of all points; the errors of all other models are deviations from the full map. The full map
+    estimates only the error of its velocity, so its rows of other quantities are dropped.
+    table : table of performance.one_surface
     """
     full = (table["model"] == GRID) & (table["across"] == table["across"].max())
     stated = table["stated"].where(table["quantity"] == "velocity")
@@ -69,7 +71,7 @@ def _judged_by_itself(table):
 
 
 def _over_hurst(table):
-    """Return the models that were measured at all Hurst exponents, with their largest error and time at any of them."""
+    """Return the models that were measured at all Hurst exponents, each with its largest error and its largest time."""
     keys = ["model", "across", "parameter", "value"] if "parameter" in table else ["model", "across", "surfaces"]
     if "parameter" in table:
         table = table.assign(across=table["across"].where(table["model"] != REQUEST))
@@ -80,7 +82,7 @@ def _over_hurst(table):
 
 
 def _names(row):
-    """Return two texts for a model: its name, a function of the library or a formula, and its setting.
+    """Return two texts for a model: its name (a function of the library, or a formula) and its setting.
 
     row : row of a model from `_over_hurst`
     """

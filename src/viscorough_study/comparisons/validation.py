@@ -25,7 +25,7 @@ RADII = np.linspace(0.2, 0.45, 26)  # contact radii of the comparison, in units 
 ELLIPSES = np.linspace(0.3, 0.5, 11)
 # Force F and viscosity η of the viscous cases. F/η is far from 1, so an error in the use of F or η would show.
 FORCE, VISCOSITY = 10.0, 1e6
-TOLERANCE = 1e-5  # tolerance of the contact problems on bodies and punches
+TOLERANCE = 1e-5  # tolerance of the contact problems with sphere, cone and flat punches
 ROUGH = {"hurst": 0.7, "seed": 1}  # arguments of self_affine_disc for the rough disc
 # Direct integration of the rough disc ends after this many contact events; more events would add no information.
 EVENTS = 600
@@ -38,7 +38,7 @@ CORRESPONDENCE_TOLERANCE = 1e-11  # tolerance of the elastic curve that is compa
 # a given impulse have the orders of force and stiffness. Direct integration and the correspondence principle are both
 # exact on the same grid, so their deviation has the order 0.
 ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "punch_stiffness": 1, "correspondence": 0}
-GRIDS_FOR_ORDER = 3  # smallest number of grids to which an order is fitted
+GRIDS_FOR_ORDER = 3  # an order of convergence is fitted only to at least this number of grids
 
 COLUMNS = {
     "case": ("body and method", ""),
@@ -53,15 +53,15 @@ COLUMNS = {
 
 
 def validation_table(elements, limits, order_margin):
-    """Return errors and observed orders of every case on every grid.
+    """Return errors and observed orders of convergence of every case (body and method) on every grid.
 
     elements : numbers of elements n across L, each at least 9
     limits : {quantity: largest relative error allowed on the finest grid}, for all quantities in `ORDERS`
-    order_margin : largest allowed difference of the expected order and the observed order
+    order_margin : the observed order may lie below the expected order by at most this amount
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per case, quantity and grid, grids from coarse to
     fine. `passed` is 1 if the error on the finest grid is within its limit and, for three grids or more, the order is
-    within the margin.
+    high enough.
     """
     errors = [
         (case, quantity, n, error)
@@ -73,7 +73,7 @@ def validation_table(elements, limits, order_margin):
 
 
 def judge_errors(errors, limits, order_margin):
-    """Fit the orders of given errors, and return the table of `validation_table` with its verdicts.
+    """Fit orders of convergence to given errors; return the table of `validation_table`, with the column `passed`.
 
     errors : the columns of `COLUMNS` up to "error"; rows of a case and quantity are sorted from coarse to fine grids
     limits, order_margin : arguments of `validation_table`
@@ -89,7 +89,10 @@ def judge_errors(errors, limits, order_margin):
 
 
 def failures(table, order_margin):
-    """Return a line of text for each failed case and quantity of a validation table: error, order and their limits."""
+    """Return one line of text for each failed case and quantity of a validation table.
+
+    The line states the error, the observed order, and the limits of both.
+    """
     finest = table[(table["passed"] == 0) & (table["elements"] == table["elements"].max())]
     return [
         f"{row.case} {row.quantity}: error {row.error:.2g} on {row.elements} elements, order {row.order:.2g}; "
@@ -99,7 +102,7 @@ def failures(table, order_margin):
 
 
 def _errors_on_grid(n):
-    """Yield (case, {quantity: error}) for every case on the grid with n elements across L."""
+    """Yield (case, {quantity: error}) for every case (body and method) on the grid with n elements across L."""
     for name, body in BODIES.items():
         indenter = body.indenter(n)
         yield name, _indentation(indenter, body)
@@ -126,10 +129,11 @@ def _flat_punches(n):
 
 
 def _correspondence(disc):
-    """Return the deviation of direct integration from the correspondence principle on a rough disc.
+    """Return the deviation of direct integration from the correspondence principle, for a rough disc.
 
-    By the principle, the disc reaches a depth at an impulse ∫F dt/η equal to F/G of the elastic disc at this depth.
-    The result compares this depth with the depth that direct integration gives at this impulse.
+    The elastic problem gives F/G at several depths. By the principle, the viscous disc reaches these depths when the
+    impulse ∫F dt/η equals F/G. The result is the relative deviation of the depths by direct integration at these
+    impulses.
     """
     events = march_events(disc, until_fraction=min(1.0, EVENTS / disc.elements))
     depth = np.unique(events.depth[1:])[::EVENTS_APART]
@@ -138,7 +142,10 @@ def _correspondence(disc):
 
 
 def _indentation(indenter, body):
-    """Return the errors of force, stiffness and area by boundary elements, at given depths of the exact solution."""
+    """Return the errors of force, stiffness and contact area by boundary elements.
+
+    The depths are the exact depths for the contact radii `RADII`.
+    """
     depth = body.mdr_profile(RADII)
     curve = indent(indenter, depths=depth, tolerance=TOLERANCE)
     return {
@@ -151,10 +158,10 @@ def _indentation(indenter, body):
 def _penetration(indenter, body):
     """Yield (force history, {quantity: error}) for viscous motions computed from a loading curve.
 
-    The levels of the curve are placed automatically. The history "constant" has F = FORCE until time T. The history
-    "rising" has F(t) = 2 FORCE t/T, and so the same impulse at T.
+    The program chooses the depths of the curve. The history "constant" is F = FORCE up to the time T. The history
+    "rising" is F(t) = 2 FORCE t/T, with the same impulse ∫F dt at T.
     """
-    loading = body.force(body.mdr_profile(RADII))  # values of F/G, and also of the impulse ∫F dt/η
+    loading = body.force(body.mdr_profile(RADII))  # values of F/G, used also as values of the impulse ∫F dt/η
     curve = indent(indenter, tolerance=TOLERANCE, until_force=1.01 * loading[-1])
     depth = body.depth(loading)
     times = np.append(0, loading * VISCOSITY / FORCE)
@@ -167,7 +174,10 @@ def _penetration(indenter, body):
 
 
 def _reduction(line, body):
-    """Return the errors of depth and stiffness of a line by the MDR, at given forces of the exact elastic solution."""
+    """Return the errors of depth and stiffness by the MDR, at the exact forces for the contact radii `RADII`.
+
+    line : line that is equivalent to the body
+    """
     depth = body.mdr_profile(RADII)
     reduced_depth, stiffness = reduce(line).at_force(body.force(depth))
     return {"depth": _error(reduced_depth, depth), "stiffness": _error(stiffness, body.stiffness(depth))}

@@ -1,1 +1,1 @@
-"""Realizations of surfaces: discs, batches of their curves, pools, and averages on common abscissae."""
+"""Generate or read surfaces, compute and store their loading curves, and average them over ensembles."""

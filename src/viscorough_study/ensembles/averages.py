@@ -1,9 +1,10 @@
-"""Put the realizations of a surface on common abscissae, and compute their averages and spread.
+"""Interpolate the loading curves of an ensemble to common abscissae, and compute their averages and spread.
 
 The abscissa is X = F/(4GhL), which for the viscous problem is Ft/(4ηhL) (paper, Eqs. 2 and 3). If all realizations have
-the same F, η, L and nominal h, then fixed X means fixed time, and vt/h is a constant times the velocity at this time.
+the same F, η, L and nominal h, then fixed X means fixed time, and vt/h is proportional to the velocity at this time.
 Averages at fixed X and at fixed t are then equal. They differ if h is measured on each realization, because X and vt/h
-are then in units of the h of this realization. An ensemble contains several such conventions for the rms height h.
+then have different units in each realization. An ensemble contains the curves for several definitions of the rms height
+h, which are called rms conventions.
 """
 
 import warnings
@@ -12,14 +13,15 @@ import numpy as np
 import xarray as xr
 
 DIMENSIONS = ("rms_convention", "realization", "abscissa")
-ROUNDING = 1e-9  # abscissae and ends of ranges count as equal if they differ relatively by less than this
+ROUNDING = 1e-9  # abscissae and ends of ranges count as equal if their relative difference is smaller
 
 
 def abscissa(low, high, per_decade):
-    """Return a logarithmic grid of X from low to high, with per_decade points per decade, shape (abscissae,).
+    """Return logarithmically spaced values of X from low to high, with per_decade points per decade.
 
-    The decimal logarithms of the points are multiples of 1/per_decade, so grids of equal per_decade share their points,
-    independent of their ends. Raises ValueError if there is no such point between low and high.
+    The decimal logarithms of the points are multiples of 1/per_decade. Results with equal per_decade therefore share
+    their points, even if their ends differ. Raises ValueError if there is no such point between low and high.
+    Returns an array of shape (abscissae,).
     """
     if not (0 < low <= high < np.inf):
         raise ValueError(f"abscissa: low and high must be 0 < low <= high < inf, not {low} and {high}")
@@ -31,16 +33,16 @@ def abscissa(low, high, per_decade):
 
 
 def on_abscissae(curves, rms, diameter, x):
-    """Return κ and the number of elements in contact on common abscissae.
+    """Return the stiffness κ and the number of elements in contact of every curve at the same values of X.
 
-    curves : list of LoadingCurve
-    rms : {convention: rms heights h, shape (realizations,), or one number for all} [length]
-    diameter : L, shape (realizations,), or one number for all [length]
-    x : X, shape (abscissae,), strictly increasing
+    curves : list of LoadingCurve, one for each realization
+    rms : {rms convention: rms height h [length]}; h has the shape (realizations,), or is one number for all
+    diameter : diameter L [length], of shape (realizations,), or one number for all
+    x : values of X, shape (abscissae,), strictly increasing
 
     Both results have the shape (rms conventions, realizations, abscissae). κ is k/(4GL) at F/G = 4hLX (Eq. 3). Between
-    the levels of a curve, the logarithm of the number of elements is linear in ln F; below the first level the number
-    is constant. Both results are nan beyond the last level of a curve.
+    the points of a loading curve, the logarithm of the number of elements is linear in ln F; below the first point the
+    number is constant. Both results are nan beyond the last point of a curve.
     """
     diameters = np.broadcast_to(diameter, len(curves))
     heights = np.array([np.broadcast_to(values, len(curves)) for values in rms.values()])
@@ -55,21 +57,23 @@ def on_abscissae(curves, rms, diameter, x):
 
 
 def with_averages(curves):
-    """Return the ensemble dataset: the curves with vt/h = X/κ (velocity), and averages over the realizations.
+    """Add the velocity vt/h = X/κ and averages over the realizations to the loading curves of an ensemble.
 
-    Variables with averages are named after the quantity and the mean or median. There are three further variables:
+    The variable of an average has the name of its quantity and of the kind of average, as in velocity_geometric. There
+    are three further variables:
 
-    - velocity_spread: the standard deviation of ln(vt/h);
-    - realizations_defined: the number of curves that reach an abscissa;
-    - fraction_defined: this number divided by the number of curves that were intended to reach the abscissa.
+    - velocity_spread: standard deviation of ln(vt/h);
+    - realizations_defined: number of curves that reach an abscissa;
+    - fraction_defined: realizations_defined divided by the number of curves that were intended to reach the abscissa.
 
-    curves : dataset of κ (stiffness) and the number of elements in contact (contact_count), nan where undefined. Its
-        dimensions are `DIMENSIONS`, without rms_convention if there is a single convention. Its coordinates are x, the
-        X of the abscissae, and until_x, the X that each curve was to reach.
+    curves : dataset with the variables stiffness (κ) and contact_count (number of elements in contact), which are nan
+        at abscissae that a curve does not reach. Its dimensions are `DIMENSIONS`, without rms_convention if there is a
+        single convention. Its coordinates are x (the X of the abscissae) and until_x (the X that each curve was
+        intended to reach).
     """
     velocity = curves["x"] / curves["stiffness"]
     defined, expected = velocity.notnull(), curves["until_x"] * (1 + ROUNDING) >= curves["x"]
-    # numpy warns where too few realizations have a value
+    # numpy warns at abscissae for which too few realizations have a value
     with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
         geometric = np.exp(np.log(velocity).mean("realization"))
         averaged = curves.assign(

@@ -1,4 +1,4 @@
-"""Store batches: the loading curves of some realizations of a case, with the lengths that make them dimensionless."""
+"""Store loading curves in batches: files with the curves of some realizations, and the lengths of their surfaces."""
 
 import json
 from typing import NamedTuple
@@ -17,16 +17,16 @@ RMS = {
 
 
 class Realization(NamedTuple):
-    """Name, number, Hurst exponent and lengths of one surface of an ensemble.
+    """Labels, Hurst exponent and lengths of one surface of an ensemble.
 
-    Lengths are in the unit of length of the indenter: "m", or "1" if they are dimensionless.
+    All lengths are in the unit of length of the indenter, which is "m", or "1" if lengths are dimensionless.
 
     ensemble : name of the ensemble
     number : number of the realization in the ensemble
     hurst : Hurst exponent, nan for a measured surface
-    diameter : diameter or length L
-    spacing : distance between neighbouring columns of the heights, or points of a line
-    rms : {convention, a key of `RMS`: rms height}
+    diameter : L, the diameter of a disc, or the length of a line
+    spacing : distance between neighbouring columns of a map of heights, or between neighbouring points of a line
+    rms : {key of `RMS`, which says where the rms height is measured: rms height}
     """
 
     ensemble: str
@@ -38,9 +38,10 @@ class Realization(NamedTuple):
 
 
 def batch_of_curves(members, settings):
-    """Return a batch of loading curves as the Content of a NetCDF file; lengths are in the unit of the curves.
+    """Return the loading curves of several surfaces as the Content of a NetCDF file.
 
-    members : a tuple (LoadingCurve, Realization, X up to which the curve was to be computed) for every surface
+    Lengths are in the unit of length of the curves.
+    members : for every surface a tuple: LoadingCurve, Realization, and the X up to which the curve was to be computed
     settings : settings of the curves, which are stored in the attribute `settings`
     A quantity that is equal for all surfaces is stored once.
     """
@@ -63,9 +64,9 @@ def batch_of_curves(members, settings):
 
 
 def without_numbers(ensembles):
-    """Return the descriptions of the ensembles of a batch without `numbers`, the range of realizations in this batch.
+    """Return descriptions of ensembles without the entry `numbers`, the range of realizations in one batch.
 
-    Files record this form, so their settings do not depend on the division into batches.
+    The descriptions are stored in this form, so they do not depend on how the ensembles are divided into batches.
     """
     return [{name: value for name, value in ensemble.items() if name != "numbers"} for ensemble in ensembles]
 

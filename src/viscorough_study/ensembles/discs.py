@@ -1,24 +1,26 @@
-"""Make discs of an ensemble: one realization as an indenter, with its rms height by every convention."""
+"""Generate the rough discs of an ensemble, and measure their rms heights in every convention."""
 
 import numpy as np
 
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc, square_of_disc
 
-_LENGTHS = ("rms", "diameter", "rms_over", "length_unit")  # settings of a surface that do not change its shape
+_LENGTHS = ("rms", "diameter", "rms_over", "length_unit")  # settings that scale a surface, but keep its shape
 
 
 def ensemble_disc(elements, surface, seed):
-    """Return one realization as an Indenter, and {convention: its rms height} in the unit of length of the indenter.
+    """Generate one disc of an ensemble; return it as an Indenter, and its rms heights as {rms convention: height}.
+
+    The rms heights are in the unit of length of the indenter.
 
     elements : number of elements across the disc
     surface : arguments of self_affine_disc, with rms, diameter, rms_over and length_unit
     seed : int or SeedSequence
 
-    The nominal rms height is taken over the disc, or over the periodic square from which the disc is cut, as rms_over
-    says. The three conventions are the rms height over the disc, over the square, and over the ensemble. The rms height
-    over the ensemble is the root mean square over all squares with the common spectrum, so realizations are not
-    normalised one by one.
+    The disc is cut from a periodic square. The heights are scaled so that the rms height over the disc, or over the
+    square (`rms_over`), equals `rms`. The result contains the rms heights by three conventions: over the disc, over the
+    square, and over the ensemble. The rms height over the ensemble is the root mean square over all squares with the
+    same spectrum. By this convention, realizations are not normalised one by one.
     """
     shape = {name: value for name, value in surface.items() if name not in _LENGTHS}
     square = square_of_disc(**shape, elements_across=elements, normalised=False, seed=seed)

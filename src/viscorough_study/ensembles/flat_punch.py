@@ -13,9 +13,9 @@ from viscorough_study.ensembles.pool import elements_across, ensembles
 
 @cache
 def punch_stiffness(elements_across):
-    """Return κ_c, the stiffness κ of a flat disc with `elements_across` elements across, by boundary elements.
+    """Compute κ_c, the reduced stiffness k/(4GL) of a flat disc on a grid, by boundary elements.
 
-    κ_c tends to 1 on finer grids.
+    κ_c tends to 1 as the number of elements across the disc increases.
     """
     disc = cut_disc(np.zeros((elements_across, elements_across)), elements_across)
     return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
@@ -26,7 +26,8 @@ def ensembles_on_grids(pool, source, rms_convention):
 
     number : elements across discs, or points of lines
     κ_c : stiffness κ of the flat punch on this grid; 1 for lines
-    source : "lines" for a pool of lines, otherwise discs; rms_convention : convention for discs
+    source : "lines" if the pool contains lines, "discs" if it contains discs
+    rms_convention : where the rms height of discs is measured (a key of ensembles.batches.RMS)
     """
     convention = "line" if source == "lines" else rms_convention
     for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=convention).items():

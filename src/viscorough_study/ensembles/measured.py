@@ -6,12 +6,12 @@ from viscorough.io.heights import read_heights
 
 
 def measured_indenter(file, *, spacing, unit, preparation):
-    """Return a prepared scan as an Indenter in metres.
+    """Read and prepare a scan; return an Indenter in metres.
 
-    spacing : distance between neighbouring heights: [] if the file states it, [distance in both directions], or
+    spacing : distances between neighbouring heights: [] if the file states them, [distance in both directions], or
         [distance between columns, distance between rows]
     unit : unit of the heights; None if the file states it
-    preparation : further arguments of read_heights
+    preparation : further arguments of read_heights, which prepare the heights
     Raises ValueError if neither the file nor `unit` states a unit of length.
     """
     spacing = spacing[0] if len(spacing) == 1 else spacing or None
@@ -22,9 +22,10 @@ def measured_indenter(file, *, spacing, unit, preparation):
 
 
 def lengths(indenter):
-    """Return {column: value} of an indenter: elements, both spacings, rms height, rms slope, and equivalent diameter.
+    """Return the number of elements, both spacings, rms height, rms slope and diameter of an indenter, as a dict.
 
-    The diameter belongs to the circle whose area equals the area of all elements.
+    The diameter is the diameter of the circle whose area equals the area of all elements. The keys are column names of
+    the table of scans (comparisons.measured).
     """
     area = indenter.elements * indenter.spacing * indenter.row_spacing
     return {

@@ -1,8 +1,9 @@
-"""Pool all realizations of many cases on common abscissae in one dataset, and select ensembles from it.
+"""Collect the loading curves of all realizations in one dataset, the pool, and select ensembles from the pool.
 
-The dataset has the dimensions rms_convention, realization and abscissa. Hurst exponent, group, case and number of
-elements are coordinates of the dimension realization. The dataset contains no lengths, since the curves are
-dimensionless, and no averages, since averages depend on the selected realizations.
+All curves are interpolated to common abscissae X. The pool has the dimensions rms_convention, realization and abscissa.
+Hurst exponent, group, case (name of an ensemble) and number of elements are coordinates of the dimension realization.
+The pool contains no lengths, since the curves are dimensionless, and no averages, since averages depend on the selected
+realizations.
 """
 
 import json
@@ -28,13 +29,13 @@ REALIZATION_COORDINATES = {
 
 
 def pool_batches(batches, conventions, x):
-    """Return the pool of all batches: a dataset with its realizations sorted by case and number.
+    """Join batches of loading curves into a pool, with the realizations sorted by case and number.
 
-    The result does not depend on the division into batches.
+    The pool does not depend on how the realizations are divided into batches.
 
     batches : iterable of (group, Content from ensembles.batches.batch_of_curves); only one batch at a time is in memory
-    conventions : conventions of the rms heights
-    x : X, shape (abscissae,)
+    conventions : rms conventions in the pool, keys of ensembles.batches.RMS
+    x : abscissae X, shape (abscissae,)
     """
     stiffness, count, realizations, settings = [], [], [], {}
     for group, batch in batches:
@@ -42,8 +43,8 @@ def pool_batches(batches, conventions, x):
         rms = {name: values[f"rms_{name}"] for name in conventions}
         stored = {name: values[name] for name in ("hurst", "case", "until_x", "number")}
         realizations.append(pd.DataFrame(stored | {"group": group, "elements": [curve.elements for curve in curves]}))
-        # Drop the part of a curve beyond its intended end. Whether a curve happens to go on further depends on its
-        # surface, so a mean over such parts would be biased.
+        # Drop the part of a curve beyond its intended end. Only some surfaces have such a part, so a mean over these
+        # parts would be biased.
         beyond = realizations[-1]["until_x"].to_numpy()[:, None] * (1 + ROUNDING) < x
         for parts, part in zip((stiffness, count), on_abscissae(curves, rms, values["diameter"], x), strict=True):
             parts.append(np.where(beyond, np.nan, part))
@@ -72,20 +73,20 @@ def select(pool, **coordinates):
 
 
 def ensembles(pool, *names, rms_convention=None):
-    """Return {value of a coordinate: ensemble of the realizations with this value}, in the order of the pool.
+    """Split a pool into ensembles; return {value of a coordinate: ensemble of the realizations with this value}.
 
-    names : coordinates; for several names the keys are tuples of their values
-    rms_convention : the only convention to keep; the ensembles then have no such dimension. By default all conventions
-        of the pool are kept.
+    names : names of coordinates; for several names, the keys of the result are tuples of their values
+    rms_convention : keep only the curves with this rms convention, and drop the dimension rms_convention. By default
+        all conventions of the pool are kept.
 
-    The ensembles have averages over their realizations (ensembles.averages). The coordinates hurst, elements, case and
-    until_x become scalars if they are equal for all realizations.
+    The ensembles are in the order of the pool, and contain averages over their realizations (ensembles.averages). The
+    coordinates hurst, elements, case and until_x become scalars if they are equal for all realizations.
     """
     result, pool = {}, pool if rms_convention is None else pool.sel(rms_convention=rms_convention)
     for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
         ensemble = with_averages(select(pool, **dict(zip(names, values, strict=True))))
         for name in ("hurst", "elements", "case", "until_x"):
-            # np.unique counts all nan, the H of measured surfaces, as one value
+            # measured surfaces have hurst = nan; np.unique counts all nan as one value
             same = np.unique(ensemble[name].values)
             ensemble = ensemble.assign_coords({name: same[0]}) if same.size == 1 else ensemble
         result[values if len(names) > 1 else values[0]] = ensemble
@@ -93,7 +94,7 @@ def ensembles(pool, *names, rms_convention=None):
 
 
 def elements_across(elements):
-    """Return the number of elements across a disc from the number of all its elements.
+    """Return the number of elements across a disc that has `elements` elements in all.
 
     A disc with n elements across consists of the elements whose centres lie within (n − 1)/2 of its centre, in units of
     the spacing. These are about π (n − 1)²/4 elements.

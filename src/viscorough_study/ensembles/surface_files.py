@@ -1,4 +1,4 @@
-"""Write and read files of surfaces, with a NetCDF group for each ensemble, one realization at a time."""
+"""Write and read NetCDF files of surfaces, with one group per ensemble, one realization at a time."""
 
 import json
 
@@ -13,8 +13,8 @@ from viscorough_study.ensembles.batches import RMS, Realization
 def write_surfaces(ensembles, path):
     """Write surfaces to a NetCDF file, atomically; only one surface at a time is in memory.
 
-    ensembles : list of (settings, number, surfaces) for each ensemble: its settings as a dict, the number of
-        realizations, and an iterable of (Realization, Indenter). All surfaces of an ensemble agree except in number,
+    ensembles : list of tuples (settings, number, surfaces), one for each ensemble: its settings as a dict, the number
+        of realizations, and an iterable of (Realization, Indenter). Surfaces of an ensemble may differ only in number,
         heights and rms heights.
     """
     with netcdf.written_with_digest(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
@@ -34,7 +34,7 @@ def write_surfaces(ensembles, path):
 
 
 def _define(group, realization, indenter):
-    """Define the variables of the group of an ensemble, and write the values common to all its realizations."""
+    """Define the variables of an ensemble in its NetCDF group, and write the values that all realizations share."""
 
     def variable(name, dimensions, long_name, units=indenter.length_unit, **kind):
         stored = group.createVariable(name, kind.pop("kind", "f8"), dimensions, **kind)
@@ -55,7 +55,9 @@ def _define(group, realization, indenter):
 
 
 def read_surfaces(path):
-    """Yield (settings of the ensemble, Realization, Indenter) for every surface in a file, read one at a time.
+    """Yield (settings of the ensemble, Realization, Indenter) for every surface in a file.
+
+    Surfaces are read one at a time.
 
     Raises a one-line ValueError if the file is missing or damaged.
     """

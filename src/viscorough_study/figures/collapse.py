@@ -1,4 +1,4 @@
-"""Draw the curves of all grids in scaled variables, in which they collapse, and the exponents β that collapse them."""
+"""Draw the collapse of the curves of all grids in scaled variables, and the exponents β for which they collapse."""
 
 import numpy as np
 
@@ -6,13 +6,14 @@ from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
 
 LIGHTEST = 0.35  # opacity of the curves of the coarsest grid; the finest grid has opacity 1
-SHIFT = 3.0  # factor by which the curves of successive Hurst exponents are shifted apart
+SHIFT = 3.0  # curves of successive Hurst exponents are shifted apart by this factor
 
 
 @style.figure
 def plot_collapse(curves, collapse, infinite):
-    """Draw vt/h (a) and its interface part (b) on all grids, relative to the law, and the compatible exponents (c).
+    """Draw scaled curves of vt/h (a) and of its interface part (b) on all grids, and exponents for all grids (c).
 
+    The interface part is vt/h − X/κ_c, where κ_c is the stiffness of a flat punch.
     curves, collapse, infinite : tables collapse_curves, collapse and infinite_grid of fits.infinite_grid
     """
     figure = style.new_figure(130)
@@ -33,7 +34,7 @@ def _curves(axes, curves, looks):
     """Draw the ratio of vt/h to X^(H/(1+H)) on every grid against the scaled force X N^(1+H).
 
     N is the number of elements across. The curves of each H are shifted by a constant factor.
-    curves : rows of vt/h, or of its interface part; looks : {H: line properties}
+    curves : table rows with the curves of vt/h, or of its interface part; looks : {H: line properties}
     """
     for rank, (hurst, look) in enumerate(looks.items()):
         grid_curves = curves[curves["hurst"] == hurst].groupby("number")
@@ -44,7 +45,10 @@ def _curves(axes, curves, looks):
 
 
 def _exponents(axes, collapse, infinite):
-    """Draw β − H/(1 + H) against H: intervals of β that collapse the curves, and β of an infinitely fine grid."""
+    """Draw the range of β for which the curves collapse, and β of an infinitely fine grid, less H/(1 + H), against H.
+
+    collapse, infinite : arguments of `plot_collapse`
+    """
     axes.axhline(0, color=style.GREY, linestyle=":", linewidth=0.8)
     looks = {"whole": {"color": style.BLUE, "marker": "o"}, "interface": {"color": style.VERMILION, "marker": "s"}}
     discs = collapse[(collapse["source"] == "discs") & (collapse["x_high"] == collapse["x_high"].iloc[0])]

@@ -7,7 +7,7 @@ from viscorough import reference
 from viscorough_study.figures import style
 from viscorough_study.fits.conventions import fits
 
-# Labels of the conventions that the paper leaves open, {column of the scaling table: {value: label}}.
+# Labels of the conventions that the paper leaves open, as {column of the scaling table: {value: label}}.
 CONVENTION_LABELS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
     "rms_convention": {
@@ -27,15 +27,16 @@ CONVENTION_LABELS = {
 
 @style.figure
 def plot_conventions(scaling, conventions):
-    """Draw β − H/(1 + H) and ζ/(2 − H) of the discs, each with its 95 % interval, under one change at a time.
+    """Draw β − H/(1 + H) and ζ/(2 − H) of the discs for several conventions, each with its 95 % interval.
 
-    Each row of the figure changes one of the usual conventions, or the group of surfaces.
-    scaling : scaling table; conventions : {column of the table: value}, the usual conventions
+    The first row of the figure has the usual conventions. Each further row changes one convention, or shows another
+    group of discs.
+    scaling : table of fitted power laws; conventions : the usual conventions, {column of this table: value}
     """
     discs = scaling[scaling["source"] == "discs"]
     looks, changes = style.hurst_looks(discs["hurst"]), _changes(discs, conventions)
     figure, (betas, zetas) = style.new_subplots(7 * len(changes) + 28, 1, 2, sharey=True)
-    heights = np.linspace(-0.27, 0.27, len(looks))  # offsets of the Hurst exponents within a row of the figure
+    heights = np.linspace(-0.27, 0.27, len(looks))  # vertical offsets of the Hurst exponents within a row
     for (hurst, look), height in zip(looks.items(), heights, strict=True):
         beta, zeta = reference.exponent_beta(hurst), reference.zeta_viscous(hurst)
         zetas.axvline(reference.zeta_elastic(hurst) / zeta, color=look["color"], linestyle=":", zorder=1)
@@ -66,11 +67,14 @@ def plot_conventions(scaling, conventions):
 
 
 def _changes(discs, conventions):
-    """Return the rows of the figure as (label, {column: value}): first the usual conventions, then a row per change."""
+    """Return (label, {column of the table: value}) for each row of the figure.
+
+    The first row has the usual conventions; each further row changes one convention, or the group of discs.
+    """
     base = conventions | {"case_group": "base"}
     rows = [("as in other figures", base)]
     for column, labels in CONVENTION_LABELS.items():
-        # The convention gamma is no column of the table; every fit can be converted to both of its values.
+        # The table has no column for the convention "gamma", since every fit can be converted to both its values.
         available = set(discs[column]) if column in discs else set(labels)
         others = [value for value in labels if value != conventions[column] and value in available]
         rows += [(labels[value], base | {column: value}) for value in others]

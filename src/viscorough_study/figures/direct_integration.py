@@ -1,4 +1,4 @@
-"""Draw direct integration of the viscous problem and the law, with and without the factor 1/Γ(2 − α)."""
+"""Draw depths by direct integration of the viscous problem, and by the law with and without the factor 1/Γ(2 − α)."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from viscorough_study.run.readable import readable
 def plot_direct_integration(table):
     """Draw the ratio of viscous to elastic depth, by direct integration and by Eq. 8, against the elements in contact.
 
-    Each indenter has a panel, which states the largest deviation of the ratio from 1.
+    Each indenter has a panel. A text in the panel states the largest deviation of the integrated ratio from 1.
     table : table of comparisons.direct_integration
     """
     cases = list(table["case"].unique())

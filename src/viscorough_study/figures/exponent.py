@@ -9,9 +9,10 @@ from viscorough_study.fits.conventions import fits
 
 @style.figure
 def plot_exponent(scaling, conventions, hurst_range):
-    """Draw β of lines and of discs, with 95 % intervals, and β of Eq. 10 against the Hurst exponent H.
+    """Draw β of MDR lines and of discs, with 95 % intervals, and β of Eq. 10, all against the Hurst exponent H.
 
-    scaling : scaling table; conventions : {convention: value} of the drawn fits (fits.conventions)
+    scaling : table of fitted power laws
+    conventions : {convention: value}, which select the fits that are drawn (fits.conventions)
     hurst_range : range of H in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
     """
     looks = style.hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])

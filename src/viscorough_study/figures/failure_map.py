@@ -18,7 +18,8 @@ MEANINGS = {
     "unnoticed": "wrong without notice",
 }
 LETTERS = {verdict: verdict[0].upper() for verdict in MEANINGS}
-# Groups of stress-test cases whose difficulty affects only some methods: {group: first words of the methods' names}.
+# Groups of stress-test cases whose difficulty affects only some methods, as {group: beginnings of the names of these
+# methods}.
 CONCERNED = {
     "step size": ("explicit steps",),
     "force in time": ("explicit steps",),
@@ -69,9 +70,10 @@ def plot_failure_map(table):
 
 
 def _concerns(cell):
-    """Return True for cells that are not blank.
+    """Return True if a cell is filled, False if it stays blank.
 
-    The difficulty of the case affects the method, or the method refuses the case or fails unnoticed.
+    A cell is filled if the difficulty of the case affects the method. It is also filled if the method refuses the case
+    or fails unnoticed.
     cell : row of the table of the failure map
     """
     names = CONCERNED.get(cell.group)
@@ -79,7 +81,10 @@ def _concerns(cell):
 
 
 def _cell_text(cell):
-    """Return the text in a cell: error (one digit) and letter of the verdict; for a refusal only the letter."""
+    """Return the text in a cell: the error (one digit) and the letter of the verdict.
+
+    If the method refuses the case, the text is only the letter.
+    """
     if cell.verdict == "refused":
         return LETTERS["refused"]
     number = f"{cell.error:.0e}".replace("e-0", "e-").replace("e+00", "").replace("e+0", "e")

@@ -1,11 +1,11 @@
-"""Draw shares of right and wrong results, by method and by kind of case, and the errors of three causes of failure."""
+"""Draw the shares of right and wrong results in the stress tests, and the errors by three causes of failure."""
 
 import numpy as np
 
 from viscorough_study.figures import style
 from viscorough_study.run.names import BOX, RANGE, STEPS
 
-# {outcome: (label, verdicts in the failure map, color)}, in the order of a bar from left to right
+# Outcomes in a bar from left to right, as {outcome: (label, verdicts of the failure map that it contains, color)}.
 OUTCOMES = {
     "right": ("right", ("holds", "model"), style.BLUE),
     "refused": ("refused, with a reason", ("refused",), style.PALE),
@@ -13,7 +13,7 @@ OUTCOMES = {
     "stated": ("wrong, a model beyond its documented range", ("stated",), "#f7dc9c"),
     "silent": ("silently wrong: {}", ("unnoticed",), style.BLACK),
 }
-# {method of the failure map: its name in this figure}
+# Names of methods, {name in the failure map: name in this figure}.
 METHODS = {
     "path, dense": "boundary elements, dense",
     "path, grid, double": "boundary elements, double",
@@ -29,12 +29,12 @@ BAR = 0.72  # height of a bar, in units of the distance between bars
 ERRORS = (1.0, 0.1, 0.01, 1e-3)  # ticks of the axes of errors
 ERROR, SHARE = "relative error", "share of the cases"
 FLOOR = 3e-4  # lower end of the axes of errors
-HURST = 0.4  # panel (e) shows the Hurst exponent of the table that is nearest to this value
+HURST = 0.4  # panel (e) shows discs with the Hurst exponent nearest to this value
 
 
 @style.figure
 def plot_failures(table, knobs):
-    """Draw bars of outcomes by method (a) and by kind of case (b), and the error against three settings (c, d, e).
+    """Draw the shares of all outcomes by method (a) and by kind of case (b), and errors against settings (c, d, e).
 
     table : table of robustness.failure_map; knobs : table of robustness.knobs
     """
@@ -61,9 +61,9 @@ def plot_failures(table, knobs):
 
 
 def _draw_bars(axes, table):
-    """Draw a bar for every name in a column, with the shares of all outcomes, and its number of silent failures.
+    """Draw a bar with the shares of all outcomes, and write the number of silent failures, for every name.
 
-    table : table of the failure map with the column `name`
+    table : table of the failure map with a further column `name`, the name of the bar to which a row belongs
     """
     names = list(dict.fromkeys(table["name"]))
     for place, name in enumerate(names):

@@ -1,6 +1,7 @@
-"""Draw the model of interface and flat punch in series: g against X, the law relative to g, and u₀/h against H.
+"""Draw the model of a rough interface and a flat punch in series: g against X, and u₀/h against H.
 
-Here g is the interface's part of vt/h, and u₀/h is the value of g on its plateau (fits.interface).
+In this model vt/h = X/κ_c + g(X), where κ_c is the stiffness of the punch, and g is the part of the interface. u₀/h is
+the value of g on its plateau (fits.interface).
 """
 
 import numpy as np
@@ -12,7 +13,8 @@ from viscorough_study.figures import style
 
 SHIFT = 0.012  # distance in H between the markers of different grids or methods at the same Hurst exponent
 X_SHOWN = (1e-4, 30.0)
-# Curves in (c) are drawn only if g is at least this share of X, the punch's part of vt/h: vt/h is known to 0.1 %.
+# Panel (c) shows only g that are at least this share of X, the punch's part of vt/h. Smaller g have large errors,
+# because vt/h is known to 0.1 %.
 LEAST_SHARE = 0.01
 LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an ensemble
 
@@ -21,11 +23,12 @@ LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an
 def plot_interface(table, curves, literature, periodic):
     """Draw g of discs and periodic surfaces (a), g of lines (b), g of the law relative to discs (c), and u₀/h (d).
 
-    All means are arithmetic, because compliances add. (a) to (c) show each Hurst exponent on the base grid only. The
-    law of the library is drawn in (a) and (c), only for the grid and the Hurst exponents of its calibration.
+    All means are arithmetic, because compliances add. Panels (a) to (c) show each Hurst exponent on the base grid only.
+    The law of the library is drawn in (a) and (c), but only for the grid and the Hurst exponents of its calibration.
 
-    table, curves : tables interface and interface_curves of fits.interface
-    literature : table of comparisons.literature, for u₀/h in (d); periodic : table of comparisons.periodic_control
+    table : table "interface" of fits.interface; curves : table "interface_curves" of the same module
+    literature : table of comparisons.literature, with published u₀/h for (d)
+    periodic : table of comparisons.periodic_control
     """
     base = pd.concat([_on_base_grid(rows) for _, rows in table.groupby("source")])
     shown = curves.merge(base[[*LABELS, "plateau_low", "plateau_high"]], on=LABELS)
@@ -67,9 +70,11 @@ def plot_interface(table, curves, literature, periodic):
 
 
 def _on_base_grid(rows):
-    """Return the rows of a source that were computed on the base grid.
+    """Return the rows of a table that were computed on the base grid, the usual grid of the study.
 
-    They are the base ensembles, and the ensembles of the grid study for values of H that the base ensembles lack.
+    These are the rows of the base ensembles. For Hurst exponents that have no base ensemble, the rows of the grid study
+    on the same grid are added.
+    rows : table rows of all discs, or of all lines
     """
     is_size = rows["case_group"] == "sizes"
     base = rows[~is_size]
@@ -78,10 +83,10 @@ def _on_base_grid(rows):
 
 
 def _draw_law(axes, ratios, curve, law, look):
-    """Draw g of the library's law within the law's range of X, and the ratio of this g to g of a curve.
+    """Draw g of the library's law within its range of X, and the ratio of this g to the g of computed discs.
 
-    The band of the ratio is the interval of the curve.
-    axes, ratios : axes of g and of the ratio
+    The band around the ratio follows from the interval of the computed g.
+    axes : axes for g; ratios : axes for the ratio; curve : computed g
     """
     curve = curve[curve["x"].between(law.x_low, law.x_high)]
     law_part = law.velocity(curve["x"].to_numpy()) - curve["x"]
@@ -93,7 +98,7 @@ def _draw_law(axes, ratios, curve, law, look):
 
 
 def _name_discs(axes, table):
-    """State how many discs are averaged in each curve that is compared with the law."""
+    """List in a legend how many discs were averaged for each Hurst exponent that is compared with the law."""
     shown = table[(table["across"] == ACROSS) & table["hurst"].isin(interface_calibration()["hurst"])]
     hurst_by_number = shown.sort_values("hurst").groupby("realizations", sort=False)["hurst"]
     labels = [f"{number:g} discs: $H$ = {', '.join(f'{h:g}' for h in hurst)}" for number, hurst in hurst_by_number]
@@ -116,9 +121,9 @@ def _draw_literature(axes, literature):
 
 
 def _draw_plateaus(axes, table, looks):
-    """Draw u₀/h against H, with a different marker for each grid of the discs, and a marker for the lines.
+    """Draw u₀/h of discs and of lines against H, with a different marker for each grid of discs.
 
-    Lines are shown on the base grid only, because u₀ of lines varies far less with the number of points than with H.
+    Lines are drawn on the base grid only, because u₀ of lines varies far less with the number of points than with H.
     """
     discs = table["source"] == "discs"
     names = np.where(discs, table["across"].astype(str) + " across", "lines (MDR)")

@@ -10,7 +10,7 @@ from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.fits.conventions import fits
 from viscorough_study.run.readable import readable
 
-# {quantity: (label in the table of combinations, unit of the label in SI units)}
+# Parameters in the table below the panels, as {parameter: (label, unit in the label, expressed in SI units)}.
 QUANTITIES = {
     "force": ("$F$ (N)", 1.0),
     "viscosity": (r"$\eta$ (Pa s)", 1.0),
@@ -21,18 +21,18 @@ QUANTITIES = {
 
 @style.figure
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
-    """Draw vt/h against X (the paper's Figure 2), velocity against time in SI units, and a table of the combinations.
+    """Draw vt/h against X (the paper's Figure 2), velocity against time in SI units, and a table of the parameters.
 
-    A case is a Hurst exponent with a combination of force, viscosity, diameter and rms height.
+    A case is a Hurst exponent with a combination of four parameters: force, viscosity, diameter and rms height.
 
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
-    scaling : scaling table, with the ends of region (b); conventions : {column of the table: value}
+    scaling : table of fitted power laws, with the ends of region (b); conventions : {column of this table: value}
     fraction_min : a mean is drawn if at least this fraction of the realizations has a value
 
     Region (a), with one element in contact, is grey; only its last decade is drawn. Bars at the bottom mark region (b)
-    of each Hurst exponent. Velocities in SI units use the rms height of the combination. These velocities are
-    exact if h is measured over the points whose rms height was set when the surfaces were generated.
+    of each Hurst exponent. Velocities in SI units are computed with the rms height of the case. They are exact if the
+    rms convention is the same as in the generation of the surfaces, where this rms height was set.
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in ensembles)
     figure = style.new_figure(112)
@@ -46,7 +46,8 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
         force, viscosity, length, rms = (combinations[case][name] for name in ("force", "viscosity", "diameter", "rms"))
         time = 4 * curve.x * viscosity * rms * length / force
         velocity = curve.velocity * rms / time
-        # The grey curve of one element includes the first X with several elements, so that it meets the coloured curve.
+        # The grey curve (one element in contact) includes the first X with several elements, so that it meets the
+        # coloured curve.
         one_element = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)
         for axes, x, y in ((raw, time, velocity), (collapsed, curve.x, curve.velocity)):
             axes.plot(x[one_element], y[one_element], color=style.PALE, zorder=1)
@@ -68,12 +69,12 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
 
 
 def _combination(case):
-    """Return the combination from the name of a case, which has the form <Hurst exponent>_<combination>."""
+    """Return the name of the combination from the name of a case, <Hurst exponent>_<combination>."""
     return case.partition("_")[2]
 
 
 def _tabulate(axes, combinations):
-    """Draw a table with a column for each combination and a row for each quantity."""
+    """Draw a table of parameters, with a column for each combination and a row for each parameter."""
     axes.axis("off")
     cells = [
         [readable(at[quantity] / size) for at in combinations.values()] for quantity, (_, size) in QUANTITIES.items()
@@ -86,8 +87,9 @@ def _tabulate(axes, combinations):
 
 
 def _mark_limits(axes, across):
-    """Draw the lines vt/h = X/κ of region (a), with κ of one element, and of region (c), with κ of a flat punch.
+    """Draw the straight lines vt/h = X/κ of regions (a) and (c).
 
+    In region (a), κ is the stiffness of a single element; in region (c), it is the stiffness of a flat punch.
     across : number of elements across the discs
     """
     bottom, top = axes.get_ylim()
@@ -98,7 +100,7 @@ def _mark_limits(axes, across):
     ):
         axes.plot([stiffness * low, stiffness * top], [low, top], color=style.GREY, linestyle=":", linewidth=0.8)
         y = low * (top / low) ** start
-        # Angle of the line in linear coordinates; transform_rotates_text converts it to the angle on the page.
+        # Angle of the line in linear coordinates; matplotlib converts this angle to the angle on the page.
         angle = np.degrees(np.arctan(1 / stiffness))
         along = {"rotation": angle, "rotation_mode": "anchor", "transform_rotates_text": True}
         axes.text(stiffness * y, y, text, color=style.GREY, va=side, **along)

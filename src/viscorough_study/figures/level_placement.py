@@ -3,7 +3,7 @@
 from viscorough_study.figures import style
 from viscorough_study.run.names import AUTOMATIC, BY_HAND, NAIVE
 
-# {placement of the levels: (label, color, marker)}
+# Curves of each panel, {placement of the levels: (label, color, marker)}.
 CHOICES = {
     AUTOMATIC: ("automatic", style.BLUE, "o"),
     BY_HAND: ("by hand, after trials", style.GREEN, "s"),
@@ -20,9 +20,10 @@ FLOOR = 3e-5  # smaller errors are drawn at this value, at a tick labelled with 
 
 @style.figure
 def plot_level_placement(table):
-    """Draw the error of the depth against processor time: a panel per scene, a curve per placement of the levels.
+    """Draw the error of the depth against processor time, with a curve for each placement of the levels.
 
-    table : table of viscorough_study.performance.level_placement, which explains the scenes
+    Each scene (an indenter and a range of force) has a panel.
+    table : table of viscorough_study.performance.level_placement, which explains the placements
     """
     names = list(table["scene"].unique())
     figure, panels = style.new_panels(

@@ -10,11 +10,11 @@ from viscorough_study.fits.conventions import fits
 
 @style.figure
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
-    """Draw vt/h against the right side of Eq. 12 with its factor Γ, and in the lower panel the ratio of the two.
+    """Draw vt/h against the right side of Eq. 12 (with its factor Γ), and below it the ratio of vt/h to this side.
 
     discs, lines : ensemble datasets, one for each Hurst exponent. Lines have the rms height of the discs (Eq. 13); only
         lines with a Hurst exponent of discs are drawn
-    scaling : scaling table, with the ends of region (b); conventions : {column of the table: value}
+    scaling : table of fitted power laws, with the ends of region (b); conventions : {column of this table: value}
     fraction_min : a mean is drawn if at least this fraction of the realizations has a value
 
     Discs are drawn as about eight symbols per decade of X, filled in region (b) and hollow elsewhere. Their bars extend
@@ -55,9 +55,10 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
 
 
 def _draw_discs(panels, curve, hurst, windows, look):
-    """Draw the symbols of one Hurst exponent, filled in region (b), and return the drawn ratios in region (b).
+    """Draw the discs of one Hurst exponent in both panels; return the ratios in region (b) that were drawn.
 
-    curve : mean curve of the discs; windows : rows of fits, with the ends x_low and x_high of region (b)
+    Symbols are filled in region (b) and hollow elsewhere.
+    curve : mean curve of the discs; windows : table of the fits, with the ends x_low and x_high of region (b)
     """
     look = look | {"linestyle": "", "markersize": 3, "capsize": 0, "elinewidth": 0.8}
     right_side = reference.rate_law(curve.x, hurst, gamma=True)

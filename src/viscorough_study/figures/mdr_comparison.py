@@ -7,11 +7,11 @@ from viscorough_study.figures import style
 
 @style.figure
 def plot_mdr_comparison(table):
-    """Draw ratios of lines to discs with the same spectrum (a to d, f), and the correlation of their κ (e).
+    """Draw ratios of MDR lines to discs with the same spectrum (a to d, f), and the correlation of their κ (e).
 
-    The ratios are the mean ratio of κ (a), the typical factor between κ of line and disc for a single surface (b), and
-    the mean ratios of the contact fraction (c), of the mean gap (d), and of the force at the depth of the disc (f).
-    Bands are 95 % intervals of the means; in (e) the band contains 95 % of the correlations of unrelated pairs.
+    Panel (a) shows the mean ratio of κ, and panel (b) the typical factor between κ of a line and of its disc. Further
+    panels show the mean ratios of the contact fraction (c), of the mean gap (d), and of the force at equal depths (f).
+    Bands are 95 % intervals of the means. The band in (e) contains 95 % of the correlations of unrelated pairs.
     table : table of viscorough_study.comparisons.mdr_comparison
     """
     figure, panels = style.new_subplots(185, 3, 2, sharex=True)

@@ -7,17 +7,18 @@ from viscorough_study.figures import style
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
 _SHIFT = 0.02  # distance in H between the markers of different windows at the same Hurst exponent
-# The paper claims a constant λ only in region (b), so the vertical axes end this factor beyond the values in region
-# (b). At smaller X, λ falls, because lines have finer grids. At larger X, λ grows without bound as contact becomes
-# complete.
+# The vertical axes end at the values in region (b), extended by this factor, because the paper claims a constant λ only
+# in region (b). At smaller X, λ falls, because lines have finer grids. At larger X, λ grows without bound as contact
+# becomes complete.
 _MARGIN = 1.3
 
 
 @style.figure
 def plot_mdr_lambda(lambdas, exponents):
-    """Draw λ against X (a), the ratio of vt/h of lines to discs (b), and the differences of their exponents (c).
+    """Draw λ against X (a), the ratio of vt/h of lines to discs (b), and the differences of their exponents β (c).
 
-    The lines of (b) have the best single λ of their Hurst exponent. The exponents of (c) are fitted in equal windows.
+    In (b), all lines of a Hurst exponent have the same λ, which fits best. In (c), the legend names the windows in X or
+    κ in which the exponents are fitted.
     lambdas, exponents : tables mdr_lambda and mdr_exponents of viscorough_study.comparisons.mdr_equivalence
     """
     figure, (values, ratios, differences) = style.new_subplots(75, 1, 3)
@@ -49,5 +50,5 @@ def plot_mdr_lambda(lambdas, exponents):
 
 
 def _limits(rows, name):
-    """Return the ends of a logarithmic axis that shows the intervals of the column `name`; None without rows."""
+    """Return the limits of a logarithmic axis that shows all intervals of the column `name`; None without rows."""
     return (rows[f"{name}_low"].min() / _MARGIN, rows[f"{name}_high"].max() * _MARGIN) if len(rows) else None

@@ -1,4 +1,4 @@
-"""Select the mean velocity of an ensemble in the conventions of the figures."""
+"""Select the curve of the mean velocity from an ensemble, by the conventions of the figures."""
 
 from types import SimpleNamespace
 
@@ -10,8 +10,8 @@ from viscorough_study.figures.style import count_text
 def mean_curve(ensemble, conventions, fraction_min):
     """Return the mean curve of an ensemble dataset: a namespace of arrays of shape (abscissae,).
 
-    conventions : {column of the scaling table: value}, which selects the average and the rms convention
-    fraction_min : a mean is unbiased if at least this fraction of the realizations has a value
+    conventions : {"average": kind of mean, "rms_convention": where the rms height h is measured}
+    fraction_min : a mean is taken as unbiased if at least this fraction of the realizations has a value
 
     The namespace has these arrays:
     x : abscissae X
@@ -19,7 +19,7 @@ def mean_curve(ensemble, conventions, fraction_min):
     error : two standard errors of ln(vt/h)
     several : True if the mean is unbiased and several elements are in contact, that is, beyond region (a)
     """
-    available = ensemble["rms_convention"].values.tolist()  # lines have a single rms convention
+    available = ensemble["rms_convention"].values.tolist()  # only discs have several rms conventions
     mean = ensemble.sel(rms_convention=conventions["rms_convention"] if len(available) > 1 else available[0])
     defined = mean["fraction_defined"].values >= fraction_min
     return SimpleNamespace(
@@ -31,9 +31,9 @@ def mean_curve(ensemble, conventions, fraction_min):
 
 
 def realizations_text(ensembles):
-    """Return the number of averaged realizations as text, such as "6 to 54".
+    """Return the smallest and the largest number of averaged realizations as text, such as "6 to 54".
 
-    The smallest number counts only realizations whose curve was computed up to the largest X.
+    The smallest number is the number of curves that were computed up to the largest X.
     """
     counts = []
     for ensemble in ensembles:

@@ -15,8 +15,8 @@ def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min
 
     groups : {name of a group of scans: its ensemble dataset}
     discs : ensemble datasets of generated discs, one for each Hurst exponent
-    scaling : table measured_fits; kinetics : table measured_kinetics, which may be empty (comparisons.measured)
-    conventions : {column of a scaling table: value}
+    scaling, kinetics : tables measured_fits and measured_kinetics of comparisons.measured; kinetics may be empty
+    conventions : choices that the paper leaves open, {column of the table of fits: value}
     fraction_min : a mean is drawn if at least this fraction of the discs has a value
     """
     figure, (law, motion) = style.new_subplots(85, 1, 2)

@@ -6,8 +6,8 @@ from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
 from viscorough_study.run.cases import medium_label
 
-# Lower end of the axis of velocities, as a share of the largest velocity, since velocities in a solid decay
-# exponentially.
+# The axis of velocities begins at this share of the largest velocity. Otherwise it would show many useless decades,
+# because velocities in a solid decay exponentially.
 _LOWEST = 1e-6
 HOLLOW = {"linestyle": "", "markersize": 3, "markerfacecolor": "none"}
 
@@ -45,7 +45,7 @@ def plot_media(table):
 def _plot_velocity(axes, table, looks):
     """Draw vt/h against time in one medium, with guide lines of the slopes 1 and H/(1 + H).
 
-    table : rows of this medium; looks : {H: line properties}
+    table : table rows of this medium; looks : {H: line properties}
     """
     for hurst, part in table.groupby("hurst"):
         axes.plot(part["time"], part["velocity"], **looks[hurst] | {"marker": ""})

@@ -1,4 +1,4 @@
-"""Draw the exponent β of ensembles on grids from coarse to fine."""
+"""Draw the exponent β against the number of elements, on grids from coarse to fine."""
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
@@ -9,11 +9,12 @@ CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 
 @style.figure
 def plot_sizes(table, conventions):
-    """Draw β against the number of elements, in region (b) for discs (a) and lines (b), in a fixed window (c, d).
+    """Draw the exponent β against the number of elements, for discs (a, c) and for MDR lines (b, d).
 
-    The fixed window in (c) and (d) is the fixed window of the table with the largest X. Colours distinguish Hurst
-    exponents. Dotted lines are H/(1 + H), Eq. 10. Crosses are controls: discs whose spectrum has a roll-off.
-    table : table of fits.fit_table.sizes_table; conventions : {column of the table: value}
+    In (a) and (b), β is fitted in region (b); in (c) and (d), in a fixed window of X. If the table contains several
+    fixed windows, the figure shows the window with the largest X. Colours distinguish Hurst exponents. Dotted lines are
+    H/(1 + H), Eq. 10. Crosses are controls: discs whose spectrum has a roll-off.
+    table : table of fits.fit_table.sizes_table; conventions : {column of this table: value}
     """
     fixed = table[~table["window_rule"].isin(FITTED["window_rule"])].sort_values("x_low", kind="stable")
     rules = [conventions["window_rule"], *fixed["window_rule"].tail(1)]
@@ -35,13 +36,17 @@ def plot_sizes(table, conventions):
 
 
 def _panel(axes, table, conventions, source, looks):
-    """Draw β of one source, "discs" or "lines", in the window that the conventions name."""
+    """Draw β of the discs or of the lines, as fitted in the window `conventions["window_rule"]`.
+
+    source : "discs" or "lines"; looks : {H: line properties}
+    """
     own_rms = {"rms_convention": "line"} if source == "lines" else {}
     for rank, (hurst, look) in enumerate(looks.items()):
         rows = fits(table, conventions | own_rms, source=source, case_group="sizes", hurst=hurst)
         axes.axhline(exponent_beta(hurst), color=look["color"], linestyle=":", linewidth=0.8)
         for row in rows.sort_values("elements").itertuples():
-            shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # so that intervals of different H do not overlap
+            # Shift the markers of different H, so that their intervals do not overlap.
+            shifted = row.elements * 1.06 ** (rank - len(looks) / 2)
             style.mark_with_interval(axes, shifted, row.beta, (row.beta_low, row.beta_high), look)
     if source == "discs":
         for row in fits(table, conventions, source="discs", case_group="controls").itertuples():

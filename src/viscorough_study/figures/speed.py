@@ -8,20 +8,20 @@ from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, REQUE
 ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # ticks of the axes of errors in (a) to (c)
 SMALL_ERRORS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)  # ticks of the axis of errors in (d)
 TIME, ERROR = "processor time (s)", "error of the velocity $v$"
-LEFT = 0.02  # horizontal place of a model that costs no time, as a share of the width of the axes
+LEFT = 0.02  # horizontal position of the marker of a model without cost, as a share of the width of the axes
 LEAST_DISTANCE = 0.055  # smallest vertical distance of labels, as a share of the height of the axes
 # Colors of the grids, from coarse to fine.
 GRIDS = (style.SKY_BLUE, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE)
 PATH = "path, at the depths"
-# {method: (label, color, offset of the label from the first point [points])}
+# Curves in (d), {method: (label, color, offset of the label from the first point of the curve [points])}.
 SOLVERS = {
     PATH: ("viscorough", style.BLUE, (-4, 5)),
     "implicit": ("implicit steps", style.GREEN, (5, -9)),
     "explicit, logarithmic steps": ("explicit steps", style.PURPLE, (5, 2)),
 }
-# Task of the comparison with other solvers, and the residual that all solvers reach in this task.
+# Task in which the times of several solvers were compared, and the residual to which all of them solve this task.
 RACE, RACE_TOLERANCE = "eight levels", 1e-6
-ACROSS = 257  # largest number of elements across in (d)
+ACROSS = 257  # panel (d) shows the finest grid with at most this number of elements across
 FLOOR = 1e-10  # smaller errors are drawn at this value
 
 
@@ -31,7 +31,8 @@ def plot_speed(one_surface, means, methods, other_solvers):
 
     one_surface, means, methods : tables of performance.one_surface, comparisons.mean_of_surfaces and
         performance.measurement
-    other_solvers : rows of resources/published/other_solvers.csv, with ratios of their times to times of viscorough
+    other_solvers : rows of resources/published/other_solvers.csv; each has the ratio of a solver's time to the time of
+        viscorough
     """
     figure, ((left, right), (many, solver)) = style.new_subplots(122, 2, 2)
     velocity = one_surface[one_surface["quantity"] == "velocity"]
@@ -55,7 +56,7 @@ def _lines_of_equal_error(axes, errors, limits):
 
 
 def _limits(rows):
-    """Return the ends of the axis of errors that shows all rows."""
+    """Return the limits of an axis that shows the errors of all rows."""
     return 0.5 * rows["error"].min(), max(2 * rows["error"].max(), 0.6)
 
 
@@ -64,7 +65,7 @@ def _power(number):
 
 
 def _draw_free(axes, rows, above=False):
-    """Draw the law, which costs no time, as a marker at the left edge, and its label above or below the marker."""
+    """Draw the law, which costs no time, as a marker at the left edge, with a label above or below the marker."""
     place, edge = (LEFT, rows["error"].iloc[0]), axes.get_yaxis_transform()
     look = {"color": style.VERMILION, "clip_on": False}
     axes.plot(*place, "D", transform=edge, markersize=5, **look)
@@ -87,18 +88,18 @@ def _label_ends(axes, ends, side="right"):
 
 
 def _say(axes, text):
-    """Write a text in the upper right corner of the axes: what changes from point to point along a curve."""
+    """Write a note in the upper right corner of the axes, which explains the points along a curve."""
     axes.text(0.97, 0.96, text, transform=axes.transAxes, ha="right", va="top", color=style.GREY)
 
 
 def _draw_curve(axes, curve, look, color, label):
-    """Draw a curve, and return the entry of the curve in the list `ends` of `_label_ends`."""
+    """Draw the curve of one model; return its entry for the list `ends`, the argument of `_label_ends`."""
     axes.plot("processor_s", "error", look, data=curve, color=color, markersize=3)
     return label, tuple(curve["processor_s"].agg(["min", "max"])), curve["error"].iloc[-1], color
 
 
 def _draw_one_surface(axes, rows):
-    full = rows[rows["model"] == GRID]["across"].max()  # the full map, with which all models are compared
+    full = rows[rows["model"] == GRID]["across"].max()  # the full map is the reference of all models
     grids = rows[(rows["model"] == GRID) & (rows["across"] < full)]
     ends = [
         _draw_curve(axes, curve, "o-", color, f"{across:g} × {across:g}")
@@ -168,8 +169,8 @@ def _draw_solvers(axes, methods, velocity, other_solvers):
 def _draw_others(axes, rough, other_solvers):
     """Draw other solvers as points in the axes of error against processor time.
 
-    All solvers are run to the residual `RACE_TOLERANCE`, so their error is the error of viscorough's elastic path at
-    this tolerance. The time of a solver is the time of the elastic path, times the published ratio of their times.
+    All solvers stop at the residual `RACE_TOLERANCE`, so their errors are equal to the error of viscorough at this
+    tolerance. The time of another solver is the time of viscorough, multiplied by the published ratio of their times.
     """
     own = rough[(rough["method"] == PATH) & (rough["value"] <= RACE_TOLERANCE)]
     races = [race for race in other_solvers if race["task"] == RACE]
@@ -179,7 +180,7 @@ def _draw_others(axes, rough, other_solvers):
     nearest = min((race["hurst"] for race in races), key=lambda value: abs(value - hurst))
     ratios = {}
     for race in races:
-        if race["hurst"] == nearest:  # of several modes of a solver only the fastest is drawn
+        if race["hurst"] == nearest:  # if a solver has several modes, only the fastest is drawn
             name = race["solver"].split()[0]
             ratios[name] = min(race["ratio"], ratios.get(name, np.inf))
     for rank, (name, ratio) in enumerate(sorted(ratios.items(), key=lambda item: item[1])):

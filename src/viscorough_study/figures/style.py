@@ -23,7 +23,7 @@ from viscorough.io.atomic import atomic_write
 from viscorough_study.run.readable import readable
 
 MM = 1 / 25.4
-WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one column [inch]
+WIDE, NARROW = 170 * MM, 85 * MM  # widths of figures over two columns of a page, and over one column [inch]
 SMALL = 7  # size of the smallest text [points]
 DPI = 200  # resolution of PNG files [dots per inch]
 FEW_DECADES = 2.1  # logarithmic axes that span fewer decades also have ticks between decades
@@ -35,7 +35,7 @@ ORANGE, VERMILION, PURPLE = "#e69f00", "#d55e00", "#cc79a7"
 SERIES_COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, SKY_BLUE, ORANGE)
 SERIES_MARKERS = "osD^v<>ph*X"
 DASHED, DASH_DOTTED, DOTTED = (0, (6, 1.5)), (0, (6, 1, 1, 1)), (0, (1.5, 1))
-# Markers and line styles of the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, in this order, for `hurst_looks`.
+# `hurst_looks` assigns these markers and line styles to the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, in this order.
 HURST_MARKERS = "X^o>P*vDs<p"
 HURST_LINES = (DOTTED, DASH_DOTTED, "-", DASHED, DASHED, DOTTED, DASH_DOTTED, DOTTED, DASHED, "-", "-")
 
@@ -68,7 +68,7 @@ in_style = rc_context(STYLE)
 
 
 def figure(plot):
-    """Decorate a function that draws a figure, so that it draws in `STYLE`, with `_set_ticks` on logarithmic axes.
+    """Decorate a function that draws a figure: apply `STYLE`, and set the ticks of logarithmic axes.
 
     The decorated function raises ValueError if its first argument is a table without rows.
     """
@@ -81,7 +81,7 @@ def figure(plot):
             raise ValueError(f"{plot.__name__}: the table has no rows; at least one is needed")
         drawn = plot(*arguments, **options)
         for axes in drawn.axes:
-            # Labels of minor ticks are empty. They are turned off, because matplotlib would still measure each of them.
+            # Turn off the labels of minor ticks. They are empty, but matplotlib would measure each label.
             axes.tick_params(which="minor", labelbottom=False, labelleft=False)
             for axis in (axes.xaxis, axes.yaxis):
                 if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
@@ -138,7 +138,7 @@ def save_figure(figure, *paths):
         figure.set_dpi(DPI)
         with atomic_write(path) as temporary:
             _WRITERS[suffix](figure, temporary)
-        # Keep the layout of the first file: to compute it again would take as long as drawing.
+        # Keep the layout of the first file. Computing the layout again would take as long as drawing.
         figure.set_layout_engine("none")
 
 
@@ -150,7 +150,7 @@ def _write_pdf(figure, path):
 def _write_png(figure, path):
     """Write a PNG file of at most 256 colours, which is a third as large as a file of all colours.
 
-    Size matters because the page embeds all figures.
+    Small files matter, because the page of results embeds all figures.
     """
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
@@ -165,8 +165,8 @@ def hurst_looks(exponents):
     """Return {Hurst exponent: line properties}, by ascending exponent; the properties are color, marker, linestyle."""
     looks = {}
     for hurst in sorted(set(exponents)):
-        # Ranks, and so markers, differ for all multiples of 0.1, and for neighbouring exponents. The power 1.5 spreads
-        # the colours near H = 1.
+        # All multiples of 0.1 have different ranks and thereby different markers; so have neighbouring exponents. The
+        # power 1.5 spreads the colours near H = 1.
         rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["viridis"](0.85 * hurst**1.5)
         looks[hurst] = {"color": color, "marker": HURST_MARKERS[rank], "linestyle": HURST_LINES[rank]}
     return looks
@@ -198,7 +198,7 @@ def hurst_handles(looks, **changes):
 
 
 def draw_band(axes, rows, name, color, alpha=0.15):
-    """Fill the band between the columns `name`_low and `name`_high as functions of the column x."""
+    """Fill the band between the columns `name`_low and `name`_high, drawn against the column x of the table rows."""
     axes.fill_between(rows["x"], rows[f"{name}_low"], rows[f"{name}_high"], color=color, alpha=alpha, linewidth=0)
 
 
@@ -213,9 +213,9 @@ def mark_with_interval(axes, x, y, interval, look, along="y"):
 def _set_ticks(axis):
     """Set the ticks of a logarithmic axis.
 
-    Major ticks are at decades. On an axis of few decades they are also at 2 and 5 times each decade; on an axis of less
-    than one decade they are evenly spaced. If not every decade has a major tick, minor ticks mark the other decades.
-    Otherwise minor ticks divide the decades.
+    Major ticks are at decades. An axis of few decades also has major ticks at 2 and 5 times each decade. An axis of
+    less than one decade has evenly spaced major ticks. If not every decade has a major tick, minor ticks mark the other
+    decades; otherwise minor ticks divide the decades.
     """
     decades = np.ptp(np.log10(axis.get_view_interval()))
     axis.set_major_locator(LogLocator(numticks=9))

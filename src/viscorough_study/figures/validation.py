@@ -12,8 +12,8 @@ LIMIT = {"color": "black", "linewidth": 2}
 def plot_validation(table):
     """Draw deviations from exact solutions against the number of elements across, with a panel for each quantity.
 
-    A black bar marks the largest error allowed on the finest grid. The slope of the dotted line that leads to this bar
-    is the expected order.
+    A black bar marks the largest error allowed on the finest grid. The dotted line that leads to this bar falls with
+    the expected order of convergence.
     table : table of viscorough_study.comparisons.validation
     """
     quantities, cases = table["quantity"].unique(), table["case"].unique()
@@ -38,9 +38,9 @@ def plot_validation(table):
 
 
 def _case_looks(cases):
-    """Return {case: line properties}: the body of a case determines the colour, the method determines the marker.
+    """Return {name of a case: line properties}; the body determines the colour, and the method the marker.
 
-    cases : names of the form <body>_<method>
+    cases : names of cases, <body>_<method>
     """
     bodies, methods = (style.series_looks(case.partition("_")[part] for case in cases) for part in (0, 2))
     looks = {}

@@ -2,9 +2,9 @@
 
 The levels of a curve are the depths of its computed contacts. A scene is an indenter and a range of force; the depth at
 any force in the range is required to several accuracies. Levels by hand are in equal ratios of depth. They cover
-exactly the range, which must be known beforehand. Naive levels are in equal steps of depth. By hand and naively, the
-number of levels is the smallest number that reaches the accuracy. It is found by trials, whose time does not count. The
-tolerance of every level is the required accuracy.
+exactly the range, which must be known beforehand. Naive levels are in equal steps of depth. For both kinds of levels,
+the smallest sufficient number of levels is found by trials, whose time does not count. The tolerance of every level is
+the required accuracy.
 """
 
 import logging
@@ -22,11 +22,11 @@ from viscorough_study.run.names import AUTOMATIC, BY_HAND, NAIVE
 
 ACCURACIES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
 NUMBERS = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # numbers of levels tried
-# A placement is not tried with more levels if its time exceeds the time of automatic levels by more than this factor.
+# The trials of a placement end when its time exceeds the time of automatic levels by more than this factor.
 LONGEST = 10.0
-# Levels extend beyond the range of depth by this share, because the ends of the range are known only to the tolerance.
+# Levels extend beyond the ends of the range of depth by this share, because these ends are known only to the tolerance.
 MARGIN = 0.01
-PROBES = 60  # number of forces in the comparison of depths
+PROBES = 60  # number of forces at which depths are compared
 REFERENCE_TOLERANCE = 1e-9  # tolerance of the reference depths
 COLUMNS = {
     "scene": ("scene", ""),
@@ -40,7 +40,7 @@ COLUMNS = {
 
 
 def scenes(elements, hurst, seed):
-    """Return the scenes: one asperity, a rough disc in region (b) only, and the same disc on its full curve.
+    """Return three scenes: a sphere, a rough disc in region (b), and the same disc up to a contact fraction of 0.9.
 
     A scene is a tuple: name, indenter, and the contact fractions at the lower and the upper end of the range of force.
     """
@@ -57,7 +57,8 @@ def scenes(elements, hurst, seed):
 def compare_scenes(*, elements, hurst, seed, repeats):
     """Compare the three placements of levels on every scene; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    elements, hurst, seed : arguments of `scenes`; repeats : number of interleaved repeats, whose median times count
+    elements, hurst, seed : arguments of `scenes`
+    repeats : times are medians over this number of interleaved repeats
     """
     # Use one thread. Snakemake gives the job all cores, so that no other job disturbs the timing.
     with threadpool_limits(1):
@@ -68,7 +69,7 @@ def compare(name, indenter, first_fraction, last_fraction, repeats, *, accuracie
     """Compare cost and error of the three placements of levels on one scene.
 
     name, indenter, first_fraction, last_fraction : a scene, as returned by `scenes`
-    repeats : number of interleaved repeats, whose median times count
+    repeats : times are medians over this number of interleaved repeats
     accuracies : required accuracies of the depth, from loose to fine; numbers : numbers of levels to try, increasing
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per placement and accuracy.
@@ -81,8 +82,8 @@ def compare(name, indenter, first_fraction, last_fraction, repeats, *, accuracie
         BY_HAND: lambda number: np.geomspace(first, last, number),
         NAIVE: lambda number: np.linspace(0, last, number + 1)[1:],
     }
-    # Begin below the required contact fraction, with the same margin as levels by hand: the first level with this
-    # contact fraction may lie above the smallest force of the range.
+    # Begin slightly below the first contact fraction of the range, with the same margin as levels by hand. Otherwise
+    # the first level may lie above the smallest force of the range.
     start = {"start_fraction": first_fraction * (1 - MARGIN), "until_fraction": 1, "until_force": exact.force[-1]}
     rows, fewest = [], dict.fromkeys(depths, numbers[0])
     for accuracy in accuracies:
@@ -95,7 +96,7 @@ def compare(name, indenter, first_fraction, last_fraction, repeats, *, accuracie
                 row = _row(choice, accuracy, partial(path, depths=placed(number)), exact)
                 if row["reached"] or row["processor_s"] > LONGEST * automatic["processor_s"]:
                     break
-            fewest[choice] = number  # a finer accuracy needs at least this number of levels
+            fewest[choice] = number  # a finer accuracy needs at least this many levels
             rows.append(row)
     times = timing.interleaved({i: row["function"] for i, row in enumerate(rows)}, repeats)
     table = pd.DataFrame(rows).assign(scene=name, processor_s=[seconds for _, seconds in times.values()])
@@ -103,8 +104,10 @@ def compare(name, indenter, first_fraction, last_fraction, repeats, *, accuracie
 
 
 def _row(choice, accuracy, levels, exact):
-    """Compute a loading curve; return its placement of levels, function, number of levels, error and time.
+    """Compute a loading curve, and return a table row as a dict: placement, accuracy, error, number of levels, time.
 
+    The row also contains the function that computes the curve.
+    choice : placement of the levels; accuracy : required accuracy of the depth
     levels : function that computes the curve; exact : curve with the reference depths
     """
     curve, _, seconds = timing.timed(levels)

@@ -35,10 +35,11 @@ COLUMNS = {
 def measure_problems(*, problems, seed, levels, repeats, longest):
     """Measure cost and error of every method on several problems; return a pandas.DataFrame with `COLUMNS`.
 
-    problems : list of arguments of `named_problem`; seed : root seed of rough discs; levels : depths of each problem
+    problems : list of arguments of `named_problem`; seed : root seed of rough discs
+    levels : number of depths of each problem
     repeats, longest : arguments of `measure`
     """
-    compile_kernels()  # load compiled code before the timing
+    compile_kernels()  # load compiled code now, so that its loading is not timed
     # Use one thread. Snakemake gives the job all cores, so that no other job disturbs the timing.
     with threadpool_limits(1):
         indenters = (named_problem(**problem, levels=levels, root=seed) for problem in problems)
@@ -48,9 +49,10 @@ def measure_problems(*, problems, seed, levels, repeats, longest):
 def measure(problem, repeats, *, longest, methods=METHODS):
     """Measure cost and error of every method that can solve a problem, at every value of its parameter.
 
-    repeats : number of interleaved repeats after a first run. Errors are taken from the first run. Times are medians of
-        the repeats; a run that exceeds MAX_REPEATED or `longest` is not repeated, and the time of the first run counts
-    longest : a run of at least this time [s] is not repeated, and its method is not tried at finer values
+    repeats : number of interleaved repeats after a first run. Errors are taken from the first run, and times are
+        medians of the repeats. If the first run exceeds MAX_REPEATED or `longest`, it is not repeated, and its time
+        is used
+    longest : if a run takes at least this time [s], its method is not tried at finer values
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, one row per method and value.
     """
@@ -65,7 +67,7 @@ def measure(problem, repeats, *, longest, methods=METHODS):
             error = np.sqrt(np.mean((velocity / problem.velocity - 1) ** 2))
             row = {"method": method.name, "group": method.group, "parameter": method.parameter, "value": float(value)}
             rows.append(row | {"error": error, "steps": steps} | dict(zip(TIMES, seconds, strict=True)))
-            spent = min(seconds)  # the processor time, if the wall time grows on a busy machine
+            spent = min(seconds)  # the processor time if a busy machine prolongs the wall time
             if spent < min(longest, MAX_REPEATED):
                 functions[len(rows) - 1] = function
             if spent >= longest:

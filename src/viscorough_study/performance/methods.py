@@ -42,23 +42,23 @@ class Method:
     rough_only: bool = False
 
 
-# ---- the elastic loading path
+# ---- methods that compute elastic loading curves
 
 
 def _automatic(problem, tolerance):
-    """Interpolate the velocities on a loading curve whose levels are placed automatically."""
+    """Interpolate the velocities on a loading curve; `indent` chooses the depths of this curve automatically."""
     curve = indent(problem.indenter, tolerance=tolerance, until_fraction=1, until_force=problem.force[-1] * (1 + 1e-12))
     _, stiffness = curve.at_force(problem.force)
     return problem.force / stiffness, curve.depth.size
 
 
 def _at_levels(problem, tolerance):
-    """Solve the contact at exactly the depths of the problem, with the exact tangent stiffness."""
+    """Solve the contact at the depths of the problem, so that no interpolation is needed."""
     curve = indent(problem.indenter, tolerance=tolerance, depths=problem.depth)
     return curve.force / curve.stiffness, curve.depth.size
 
 
-# ---- direct integration
+# ---- direct integration of the viscous problem
 
 
 def _events(problem, fraction):
@@ -70,29 +70,32 @@ def _events(problem, fraction):
 def _steps(scheme, problem, number):
     """Integrate the viscous problem in steps, and interpolate the velocity between the ends of the steps.
 
-    scheme : scheme of `march_steps`; number : number of steps, which are in equal ratios of the impulse ∫F dt/η
+    scheme : scheme of `march_steps`
+    number : number of steps; the impulses ∫F dt/η at the ends of the steps are in equal ratios
     """
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AccuracyWarning)  # too few steps are intended: their error is measured
+        warnings.simplefilter("ignore", AccuracyWarning)  # steps may be too few: the error is measured
         steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size
 
 
 def _implicit(problem, tolerance):
-    """Integrate the viscous problem by backward Euler steps that end at the impulses of the problem."""
+    """Integrate the viscous problem by backward Euler steps, which end at the impulses of the reference solution."""
     steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
     return problem.force / steps.resistance, steps.impulse.size
 
 
-# ---- models
+# ---- approximate models
 
 
 def _reduction(problem, points):
-    """Apply the MDR: to the line that is exactly equivalent to a body, or to a random line for a rough disc.
+    """Compute the velocities by the MDR.
 
-    The random line has the same h, L and H as the rough disc. points : number of points of the line
+    The line of a body of revolution is exactly equivalent to the body. The line of a rough disc is random, with the
+    same h, L and H as the disc.
+    points : number of points of the line
     """
     line = problem.body.mdr_line(points) if problem.body else self_affine_line(problem.hurst, points, seed=problem.seed)
     _, stiffness = reduce(line, until_force=problem.force[-1] * (1 + 1e-12)).at_force(problem.force)
@@ -100,7 +103,10 @@ def _reduction(problem, points):
 
 
 def _law(problem, gamma):
-    """Evaluate the closed law, Eq. 12, in units of h = 1; gamma : 1 with the factor 1/Γ(2−α), 0 without"""
+    """Evaluate the paper's law for the velocity, Eq. 12, in units of h = 1.
+
+    gamma : 1 with the factor 1/Γ(2−α), 0 without this factor
+    """
     return reference.rate_law(problem.force / 4, problem.hurst, gamma=bool(gamma)), 0
 
 

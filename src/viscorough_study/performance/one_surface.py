@@ -1,4 +1,7 @@
-"""Measure error and cost of every model of one surface: grids and tolerances, requested errors, the MDR, and the law.
+"""Measure error and cost of every model of one surface.
+
+The models are boundary elements on several grids and with several tolerances, boundary elements with a requested error
+(`indent` then chooses the grid), the MDR, and the law of the library.
 
 The error of a model is its deviation from the full map, the map of all points of the same surface. The error of the
 velocity v is the root mean square of ln(v/v_full) at X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several
@@ -31,17 +34,17 @@ from viscorough_study.run.seeds import one_surface_key, realization_seed
 
 X = (0.01, 3.0)
 PER_DECADE = 50
-STEPS = (16, 8, 4, 2)  # coarser grids have every n-th point of the full map
-FEWEST_ACROSS = 17  # smallest number of points across a grid
+STEPS = (16, 8, 4, 2)  # coarser grids consist of every n-th point of the full map, for these n
+FEWEST_ACROSS = 17  # grids with fewer points across are not used
 TOLERANCES = (1e-1, 1e-2, 1e-3)
 FULL_TOLERANCE = 1e-3  # tolerance of the loading curve of the full map
 REQUESTS = (0.2, 0.1, 0.05)
 POINTS = tuple(2**n for n in (8, 11, 14, 17))
 # Pressures are compared at X = CONTACT_X, on the grid of every second point (CONTACT_STEP). The reference pressures
-# have the tolerance EXACT_TOLERANCE.
+# are computed with the tolerance EXACT_TOLERANCE.
 CONTACT_X, CONTACT_STEP, CONTACT_TOLERANCES, EXACT_TOLERANCE = 0.1, 2, (1e-1, 1e-2, 1e-3), 1e-8
 SHORT, REPEATS = 0.1, 2  # a computation of less than SHORT seconds is repeated REPEATS times
-# Medium and times of the creep test, a constant force on a solid whose modulus relaxes by a factor of 100 (h = L = 1).
+# Medium and times of the creep test: a constant force on a solid whose modulus relaxes by a factor of 100 (h = L = 1).
 SOLID, TIMES = StandardLinearSolid(100.0, 1.0, 1.0), np.geomspace(1e-2, 1e3, 60)
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
@@ -64,7 +67,7 @@ def measure_surfaces(*, hurst, elements, surfaces, seed):
     hurst : Hurst exponents; elements : number of elements across the full map
     surfaces : number of surfaces for each Hurst exponent; seed : root of the surfaces' seeds
     """
-    compile_kernels()  # so that loading compiled code is not timed
+    compile_kernels()  # load compiled code now, so that its loading is not timed
     rows = []
     # Use one thread. Snakemake gives the job all cores, so that no other job disturbs the timing.
     with threadpool_limits(1):
@@ -79,9 +82,12 @@ def measure_surfaces(*, hurst, elements, surfaces, seed):
 
 
 def averaged(table):
-    """Average the rows of single surfaces: return root mean square errors, median times, and mean stated errors."""
+    """Average the rows of single surfaces.
+
+    Errors are averaged by the root mean square, times by the median, and stated errors by the arithmetic mean.
+    """
     table = table.assign(square=table["error"] ** 2)
-    # Requested errors are averaged across grids, because a request chooses its grid for each surface.
+    # Average rows with a requested error across grids, because each surface then gets its own grid.
     grids = table["across"].where(table["model"] != REQUEST)
     means = {"processor_s": "median", "square": "mean", "stated": "mean", "across": "median", "surface": "nunique"}
     labels = [name for name in LABELS if name != "across"]
@@ -91,7 +97,7 @@ def averaged(table):
 
 
 def surface_rows(hurst, elements, seed):
-    """Return the rows of every model of one surface, as dicts.
+    """Measure every model on one surface; return the table rows as dicts.
 
     The keys are the columns of `COLUMNS`, except for hurst and surfaces.
     """
@@ -123,7 +129,7 @@ def surface_rows(hurst, elements, seed):
             table += rows(curve, seconds, GRID, across, "tolerance", tolerance)
     for error in REQUESTS:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", AccuracyWarning)  # warns if the stated error exceeds the requested error
+            warnings.simplefilter("ignore", AccuracyWarning)  # the stated error may exceed the requested error
             curve, seconds = _timed(lambda: indent(disc, error=error, **until))  # noqa: B023
         across = len(disc.heights[:: curve.sampling])
         table += rows(curve, seconds, REQUEST, across, "error", error, curve.mean_grid_error)
@@ -139,14 +145,17 @@ def surface_rows(hurst, elements, seed):
 
 
 def _timed(function):
-    """Return the result of a function and its processor time, for a short function the shortest of several times."""
+    """Call a function; return its result and its processor time.
+
+    A short computation is repeated, and the shortest time is returned.
+    """
     result, _, seconds = timing.timed(function)
     repeats = REPEATS if seconds < SHORT else 0
     return result, min([seconds, *(timing.timed(function)[2] for _ in range(repeats))])
 
 
 def _answers(curve, force, disc):
-    """Return {quantity: its values at the forces} for the velocity vt and the contact area of a loading curve.
+    """Return the velocity vt and the contact area on a loading curve, as {quantity: values at the given forces}.
 
     force : F/G with h = L = 1; forces beyond an end of the curve are replaced by the force at this end
     """
@@ -160,9 +169,9 @@ def _deviation(values, truth):
 
 
 def _compliance_error(curve, record, force):
-    """Return the error of the creep compliance that is identified with a loading curve from a record of the depth.
+    """Identify the creep compliance from recorded depths and a loading curve; return the error of the compliance.
 
-    record : depths under the constant force `force`
+    record : motion with the depths under the constant force `force`
     """
     reached = record.depth <= curve.depth[-1]
     found = identify_medium(curve, force, record.time[reached], record.depth[reached])
@@ -171,13 +180,16 @@ def _compliance_error(curve, record, force):
 
 
 def _reduced_velocity(hurst, points, force, seed):
-    """Return the velocities vt = (F/G)/(k/G) of one random line of the MDR, which has h, L and H of the surface."""
+    """Compute the velocities vt = (F/G)/(k/G) by the MDR, on one random line with the h, L and H of the surface."""
     line = self_affine_line(hurst, points, seed=seed)
     return force / reduce(line, until_force=force[-1] * (1 + 1e-9)).at_force(force)[1]
 
 
 def _pressure_rows(sampled):
-    """Return the rows of the pressures of one contact on a given grid: a row for each tolerance of the solver."""
+    """Compute the pressures of one contact with several tolerances; return a table row for each tolerance.
+
+    sampled : the surface on a coarser grid
+    """
     force = 4 * CONTACT_X
     exact = contact_at(sampled, force=force, tolerance=EXACT_TOLERANCE).pressure
     scale, rows = np.sqrt(np.nanmean(exact**2)), []

@@ -14,7 +14,7 @@ from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.seeds import method_problem_key, realization_seed
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
-FINAL_X, FINAL_FRACTION = 30.0, 0.9  # the curve of a rough disc ends at this X, or at this contact fraction
+FINAL_X, FINAL_FRACTION = 30.0, 0.9  # the curve of a rough disc ends at this X, or earlier at this contact fraction
 REFERENCE_TOLERANCE = 1e-11  # tolerance of the reference velocities of rough discs
 
 
@@ -38,12 +38,12 @@ class Problem:
 
 
 def named_problem(name, elements, levels, *, root=None, hurst=None):
-    """Return the problem of a body named "sphere", "cone" or "rough disc" (self-affine).
+    """Return the Problem of an indenter named "sphere", "cone" or "rough disc" (self-affine).
 
     elements : number of elements across the indenter; levels : number of depths
     root, hurst : root seed and Hurst exponent of a rough disc
-    The depths of sphere and cone have contact radii from 0.1 to 0.45 L, and the velocities are exact. The depths of a
-    rough disc are in equal ratios. They begin slightly above the depth of the second contact, and end at FINAL_X or
+    For sphere and cone, the contact radii are 0.1 to 0.45 L, and the reference velocities are exact. The depths of a
+    rough disc are in equal ratios. They begin above the depth at which a second element touches, and end at FINAL_X or
     FINAL_FRACTION, whichever the disc reaches first.
     """
     if name == "rough disc":

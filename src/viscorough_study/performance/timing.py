@@ -9,9 +9,10 @@ import numpy as np
 
 
 def interleaved(functions, repeats):
-    """Return {name: (wall, processor) seconds} of functions, as medians over interleaved repeats.
+    """Time several functions; return {name: (wall, processor) seconds}, as medians over interleaved repeats.
 
-    functions : {name: function without arguments that has run before}; repeats : number of calls of each function
+    functions : {name: function without arguments}, all of which have run before
+    repeats : number of calls of each function
     """
     times = [[timed(function)[1:] for function in functions.values()] for _ in range(repeats)]
     return dict(zip(functions, map(tuple, np.median(times, axis=0).tolist()), strict=True))

@@ -1,1 +1,1 @@
-"""Tests of where the methods fail, and whether they report their failures."""
+"""Stress tests of all methods: in which cases a method fails, and whether it reports the failure."""

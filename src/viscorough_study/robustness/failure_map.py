@@ -1,8 +1,8 @@
 """Make the failure map: the error of every method in every stress-test case, and whether a failure is reported.
 
-A method holds if its error is within its limit. Otherwise the method must have refused the case with a reason, or have
-warned. For an approximate model it is also sufficient that the case is outside the documented range of the model. Any
-other failure goes unnoticed, and is a defect.
+A method holds in a case if its error is within its limit. Otherwise the method must refuse the case with a reason, or
+give a warning. An approximate model may also fail without a message outside its documented range. Any other failure
+goes unnoticed, and is a defect.
 """
 
 import logging
@@ -17,7 +17,7 @@ from viscorough_study.robustness.stress_cases import stress_cases
 from viscorough_study.robustness.stress_solutions import METHODS, MODELS, reference_solution
 from viscorough_study.run.seeds import failure_map_key, realization_seed
 
-MIN_ELEMENTS = 10  # with fewer elements in contact, in region (a), the grid determines the result
+MIN_ELEMENTS = 10  # with fewer elements in contact (region (a)), the grid determines the result
 FEW_ELEMENTS = "fewer than ten elements touch: region (a), which belongs to the grid"
 COLUMNS = {
     "group": ("kind of stress-test case", ""),
@@ -65,6 +65,7 @@ def _cell(case, solution, ratios, limit, *, is_model):
 
     solution : reference solution of the case; limit : largest error for which the method holds
     ratios : function of case and solution that returns the ratios of the method's results to the reference solution
+    is_model : True for an approximate model
     """
     messages, error, verdict = [], 1.0, ""
     with warnings.catch_warnings(record=True) as caught:
@@ -80,7 +81,7 @@ def _cell(case, solution, ratios, limit, *, is_model):
         verdict = "model" if is_model else "holds"
     elif not verdict:
         limits = {case.stated: is_model, FEW_ELEMENTS: is_model and solution.count[0] < MIN_ELEMENTS}
-        stated = [text for text, applies in limits.items() if text and applies]  # reasons that models document
+        stated = [text for text, applies in limits.items() if text and applies]  # documented limits
         verdict = "warned" if messages else "stated" if stated else "unnoticed"
         messages += stated
     reason = " ".join("; ".join(dict.fromkeys(messages)).split())

@@ -1,4 +1,4 @@
-"""Measure errors as functions of a setting that decides whether a method works: steps, box, range of a power law.
+"""Measure the errors of three methods, each as a function of a setting that decides whether the method works.
 
 - Explicit steps: the setting is the number of time steps, in equal ratios of time, on a rough disc. The error is the
   largest error of the depth, relative to integration from contact event to contact event.
@@ -25,10 +25,10 @@ from viscorough_study.fits.conventions import fits
 from viscorough_study.run.names import BOX, RANGE, STEPS
 from viscorough_study.run.seeds import failure_map_key, realization_seed
 
-HURST = 0.7  # Hurst exponent of the disc for the explicit steps, like most stress-test cases
+HURST = 0.7  # Hurst exponent of the disc for the explicit steps, as in most stress-test cases
 NUMBERS = (8, 32, 128, 512, 2048)  # numbers of explicit steps
-FRACTIONS = (0.02, 0.5)  # smallest and largest contact fraction in the comparison of depths
-COMPARED = 6  # number of impulses ∫F dt/η in the comparison of depths
+FRACTIONS = (0.02, 0.5)  # smallest and largest contact fraction at which depths are compared
+COMPARED = 6  # number of impulses ∫F dt/η at which depths are compared
 COLUMNS = {
     "knob": ("explicit steps, box, or power law", ""),
     "hurst": ("Hurst exponent of the surface; missing for a flat disc", "1"),
@@ -43,7 +43,8 @@ def failure_knobs(discs, scaling, *, seed, across, conventions):
 
     discs : pool of discs (ensembles.pool); scaling : table of fitted power laws
     seed : root seed; across : number of elements across the disc of the explicit steps, and across the flat disc
-    conventions : {convention: value} of the figures (fits.conventions)
+    conventions : choices that the paper leaves open, {name of the choice: value used in the figures}
+        (fits.conventions)
     """
     rows = [*_step_rows(seed, across), *_box_rows(across), *_range_rows(discs, scaling, conventions)]
     return pd.DataFrame(rows, columns=list(COLUMNS))
@@ -71,10 +72,10 @@ def _box_rows(across):
 
 
 def periodic_stiffness(across, width):
-    """Return the sum of the pressures of a flat disc at a depth of 1, in reduced units, in a periodic box.
+    """Compute the stiffness of a flat disc in a periodic box: the sum of its pressures at a depth of 1.
 
-    Any two elements act on each other over the shorter distance, directly or across the edge of the box, like in a
-    convolution by Fourier transforms.
+    The result is in reduced units. Any two elements act on each other over the shorter distance, directly or across the
+    edge of the box, as in a convolution by Fourier transforms.
     across, width : number of elements across the disc and across the box
     """
     place = np.argwhere(np.isfinite(cut_disc(np.zeros((across, across)), across)))

@@ -19,7 +19,7 @@ class StressCase:
     """A stress-test case: an indenter, its load, and the parameters of the methods.
 
     group, name : kind of case, and name of the case
-    hurst : Hurst exponent that models assume, for the power law and for a random line of the MDR
+    hurst : Hurst exponent that the models (the power law, and a random line of the MDR) assume for the indenter
     fractions : contact fractions at the first and the last depth of the comparison
     body : body of revolution with a power-law profile that the indenter represents, for which the MDR is exact; or None
     tolerance : tolerance of the elastic loading path; steps : number of explicit time steps
@@ -46,7 +46,7 @@ class StressCase:
 def stress_cases(seed, across, grids, hurst_min):
     """Yield all stress-test cases of the failure map, group by group.
 
-    seed : SeedSequence of the rough discs; across : elements across the maps
+    seed : SeedSequence of the rough discs; across : number of elements across the maps
     grids : numbers of elements across the discs of the group "grid"
     hurst_min : the paper states that Eq. 5 holds for H above this limit (resources/paper/numbers.yaml)
     """
@@ -128,7 +128,10 @@ def _shape_cases(across):
 
 
 def _question_cases(usual):
-    """Yield cases of the usual disc: in extreme units of length, under varying forces, with other tolerances."""
+    """Yield cases of one disc: with extreme heights or spacings, under varying forces, and with several tolerances.
+
+    usual : the disc, as the arguments `indenter` and `hurst` of StressCase
+    """
     rough = usual["indenter"]
     for name, height, length in (
         ("heights times 1e12", 1e12, 1.0),
@@ -151,9 +154,10 @@ def _question_cases(usual):
 
 
 def _medium_cases(usual):
-    """Yield cases of the usual disc in viscoelastic media, each with a load history.
+    """Yield cases of one disc in viscoelastic media, each with a load history.
 
     Times are from 0 to 1; a repeated time marks a step of the force.
+    usual : the disc, as the arguments `indenter` and `hurst` of StressCase
     """
     step, ramp = ((0, 1), (1, 1)), ((0, 0), (0.5, 0.4), (1, 1))
     hold, unloading = ((0, 0), (0.1, 1), (1, 1)), ((0, 0), (0.4, 1), (0.5, 0.3), (1, 0.3))

@@ -1,10 +1,10 @@
 """Solve a stress-test case by every method, and compare the results with the reference solution.
 
 The reference solution gives the forces F/G at given depths. It is computed on the same elements with dense matrices,
-and is exact within rounding. By the correspondence principle, the forces are also the impulses ∫F dt/η by which the
-indenter reaches these depths in a viscous half-space. Each method returns ratios to the reference solution: an elastic
-method returns ratios of forces at the given depths, other methods return ratios of depths at the given forces or
-impulses.
+and is exact within rounding. By the correspondence principle, these values of F/G are also the impulses ∫F dt/η at
+which the indenter reaches the depths in a viscous half-space. Each method returns ratios of its results to the
+reference solution. Elastic methods return ratios of forces at the given depths; other methods return ratios of depths
+at the given forces or impulses.
 """
 
 import warnings
@@ -33,21 +33,22 @@ DENSE_ONLY = SolverOptions(dense_contacts=10**9, dense_interactions=10**12)
 GRID_ONLY = SolverOptions(dense_contacts=0, dense_interactions=0)
 DOUBLE_ON_GRID = replace(GRID_ONLY, precision="double", exact_gap_below=0.0)
 DEPTHS = 6  # number of depths of a reference solution
-INTERPOLATED_FORCES = 20  # interpolated depths are compared at this number of forces from each depth to the next
+INTERPOLATED_FORCES = 20  # number of forces between two reference forces at which interpolated depths are compared
 REFERENCE_TOLERANCE = 1e-11
 BISECTIONS = 12  # number of bisections in the search for the depth of a contact fraction
-BEYOND_FULL_CONTACT = 3.0  # depths of cases past full contact are multiplied by this factor
+BEYOND_FULL_CONTACT = 3.0  # in a case past full contact, all depths are multiplied by this factor
 LINE_POINTS = 2**14  # number of points of a line of the MDR
-CURVE_TOLERANCE = 1e-6  # tolerance of the loading curves that the correspondence uses
-# Number of time steps between two samples of a force in a viscoelastic medium, by the method and by its reference.
+CURVE_TOLERANCE = 1e-6  # tolerance of the loading curves in the method "media, correspondence"
+# Number of time steps between two samples of the force in a viscoelastic medium, for the method "media, steps" and for
+# the reference motion.
 STEPS, REFERENCE_STEPS = 64, 1024
-# Largest errors of methods that hold. For a single realization, a model may deviate by a factor of 2.
+# A method holds if its error is at most this limit. A model holds for a single realization within a factor of 2.
 LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0
 
 
 @dataclass(frozen=True)
 class Solution:
-    """The reference solution of a case; arrays of shape (depths,).
+    """Reference solution of a stress-test case; all arrays have the shape (depths,).
 
     depth : prescribed depths [length]; force : F/G [length²]; count : number of elements in contact
     """
@@ -58,9 +59,10 @@ class Solution:
 
 
 def reference_solution(case):
-    """Return the reference Solution of a case at `DEPTHS` depths.
+    """Compute the reference Solution of a stress-test case at `DEPTHS` depths.
 
-    The depths are in equal ratios, from the depth of the case's first contact fraction to the depth of its last.
+    The depths are logarithmically uniform. The first and the last depth reach the two contact fractions of the case. If
+    the last fraction is above 1, the depths extend beyond full contact.
     """
     solver = ContactSolver(case.indenter, REFERENCE_TOLERANCE, DENSE_ONLY)
     first = _depth_of_fraction(solver, case.fractions[0], 0.0)
@@ -88,19 +90,19 @@ def _depth_of_fraction(solver, fraction, low):
     return high
 
 
-# ---- methods
+# ---- methods for the elastic and the Newtonian half-space, and approximate models
 
 
 def _path(options, case, solution):
-    """Return ratios of forces, by the elastic loading path with these options, to the reference."""
+    """Compute forces by `indent` with the given solver options; return their ratios to the reference forces."""
     curve = indent(case.indenter, tolerance=case.tolerance, depths=solution.depth, options=options)
     return curve.force / solution.force
 
 
 def _interpolated(case, solution):
-    """Return ratios of interpolated depths on a loading curve with automatic levels to exact depths.
+    """Interpolate depths on a loading curve whose points `indent` places; return their ratios to exact depths.
 
-    The depths are compared at several forces from each depth of the reference to the next.
+    The depths are compared at several forces from each force of the reference solution to the next force.
     """
     curve = indent(case.indenter, tolerance=case.tolerance, until_fraction=1.0, until_force=solution.force[-1])
     kinetics(curve, 1.0, 1.0, solution.force[:1])  # raises ValueError if the first force is beyond the curve
@@ -112,20 +114,21 @@ def _interpolated(case, solution):
 
 
 def _last_fraction(case, solution):
-    """Return a contact fraction slightly above the contact fraction at the last depth of the reference."""
+    """Return a contact fraction slightly above the contact fraction at the last depth of the reference solution."""
     return min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
 
 
 def _events(case, solution):
-    """Return ratios of depths, by direct integration from contact event to contact event, to the reference."""
+    """Compute depths by integration from contact event to contact event; return their ratios to the reference."""
     events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
     return events.depth_at(solution.force) / solution.depth
 
 
 def _steps(case, solution):
-    """Return ratios of depths, by direct integration in explicit time steps, to the reference.
+    """Compute depths by integration in explicit time steps; return their ratios to the reference depths.
 
-    The case sets the number of steps. Steps are uniform in time, or in equal ratios of time if the force is constant.
+    The case sets the number of steps. If the force is constant, the steps are in equal ratios of time; otherwise they
+    are uniform in time.
     """
     if min(case.force) == max(case.force):
         ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
@@ -139,7 +142,7 @@ def _steps(case, solution):
 
 
 def _reduction(case, solution):
-    """Return ratios of depths, by the MDR, to the reference.
+    """Compute depths by the MDR; return their ratios to the reference depths.
 
     The line of a body of revolution is exactly equivalent to the body. The line of any other indenter is random,
     with h and L of the indenter, and with the Hurst exponent of the case.
@@ -152,9 +155,10 @@ def _reduction(case, solution):
 
 
 def _power_law(gamma, case, solution):
-    """Return ratios of depths, by the power law, to the reference.
+    """Compute depths by the power law; return their ratios to the reference depths.
 
-    The law is Eq. 6, or with `gamma` Eq. 8. Its ζ and α are from Eqs. 4 and 5; for a body of revolution they are exact.
+    The law is Eq. 8 if `gamma` is True, otherwise Eq. 6. ζ and α are taken from Eqs. 4 and 5; for a body of revolution
+    the exact values are used.
     """
     across, rms = case.indenter.spacing * len(case.indenter.heights), np.nanstd(case.indenter.heights)
     zeta, alpha = reference.zeta_elastic(case.hurst), reference.exponent_alpha(case.hurst)
@@ -170,13 +174,16 @@ def _power_law(gamma, case, solution):
     return rms * reference.depth_law(x, zeta, alpha, gamma=gamma) / solution.depth
 
 
-# ---- methods for viscoelastic media; a case without a medium has a Newtonian medium and a constant force. The
-# reference in a viscoelastic medium is direct integration: from contact event to contact event, which is exact, if the
-# contact only grows, otherwise in many steps.
+# ---- methods for viscoelastic media. A case without a medium has a Newtonian medium and a constant force. In a
+# viscoelastic medium, the reference is direct integration. If the contact only grows, the integration proceeds from
+# contact event to contact event, which is exact. Otherwise it takes many time steps.
 
 
 def _by_correspondence(case, solution):
-    """Return ratios of depths, by the correspondence with a loading curve (`kinetics`), to the reference."""
+    """Compute depths from a loading curve by the correspondence principle (`kinetics`).
+
+    Returns the ratios of these depths to the reference depths.
+    """
     curve = indent(case.indenter, tolerance=CURVE_TOLERANCE, until_fraction=1.0, until_force=solution.force[-1])
     if case.medium is None:
         return kinetics(curve, 1.0, Newtonian(1.0), solution.force).depth / solution.depth
@@ -186,7 +193,7 @@ def _by_correspondence(case, solution):
 
 
 def _by_steps(case, solution):
-    """Return ratios of depths, by second-order steps of direct integration (`march`), to the reference."""
+    """Compute depths by direct integration in steps of second order (`march`); return their ratios to the reference."""
     if case.medium is None:
         times = np.append(0.0, solution.force)
         motion = march(case.indenter, Load(times, force=np.ones(times.size)), Newtonian(1.0))
@@ -195,7 +202,7 @@ def _by_steps(case, solution):
 
 
 def _history(case, solution):
-    """Return the times and the forces of the load in the medium of a case.
+    """Return the times and the forces of the load in a case with a viscoelastic medium.
 
     The times are from 0 to 1; a repeated time marks a step of the force. The forces are scaled so that the equivalent
     elastic force stays below the last force of the reference solution.
@@ -215,11 +222,11 @@ def _motion_reference(case, solution):
 
 
 def _stepped(case, solution, number):
-    """Return depths at the samples of the force, by direct integration in `number` steps from sample to sample.
+    """Compute the depths at the samples of the force by direct integration, with `number` steps between samples.
 
-    After each sample the steps begin short, and grow until the next sample.
+    The steps are shortest after a sample, and grow until the next sample.
     """
-    history = np.array(_history(case, solution))  # a row of times, and a row of forces
+    history = np.array(_history(case, solution))  # first row: times; second row: forces
     parts, place = [history[:, :1]], [0]
     for start, end in pairwise(history.T):
         share = np.ones(1) if start[0] == end[0] else np.linspace(0, 1, number + 1)[1:] ** 2
@@ -234,12 +241,12 @@ def _ratios(depth, reference):
     return depth[loaded] / reference[loaded]
 
 
-# ---- all methods
+# ---- list of all methods
 
 
-# {name: (function, limit)}. The function takes a case and its reference Solution, and returns ratios of depths or
-# forces to the reference. The limit is a function of the case that returns the largest error for which the method
-# holds.
+# {name: (function, limit)}. The function takes a case and its reference Solution, and returns the ratios of its depths
+# or forces to the reference. The limit is a function, too: it takes a case, and returns the largest error for which the
+# method holds.
 METHODS = {
     "path, dense": (partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance),
     "path, grid, double": (partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance),

@@ -69,7 +69,7 @@ def compare_direct(*, hursts, elements, impulses, seed):
 def _rows(case, alpha, events, impulse, elastic_depth):
     """Return the table rows of one indenter, one row for each impulse ∫F dt/η, with the columns of `COLUMNS`.
 
-    case : name of the indenter; alpha : exponent α of its stiffness; events : its motion by `march_events`
+    case : name of the indenter; alpha : α in the stiffness k ∝ F^α of the indenter; events : result of `march_events`
     impulse : values of the impulse; elastic_depth : elastic depths at F/G equal to these values
     """
     counts = events.contact_count[events.event_at(impulse)]

@@ -114,9 +114,9 @@ def mean_gaps(indenter, curve, force, tolerance):
 
 
 def _table(hurst, x, compared):
-    """Return the table rows of one Hurst exponent, one row for each X. An X with undefined results is omitted.
+    """Return the table rows of one Hurst exponent, one row for each X.
 
-    Only the mean gap may be undefined.
+    An X is omitted if any quantity except the mean gap is undefined.
     compared : for each disc the four results of `_compare`, and ln of the ratio of the mean gaps (line to disc); shape
         (realizations, 5, abscissae)
     """
@@ -131,7 +131,7 @@ def _table(hurst, x, compared):
         "stiffness_scatter": (line - disc).std(axis=0, ddof=1),
         "force_ratio": np.exp(force.mean(axis=0)),
         "correlation": correlation,
-        # Bound of 95 % of the correlations of independent pairs, by Fisher's transform.
+        # By Fisher's transform, 95 % of the correlations of independent pairs are smaller in magnitude.
         "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,
         "realizations": number,
     }

@@ -86,7 +86,7 @@ def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
 
 
 def _lambda_rows(discs, lines, window, number, **bootstrap):
-    """Compare λ and velocities of one Hurst exponent; return the rows of mdr_lambda and the row of mdr_summary.
+    """Compare discs with lines of one Hurst exponent; return the rows of mdr_lambda and the row of mdr_summary.
 
     The table mdr_lambda has one row for each X.
     window : region (b) of the discs as (X_low, X_high); None if the discs have no region (b)

@@ -126,7 +126,7 @@ def _line_time(times, points):
 
 
 def _exponent_rows(hurst, scaling, conventions, lines, times):
-    """Yield a table row with the error of the exponent β in region (b), relative to β of the discs, for each model.
+    """Yield a table row for each model, with the error of its exponent β in region (b), relative to β of the discs.
 
     No rows are yielded if the discs have no region (b).
     """

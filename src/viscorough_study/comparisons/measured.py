@@ -93,7 +93,7 @@ def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):
     pool : pool of all scans (ensembles.pool)
     curves : for each scan, the Content of the file that stores its loading curve
     names, forces : for each scan, its name, and a list of its forces [N]
-    fit : settings in section `scaling`; seed : seed of the bootstrap of the fits
+    fit : settings of the fits (section `scaling`); seed : seed of the bootstrap of the fits
     loading : the arguments `media` and `times` of `measured_motions`
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]

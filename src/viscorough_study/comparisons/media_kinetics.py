@@ -106,8 +106,8 @@ def _motions(curves, rms, _, medium, *, force, times):
 
 
 def reached_times(last, force, medium, times):
-    """Return those of the `times` at which the depth under a constant force F is on a loading curve: F J(t) <= last.
+    """Return the times at which the depth under a constant force F is still on a loading curve, that is F J(t) <= last.
 
-    last : F/G at the end of the loading curve; J : creep compliance of the medium
+    last : F/G at the end of the loading curve; J : creep compliance of the medium; times : times to choose from
     """
     return times[force * medium.creep_compliance(times) <= last]

@@ -78,8 +78,8 @@ def mean_separations(heights, pressures):
 def periodic_contact(heights, start, tolerance=TOLERANCE):
     """Solve the periodic contact with the mean pressure of `start`; return its mean separation and its pressures.
 
-    heights : shape (n, n), mean 0, in any unit; the separation and the tolerance have the same unit
-    start : first guess of the pressures, as p L/E* in this unit, shape (n, n)
+    heights : shape (n, n), mean 0, in any unit of length; the separation and the tolerance have the same unit
+    start : first guess of the pressures, as p L/E* in the same unit, shape (n, n)
     Raises ConvergenceError if ITERATIONS_MAX iterations do not reduce all overlaps, and all gaps at elements under
     pressure, to the tolerance.
     """

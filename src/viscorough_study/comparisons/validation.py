@@ -158,8 +158,8 @@ def _indentation(indenter, body):
 def _penetration(indenter, body):
     """Yield (force history, {quantity: error}) for viscous motions computed from a loading curve.
 
-    The program chooses the depths of the curve. The history "constant" is F = FORCE up to the time T. The history
-    "rising" is F(t) = 2 FORCE t/T, with the same impulse ∫F dt at T.
+    `indent` chooses the depths of the curve. The force history "constant" is F = FORCE up to the time T. The force
+    history "rising" is F(t) = 2 FORCE t/T, with the same impulse ∫F dt at T.
     """
     loading = body.force(body.mdr_profile(RADII))  # values of F/G, used also as values of the impulse ∫F dt/η
     curve = indent(indenter, tolerance=TOLERANCE, until_force=1.01 * loading[-1])

@@ -36,7 +36,8 @@ def on_abscissae(curves, rms, diameter, x):
     """Return the stiffness κ and the number of elements in contact of every curve at the same values of X.
 
     curves : list of LoadingCurve, one for each realization
-    rms : {rms convention: rms height h [length]}; h has the shape (realizations,), or is one number for all
+    rms : {rms convention, that is where h is measured: rms height h [length]}; h has the shape (realizations,), or is
+        one number for all
     diameter : diameter L [length], of shape (realizations,), or one number for all
     x : values of X, shape (abscissae,), strictly increasing
 

@@ -1,4 +1,4 @@
-"""Generate the rough discs of an ensemble, and measure their rms heights in every convention."""
+"""Generate the rough discs of an ensemble, and measure the rms height of each disc by several conventions."""
 
 import numpy as np
 

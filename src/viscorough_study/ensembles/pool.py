@@ -33,7 +33,8 @@ def pool_batches(batches, conventions, x):
 
     The pool does not depend on how the realizations are divided into batches.
 
-    batches : iterable of (group, Content from ensembles.batches.batch_of_curves); only one batch at a time is in memory
+    batches : iterable of (name of a group of ensembles, Content from ensembles.batches.batch_of_curves); only one batch
+        at a time is in memory
     conventions : rms conventions in the pool, keys of ensembles.batches.RMS
     x : abscissae X, shape (abscissae,)
     """

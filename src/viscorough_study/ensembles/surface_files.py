@@ -1,4 +1,4 @@
-"""Write and read NetCDF files of surfaces, with one group per ensemble, one realization at a time."""
+"""Write and read NetCDF files of surfaces, one surface at a time; each ensemble is a group of the file."""
 
 import json
 
@@ -57,9 +57,7 @@ def _define(group, realization, indenter):
 def read_surfaces(path):
     """Yield (settings of the ensemble, Realization, Indenter) for every surface in a file.
 
-    Surfaces are read one at a time.
-
-    Raises a one-line ValueError if the file is missing or damaged.
+    Surfaces are read one at a time. Raises a one-line ValueError if the file is missing or damaged.
     """
     with netcdf.opened(path) as file:
         file.set_auto_mask(False)

@@ -11,7 +11,7 @@ SHIFT = 3.0  # curves of successive Hurst exponents are shifted apart by this fa
 
 @style.figure
 def plot_collapse(curves, collapse, infinite):
-    """Draw scaled curves of vt/h (a) and of its interface part (b) on all grids, and exponents for all grids (c).
+    """Draw scaled curves of vt/h (a) and of its interface part (b) on all grids, and the exponents of all grids (c).
 
     The interface part is vt/h − X/κ_c, where κ_c is the stiffness of a flat punch.
     curves, collapse, infinite : tables collapse_curves, collapse and infinite_grid of fits.infinite_grid
@@ -45,7 +45,7 @@ def _curves(axes, curves, looks):
 
 
 def _exponents(axes, collapse, infinite):
-    """Draw the range of β for which the curves collapse, and β of an infinitely fine grid, less H/(1 + H), against H.
+    """Draw β − H/(1 + H) against H: the range for which the curves collapse, and the value of an infinitely fine grid.
 
     collapse, infinite : arguments of `plot_collapse`
     """

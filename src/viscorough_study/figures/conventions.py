@@ -7,7 +7,7 @@ from viscorough import reference
 from viscorough_study.figures import style
 from viscorough_study.fits.conventions import fits
 
-# Labels of the conventions that the paper leaves open, as {column of the scaling table: {value: label}}.
+# Labels of the conventions that the paper leaves open, as {column of the table of fits: {value: label}}.
 CONVENTION_LABELS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
     "rms_convention": {
@@ -29,14 +29,14 @@ CONVENTION_LABELS = {
 def plot_conventions(scaling, conventions):
     """Draw β − H/(1 + H) and ζ/(2 − H) of the discs for several conventions, each with its 95 % interval.
 
-    The first row of the figure has the usual conventions. Each further row changes one convention, or shows another
-    group of discs.
+    The conventions are choices that the paper leaves open. The first row of the figure has the usual conventions. Each
+    further row changes one convention, or shows another group of discs.
     scaling : table of fitted power laws; conventions : the usual conventions, {column of this table: value}
     """
     discs = scaling[scaling["source"] == "discs"]
     looks, changes = style.hurst_looks(discs["hurst"]), _changes(discs, conventions)
     figure, (betas, zetas) = style.new_subplots(7 * len(changes) + 28, 1, 2, sharey=True)
-    heights = np.linspace(-0.27, 0.27, len(looks))  # vertical offsets of the Hurst exponents within a row
+    heights = np.linspace(-0.27, 0.27, len(looks))  # offset of each Hurst exponent from the middle of a row
     for (hurst, look), height in zip(looks.items(), heights, strict=True):
         beta, zeta = reference.exponent_beta(hurst), reference.zeta_viscous(hurst)
         zetas.axvline(reference.zeta_elastic(hurst) / zeta, color=look["color"], linestyle=":", zorder=1)

@@ -1,4 +1,4 @@
-"""Draw the shares of right and wrong results in the stress tests, and the errors by three causes of failure."""
+"""Draw the shares of right and wrong results in the stress tests, and the errors from three causes of failure."""
 
 import numpy as np
 
@@ -61,7 +61,7 @@ def plot_failures(table, knobs):
 
 
 def _draw_bars(axes, table):
-    """Draw a bar with the shares of all outcomes, and write the number of silent failures, for every name.
+    """For every name, draw a bar with the shares of all outcomes, and write the number of silent failures.
 
     table : table of the failure map with a further column `name`, the name of the bar to which a row belongs
     """

@@ -1,4 +1,4 @@
-"""Read the inputs of figures that are not tables.
+"""Read the surfaces and ensembles that the figures show.
 
 Each function reads one argument of the functions that draw figures, and has the name of this argument. Its parameter
 `files` is {name of an argument: path of the file with this argument}. Base discs are the discs that all figures use.

@@ -13,8 +13,8 @@ from viscorough_study.figures import style
 
 SHIFT = 0.012  # distance in H between the markers of different grids or methods at the same Hurst exponent
 X_SHOWN = (1e-4, 30.0)
-# Panel (c) shows only g that are at least this share of X, the punch's part of vt/h. Smaller g have large errors,
-# because vt/h is known to 0.1 %.
+# Panel (c) omits g below this share of X, the punch's part of vt/h. Such a small g has a large error, because vt/h is
+# known only to 0.1 %.
 LEAST_SHARE = 0.01
 LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an ensemble
 
@@ -23,7 +23,8 @@ LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an
 def plot_interface(table, curves, literature, periodic):
     """Draw g of discs and periodic surfaces (a), g of lines (b), g of the law relative to discs (c), and u₀/h (d).
 
-    All means are arithmetic, because compliances add. Panels (a) to (c) show each Hurst exponent on the base grid only.
+    g is the part of the interface in vt/h, and u₀/h is the plateau of g. All means are arithmetic, because compliances
+    add. Panels (a) to (c) show each Hurst exponent on the base grid only, the usual grid of the study.
     The law of the library is drawn in (a) and (c), but only for the grid and the Hurst exponents of its calibration.
 
     table : table "interface" of fits.interface; curves : table "interface_curves" of the same module
@@ -85,7 +86,7 @@ def _on_base_grid(rows):
 def _draw_law(axes, ratios, curve, law, look):
     """Draw g of the library's law within its range of X, and the ratio of this g to the g of computed discs.
 
-    The band around the ratio follows from the interval of the computed g.
+    g is the part of the interface in vt/h. The band around the ratio follows from the interval of the computed g.
     axes : axes for g; ratios : axes for the ratio; curve : computed g
     """
     curve = curve[curve["x"].between(law.x_low, law.x_high)]
@@ -121,7 +122,7 @@ def _draw_literature(axes, literature):
 
 
 def _draw_plateaus(axes, table, looks):
-    """Draw u₀/h of discs and of lines against H, with a different marker for each grid of discs.
+    """Draw u₀/h, the plateau of g, of discs and of lines against H, with a different marker for each grid of discs.
 
     Lines are drawn on the base grid only, because u₀ of lines varies far less with the number of points than with H.
     """

@@ -10,7 +10,7 @@ from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.fits.conventions import fits
 from viscorough_study.run.readable import readable
 
-# Parameters in the table below the panels, as {parameter: (label, unit in the label, expressed in SI units)}.
+# Rows of the table below the panels, {parameter: (label, value of the label's unit in SI units)}.
 QUANTITIES = {
     "force": ("$F$ (N)", 1.0),
     "viscosity": (r"$\eta$ (Pa s)", 1.0),
@@ -69,7 +69,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
 
 
 def _combination(case):
-    """Return the name of the combination from the name of a case, <Hurst exponent>_<combination>."""
+    """Return the second part of the name of a case, <Hurst exponent>_<combination of parameters>."""
     return case.partition("_")[2]
 
 

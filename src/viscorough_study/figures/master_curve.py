@@ -10,7 +10,9 @@ from viscorough_study.fits.conventions import fits
 
 @style.figure
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
-    """Draw vt/h against the right side of Eq. 12 (with its factor Γ), and below it the ratio of vt/h to this side.
+    """Draw vt/h (upper panel), and vt/h divided by Eq. 12 (lower panel), against the right side of Eq. 12.
+
+    The right side contains the factor Γ.
 
     discs, lines : ensemble datasets, one for each Hurst exponent. Lines have the rms height of the discs (Eq. 13); only
         lines with a Hurst exponent of discs are drawn

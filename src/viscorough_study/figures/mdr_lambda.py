@@ -7,9 +7,9 @@ from viscorough_study.figures import style
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
 _SHIFT = 0.02  # distance in H between the markers of different windows at the same Hurst exponent
-# The vertical axes end at the values in region (b), extended by this factor, because the paper claims a constant λ only
-# in region (b). At smaller X, λ falls, because lines have finer grids. At larger X, λ grows without bound as contact
-# becomes complete.
+# The vertical axes extend beyond the values in region (b) only by this factor, because the paper claims a constant λ
+# only in region (b). At smaller X, λ falls, because lines have finer grids. At larger X, λ grows without bound as
+# contact becomes complete.
 _MARGIN = 1.3
 
 

@@ -8,7 +8,7 @@ from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, REQUE
 ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # ticks of the axes of errors in (a) to (c)
 SMALL_ERRORS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)  # ticks of the axis of errors in (d)
 TIME, ERROR = "processor time (s)", "error of the velocity $v$"
-LEFT = 0.02  # horizontal position of the marker of a model without cost, as a share of the width of the axes
+LEFT = 0.02  # horizontal position of a model that costs no time, as a share of the width of the axes
 LEAST_DISTANCE = 0.055  # smallest vertical distance of labels, as a share of the height of the axes
 # Colors of the grids, from coarse to fine.
 GRIDS = (style.SKY_BLUE, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE)
@@ -19,7 +19,7 @@ SOLVERS = {
     "implicit": ("implicit steps", style.GREEN, (5, -9)),
     "explicit, logarithmic steps": ("explicit steps", style.PURPLE, (5, 2)),
 }
-# Task in which the times of several solvers were compared, and the residual to which all of them solve this task.
+# Task for which the times of several solvers are published, and the residual that every solver reached in this task.
 RACE, RACE_TOLERANCE = "eight levels", 1e-6
 ACROSS = 257  # panel (d) shows the finest grid with at most this number of elements across
 FLOOR = 1e-10  # smaller errors are drawn at this value
@@ -88,7 +88,7 @@ def _label_ends(axes, ends, side="right"):
 
 
 def _say(axes, text):
-    """Write a note in the upper right corner of the axes, which explains the points along a curve."""
+    """Write a note about the points of the curves in the upper right corner of the axes."""
     axes.text(0.97, 0.96, text, transform=axes.transAxes, ha="right", va="top", color=style.GREY)
 
 
@@ -99,7 +99,7 @@ def _draw_curve(axes, curve, look, color, label):
 
 
 def _draw_one_surface(axes, rows):
-    full = rows[rows["model"] == GRID]["across"].max()  # the full map is the reference of all models
+    full = rows[rows["model"] == GRID]["across"].max()  # points across the full map, the reference
     grids = rows[(rows["model"] == GRID) & (rows["across"] < full)]
     ends = [
         _draw_curve(axes, curve, "o-", color, f"{across:g} × {across:g}")

@@ -165,8 +165,8 @@ def hurst_looks(exponents):
     """Return {Hurst exponent: line properties}, by ascending exponent; the properties are color, marker, linestyle."""
     looks = {}
     for hurst in sorted(set(exponents)):
-        # All multiples of 0.1 have different ranks and thereby different markers; so have neighbouring exponents. The
-        # power 1.5 spreads the colours near H = 1.
+        # The ranks, and therefore the markers, of all multiples of 0.1 are different. Neighbouring exponents also have
+        # different markers. The power 1.5 spreads the colours near H = 1.
         rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["viridis"](0.85 * hurst**1.5)
         looks[hurst] = {"color": color, "marker": HURST_MARKERS[rank], "linestyle": HURST_LINES[rank]}
     return looks

@@ -22,7 +22,7 @@ from viscorough_study.run.names import AUTOMATIC, BY_HAND, NAIVE
 
 ACCURACIES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
 NUMBERS = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # numbers of levels tried
-# The trials of a placement end when its time exceeds the time of automatic levels by more than this factor.
+# Do not try more levels if the time already exceeds the time of automatic levels by more than this factor.
 LONGEST = 10.0
 # Levels extend beyond the ends of the range of depth by this share, because these ends are known only to the tolerance.
 MARGIN = 0.01

@@ -67,7 +67,7 @@ def measure(problem, repeats, *, longest, methods=METHODS):
             error = np.sqrt(np.mean((velocity / problem.velocity - 1) ** 2))
             row = {"method": method.name, "group": method.group, "parameter": method.parameter, "value": float(value)}
             rows.append(row | {"error": error, "steps": steps} | dict(zip(TIMES, seconds, strict=True)))
-            spent = min(seconds)  # the processor time if a busy machine prolongs the wall time
+            spent = min(seconds)  # on a busy machine, only the wall time grows
             if spent < min(longest, MAX_REPEATED):
                 functions[len(rows) - 1] = function
             if spent >= longest:

@@ -75,7 +75,7 @@ def _steps(scheme, problem, number):
     """
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AccuracyWarning)  # steps may be too few: the error is measured
+        warnings.simplefilter("ignore", AccuracyWarning)  # few steps are intended here
         steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size

@@ -129,7 +129,7 @@ def surface_rows(hurst, elements, seed):
             table += rows(curve, seconds, GRID, across, "tolerance", tolerance)
     for error in REQUESTS:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", AccuracyWarning)  # the stated error may exceed the requested error
+            warnings.simplefilter("ignore", AccuracyWarning)  # the stated error exceeds the requested one
             curve, seconds = _timed(lambda: indent(disc, error=error, **until))  # noqa: B023
         across = len(disc.heights[:: curve.sampling])
         table += rows(curve, seconds, REQUEST, across, "error", error, curve.mean_grid_error)

@@ -81,7 +81,7 @@ def _cell(case, solution, ratios, limit, *, is_model):
         verdict = "model" if is_model else "holds"
     elif not verdict:
         limits = {case.stated: is_model, FEW_ELEMENTS: is_model and solution.count[0] < MIN_ELEMENTS}
-        stated = [text for text, applies in limits.items() if text and applies]  # documented limits
+        stated = [text for text, applies in limits.items() if text and applies]  # documented reasons that apply
         verdict = "warned" if messages else "stated" if stated else "unnoticed"
         messages += stated
     reason = " ".join("; ".join(dict.fromkeys(messages)).split())

@@ -60,10 +60,10 @@ def stress_cases(seed, across, grids, hurst_min):
 
 
 def _disc_cases(disc, usual, grids, hurst_min):
-    """Yield cases of rough discs: several numbers of time steps, Hurst exponents, grids, and contact fractions.
+    """Yield cases of rough discs that differ in time steps, Hurst exponent, grid, or contact fractions.
 
     disc : function that generates a disc from a Hurst exponent
-    usual : the disc of most cases, as the arguments `indenter` and `hurst` of StressCase
+    usual : the disc that most cases use, as the arguments `indenter` and `hurst` of StressCase
     """
     elements = usual["indenter"].elements
     for steps, name in ((4096, "4096 steps"), (256, "256 steps"), (16, "16 steps"), (1, "one step")):

@@ -42,7 +42,8 @@ CURVE_TOLERANCE = 1e-6  # tolerance of the loading curves in the method "media, 
 # Number of time steps between two samples of the force in a viscoelastic medium, for the method "media, steps" and for
 # the reference motion.
 STEPS, REFERENCE_STEPS = 64, 1024
-# A method holds if its error is at most this limit. A model holds for a single realization within a factor of 2.
+# Largest errors with which a method holds: integration by contact events, integration by time steps, and models. A
+# model may deviate by a factor of 2 from a single realization.
 LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0
 
 

@@ -131,7 +131,7 @@ def _table(hurst, x, compared):
         "stiffness_scatter": (line - disc).std(axis=0, ddof=1),
         "force_ratio": np.exp(force.mean(axis=0)),
         "correlation": correlation,
-        # By Fisher's transform, 95 % of the correlations of independent pairs are smaller in magnitude.
+        # By Fisher's transform, 95 % of the correlations of independent pairs lie within ± this bound.
         "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,
         "realizations": number,
     }

@@ -10,7 +10,8 @@ from viscorough_study.run.readable import readable
 def plot_direct_integration(table):
     """Draw the ratio of viscous to elastic depth, by direct integration and by Eq. 8, against the elements in contact.
 
-    Each indenter has a panel. A text in the panel states the largest deviation of the integrated ratio from 1.
+    Each indenter has a panel. A text in the panel states the largest deviation of the ratio by direct integration
+    from 1.
     table : table of comparisons.direct_integration
     """
     cases = list(table["case"].unique())

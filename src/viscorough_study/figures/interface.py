@@ -23,9 +23,9 @@ LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an
 def plot_interface(table, curves, literature, periodic):
     """Draw g of discs and periodic surfaces (a), g of lines (b), g of the law relative to discs (c), and u₀/h (d).
 
-    g is the part of the interface in vt/h, and u₀/h is the plateau of g. All means are arithmetic, because compliances
-    add. Panels (a) to (c) show each Hurst exponent on the base grid only, the usual grid of the study.
-    The law of the library is drawn in (a) and (c), but only for the grid and the Hurst exponents of its calibration.
+    g is the part of the interface in vt/h, and u₀/h is the value of g on its plateau. All means are arithmetic, because
+    compliances add. Panels (a) to (c) show each Hurst exponent only on the base grid, the usual grid of the study. The
+    law of the library is drawn in (a) and (c), but only for the grid and the Hurst exponents of its calibration.
 
     table : table "interface" of fits.interface; curves : table "interface_curves" of the same module
     literature : table of comparisons.literature, with published u₀/h for (d)
@@ -122,7 +122,9 @@ def _draw_literature(axes, literature):
 
 
 def _draw_plateaus(axes, table, looks):
-    """Draw u₀/h, the plateau of g, of discs and of lines against H, with a different marker for each grid of discs.
+    """Draw u₀/h of discs and of lines against H, with a different marker for each grid of discs.
+
+    u₀/h is the value of g on its plateau, where g is the part of the interface in vt/h.
 
     Lines are drawn on the base grid only, because u₀ of lines varies far less with the number of points than with H.
     """

@@ -101,7 +101,7 @@ def _path(options, case, solution):
 
 
 def _interpolated(case, solution):
-    """Interpolate depths on a loading curve whose points `indent` places; return their ratios to exact depths.
+    """Interpolate depths on a loading curve whose points `indent` chooses; return their ratios to exact depths.
 
     The depths are compared at several forces from each force of the reference solution to the next force.
     """

@@ -91,6 +91,6 @@ def _compare(disc, curve, load):
 
 
 def _with_steps(load, number):
-    """Return the load with `number` equal time steps between any two of its samples."""
+    """Return the load with `number` equal time steps between neighbouring samples."""
     parts = [np.linspace(start, end, number + 1) for start, end in pairwise(load.time)]
     return load.with_times(np.unique(np.concatenate(parts)))[0]

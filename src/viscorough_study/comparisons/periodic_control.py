@@ -62,7 +62,7 @@ def periodic_control(*, hursts, points, surfaces, roll_off, seed, **levels):
 
 
 def mean_separations(heights, pressures):
-    """Return the mean separation over the rms height, ū/h, at every mean pressure; shape (pressures,).
+    """Return ū/h, the mean separation divided by the rms height, at every mean pressure; shape (pressures,).
 
     heights : heights of a periodic square with side L, shape (n, n), mean 0, in any unit
     pressures : mean pressures as p L/(E* h), increasing

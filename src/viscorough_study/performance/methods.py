@@ -75,14 +75,14 @@ def _steps(scheme, problem, number):
     """
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AccuracyWarning)  # few steps are intended here
+        warnings.simplefilter("ignore", AccuracyWarning)  # the error of too few steps is measured, too
         steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size
 
 
 def _implicit(problem, tolerance):
-    """Integrate the viscous problem by backward Euler steps, which end at the impulses of the reference solution."""
+    """Integrate the viscous problem by backward Euler steps, which end at the impulses ∫F dt/η of the reference."""
     steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
     return problem.force / steps.resistance, steps.impulse.size
 

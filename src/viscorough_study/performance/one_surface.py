@@ -37,7 +37,7 @@ PER_DECADE = 50
 STEPS = (16, 8, 4, 2)  # coarser grids consist of every n-th point of the full map, for these n
 FEWEST_ACROSS = 17  # grids with fewer points across are not used
 TOLERANCES = (1e-1, 1e-2, 1e-3)
-FULL_TOLERANCE = 1e-3  # tolerance of the loading curve of the full map
+FULL_TOLERANCE = 1e-3  # tolerance of the loading curve of the full map, the map of all points
 REQUESTS = (0.2, 0.1, 0.05)
 POINTS = tuple(2**n for n in (8, 11, 14, 17))
 # Pressures are compared at X = CONTACT_X, on the grid of every second point (CONTACT_STEP). The reference pressures
@@ -129,7 +129,7 @@ def surface_rows(hurst, elements, seed):
             table += rows(curve, seconds, GRID, across, "tolerance", tolerance)
     for error in REQUESTS:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", AccuracyWarning)  # the stated error exceeds the requested one
+            warnings.simplefilter("ignore", AccuracyWarning)  # a stated error above the request is expected
             curve, seconds = _timed(lambda: indent(disc, error=error, **until))  # noqa: B023
         across = len(disc.heights[:: curve.sampling])
         table += rows(curve, seconds, REQUEST, across, "error", error, curve.mean_grid_error)

@@ -26,7 +26,7 @@ from viscorough_study.run.names import BOX, RANGE, STEPS
 from viscorough_study.run.seeds import failure_map_key, realization_seed
 
 HURST = 0.7  # Hurst exponent of the disc for the explicit steps, as in most stress-test cases
-NUMBERS = (8, 32, 128, 512, 2048)  # numbers of explicit steps
+NUMBERS = (8, 32, 128, 512, 2048)  # numbers of explicit time steps that are compared
 FRACTIONS = (0.02, 0.5)  # smallest and largest contact fraction at which depths are compared
 COMPARED = 6  # number of impulses ∫F dt/η at which depths are compared
 COLUMNS = {

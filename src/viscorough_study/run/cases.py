@@ -1,16 +1,17 @@
 """Make tables of cases: the ensembles, batches and indenters of the settings, and the memory of their jobs.
 
-A case is a dictionary that describes one or several ensembles of surfaces for the jobs that compute their curves. Cases
-of the same kind form a group. The curves of all cases that are evaluated together are brought to common abscissae in
-one pool.
+A case is a dictionary for the jobs that compute loading curves. It describes one or several ensembles of surfaces.
+Cases of the same kind form a group. A pool contains the curves of all cases that are evaluated together, at common
+abscissae.
 
-A job computes one batch, that is, some realizations of a case. The ensembles of a case are batched in one of two ways:
+A job computes one batch, that is, some realizations of a case. There are two ways to form the batches of a case with
+several ensembles:
 
 - Side by side: a batch has the same realizations of all ensembles of the case. Combinations of force, viscosity,
-  diameter and rms height at one Hurst exponent are batched this way. Combinations 1 to 9 are one case and 10 to 19 the
-  next, so a tenth combination does not change the curves of the first nine.
-- In sequence: a batch has realizations of one ensemble and then of the next. Grids from coarse to fine are batched this
-  way, so that a job can hold many small discs.
+  diameter and rms height at one Hurst exponent are batched in this way. Combinations 1 to 9 are one case and 10 to 19
+  the next case, so a tenth combination does not change the curves of the first nine.
+- In sequence: a batch has realizations of one ensemble and then of the next. Grids from coarse to fine are batched in
+  this way, so that a job can hold many small discs.
 
 Names of cases are parts of file names, which contain no floating-point numbers. Names of ensembles are in the tables.
 """
@@ -20,7 +21,7 @@ import math
 
 from viscorough_study.run import seeds
 
-# {pool: conventions of the rms heights of its surfaces}
+# {pool of curves: conventions for the rms height h of its surfaces, that is, for the region where h is measured}
 POOLS = {
     "discs": ("disc", "square", "ensemble"),
     "lines": ("line",),
@@ -28,7 +29,7 @@ POOLS = {
     "size_lines": ("line",),
     "measured": ("disc",),
 }
-# {pool: kind of its surfaces}. The kind is also the name of the folder with their curves.
+# {pool of curves: kind of its surfaces}. The kind is also the name of the folder with the curves.
 POOL_KINDS = {
     "discs": "discs",
     "lines": "lines",
@@ -47,12 +48,14 @@ def hurst_id(hurst):
 
 
 def disc_cases(settings):
-    """Return {case: its description} of all cases of discs.
+    """Return {name of a case: its description} for all cases of discs.
 
-    A description has the keys pool, group, realizations, batch, indentation and ensembles. Each ensemble has the keys
-    name, spawn_key, elements, surface (arguments of self_affine_disc) and realizations; in base cases it also has
-    combination. The seed of a disc is the spawn key followed by the number of the realization (run.seeds).
-    `realizations` of a case is the sum over its ensembles, or, if `side_by_side` is true, the number for each ensemble.
+    A case describes ensembles of discs for the jobs that compute their loading curves. Its description has the keys
+    pool, group, realizations, batch, indentation and ensembles. Each ensemble has the keys name, spawn_key, elements,
+    surface (arguments of self_affine_disc) and realizations. In base cases an ensemble also has the key combination.
+
+    The seed of a disc is the spawn key followed by the number of the realization (run.seeds). `realizations` of a case
+    is the sum over its ensembles, or, if `side_by_side` is true, the number for each ensemble.
     """
     return _paper_discs(settings) | _size_discs(settings)
 
@@ -78,13 +81,13 @@ def _paper_discs(settings):
 
 
 def _changes_of_variants(settings):
-    """Return {variant: settings of its surfaces that differ from section `surface`}."""
+    """Return {name of a variant: settings of its surfaces that differ from section `surface`}."""
     variants = settings["variants"]["cases"]
     return {variant["name"]: {key: value for key, value in variant.items() if key != "name"} for variant in variants}
 
 
 def surfaces_left_open(settings):
-    """Return the groups of discs whose surfaces differ from each other only in conventions that the paper leaves open.
+    """Return the names of the groups of discs that differ only in conventions, which the paper leaves open.
 
     Variants with other differences, such as a roll-off, are controls, and are omitted.
     """
@@ -94,7 +97,7 @@ def surfaces_left_open(settings):
 
 def _size_discs(settings):
     sizes = settings["sizes"]
-    # all curves end at the same X
+    # With these settings all curves end at the same dimensionless force X.
     ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}
     shared = {"pool": "size_discs", "indentation": settings["indentation"] | ends}
     surface, powers = settings["surface"] | UNIT_DISC, [{"hurst": hurst} for hurst in sizes["hurst"]]
@@ -114,23 +117,27 @@ def _size_discs(settings):
 def _ensemble(name, spawn_key, surface, grid):
     """Return the description of an ensemble of a case.
 
-    grid : settings with the number of realizations, and of elements across or points
+    grid : settings that contain the number of realizations, and the number of elements across a disc or of points of a
+        line
     """
     numbers = {key: grid[key] for key in ("elements", "points", "realizations") if key in grid}
     return {"name": name, "spawn_key": spawn_key, "surface": surface} | numbers
 
 
 def _joint_case(ensembles, batch, group, **shared):
-    """Return the description of a case whose ensembles are batched in sequence; shared : further keys"""
+    """Return the description of a case whose batches contain one ensemble after the other.
+
+    batch : number of realizations in a batch; shared : further keys of the description
+    """
     realizations = sum(ensemble["realizations"] for ensemble in ensembles)
     return shared | {"group": group, "ensembles": ensembles, "realizations": realizations, "batch": batch}
 
 
 def line_cases(settings):
-    """Return {line: description of the case} of all cases of lines.
+    """Return {name of a case: its description} for all cases of lines.
 
-    A description has the form described in `disc_cases`, with three differences: an ensemble has points instead of
-    elements, surface contains the arguments of self_affine_line, and the case has until_x instead of indentation.
+    Descriptions have the same keys as in `disc_cases`, with three exceptions. An ensemble has points instead of
+    elements. Its surface contains the arguments of self_affine_line. The case has until_x instead of indentation.
     """
     lines, sizes, cases = settings["lines"], settings["sizes"], {}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
@@ -157,40 +164,47 @@ def method_problems(settings):
 
 
 def first_combination(settings):
-    """Return the names of the ensembles of the first combination in the settings, one for every Hurst exponent."""
+    """Return the names of the ensembles of the first combination in the settings, one for every Hurst exponent.
+
+    A combination consists of force, viscosity, diameter and rms height.
+    """
     first = settings["discs"]["combinations"][0]["number"]
     return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
 
 
 def combined_ensembles(settings):
-    """Return {name: description} of the ensembles of all combinations and Hurst exponents."""
+    """Return {name: description} of the base ensembles, one for every combination and Hurst exponent.
+
+    A combination consists of force, viscosity, diameter and rms height.
+    """
     bases = (case for case in disc_cases(settings).values() if case["group"] == "base")
     return {ensemble["name"]: ensemble for case in bases for ensemble in case["ensembles"]}
 
 
 def example_discs(settings):
-    """Return ensembles with the first disc of every H: realization 0 of the first combination, scaled to h = L = 1.
+    """Return ensembles that contain only the first disc of each Hurst exponent, scaled to h = L = 1.
 
-    The ensembles have the form of `batch_ensembles`.
+    This disc is realization 0 of the first combination. The ensembles have the form of `batch_ensembles`.
     """
     ensembles = combined_ensembles(settings)
     examples = [_in_batch(ensembles[name], [0, 1]) for name in first_combination(settings)]
     return [example | {"surface": example["surface"] | UNIT_DISC} for example in examples]
 
 
-# ---- batches: the realizations of one job
+# ---- batches; a batch contains the realizations that one job computes
 
 
 def batches(case):
-    """Return the names of a case's batches, made of their first and last realization: 0000-0007, 0008-0015, ..."""
+    """Return the names of the batches of a case, such as 0008-0015 for realizations 8 to 15."""
     number, size = case["realizations"], case["batch"]
     return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
 
 
 def batch_ensembles(case, batch):
-    """Return the parts of ensembles in a batch: dicts with name, spawn_key, surface, elements or points, and numbers.
+    """Return the parts of the ensembles of a case that belong to one batch.
 
-    numbers : [first, end], the range of realizations of the ensemble in this batch; end is not included
+    A part is a dict with the keys name, spawn_key, surface, elements or points, and numbers. `numbers` is the range of
+    realizations in this batch, [first, end]; end is not included.
     """
     first, last = map(int, batch.split("-"))
     parts, before = [], 0
@@ -208,27 +222,36 @@ def _in_batch(ensemble, numbers):
 
 
 def pool_batches(tables, pool):
-    """Return [(case, batch)] of all cases of a pool, in the order of the table.
+    """Return [(name of the case, batch)] for all batches of a pool of curves, in the order of the table.
 
-    tables : {kind: {case: description}}
+    tables : {kind of surface: {name of a case: description}}
     """
     cases = tables[POOL_KINDS[pool]]
     return [(name, batch) for name, case in cases.items() if case["pool"] == pool for batch in batches(case)]
 
 
 def pool_curves(tables, pool):
-    """Return the files of all loading curves of a pool; tables : {kind: {case: description}}"""
+    """Return the files of all loading curves of a pool.
+
+    tables : {kind of surface: {name of a case: description}}
+    """
     return [f"results/curves/{POOL_KINDS[pool]}/{case}/{batch}.nc" for case, batch in pool_batches(tables, pool)]
 
 
 def pool_groups(tables, pool):
-    """Return the group of each batch of a pool; tables : {kind: {case: description}}"""
+    """Return a list with the group, such as "base", to which the case of each batch of a pool belongs.
+
+    tables : {kind of surface: {name of a case: description}}
+    """
     return [tables[POOL_KINDS[pool]][case]["group"] for case, _ in pool_batches(tables, pool)]
 
 
 def pool_jobs(tables):
-    """Return {wildcard: value} for every batch of every pool; tables : {kind: {case: description}}"""
-    # {kind: names of the wildcards whose value is the name of a case}
+    """Return {name of a Snakemake wildcard: its value} for every batch of every pool of curves.
+
+    tables : {kind of surface: {name of a case: description}}
+    """
+    # {kind of surface: Snakemake wildcards whose value is the name of a case}
     names = {"discs": ["case"], "lines": ["line"], "measured": ["case", "scan"]}
     return [
         dict.fromkeys(names[kind], case) | {"batch": batch, "kind": kind, "pool": pool}
@@ -240,7 +263,8 @@ def pool_jobs(tables):
 def combination_curves(discs):
     """Return the files of the loading curves of all combinations, that is, of the base discs.
 
-    discs : {case: description}
+    A combination consists of force, viscosity, diameter and rms height.
+    discs : {name of a case: description}
     """
     bases = {name: case for name, case in discs.items() if case["group"] == "base"}
     return [f"results/curves/discs/{name}/{batch}.nc" for name, case in bases.items() for batch in batches(case)]
@@ -248,34 +272,45 @@ def combination_curves(discs):
 
 # ---- memory of jobs [MB]
 
-BASE_MEMORY = 700  # memory of Python with its imports; in a Slurm job also of two Snakemake processes around it
+# Memory of Python and imported modules. In a Slurm job it includes the two Snakemake processes that run the job.
+BASE_MEMORY = 700
 
 
 def generation_memory(ensembles):
-    """Return the memory for generating a disc: for the disc and the square from which it is cut."""
+    """Return the memory [MB] of a job that generates discs: for one disc and the square from which it is cut."""
     bytes_ = max((24 + 64 * ensemble["surface"]["period"] ** 2) * ensemble["elements"] ** 2 for ensemble in ensembles)
     return round(BASE_MEMORY + bytes_ / 1e6)
 
 
 def disc_memory(case):
-    """Return the memory for indenting a disc, including the fields of the solver on a grid of twice the width."""
+    """Return the memory [MB] of a job that indents discs.
+
+    It includes the fields of the solver on a grid twice as wide as the disc.
+    """
     return round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
 
 
 def measured_memory(case):
-    """Return the memory for indenting a scan of at least four bytes per height, with the fields of the solver."""
+    """Return the memory [MB] of a job that indents a measured surface, including the fields of the solver.
+
+    The file of the scan has at least four bytes per height.
+    """
     return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
 
 
 def line_memory(case):
-    """Return the memory for reducing a line: for its spectrum, heights and gaps."""
+    """Return the memory [MB] of a job that applies dimensionality reduction to lines.
+
+    The memory is for the spectrum, heights and gaps of a line.
+    """
     return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case["ensembles"]) / 1e6)
 
 
 def pool_memory(tables, pool, ensemble):
-    """Return the memory for two copies of all realizations of a pool on common abscissae.
+    """Return the memory [MB] of a job that pools curves: for two copies of all realizations on common abscissae.
 
-    tables : {kind: {case: description}}; ensemble : section `ensemble` of the settings
+    tables : {kind of surface: {name of a case: description}}
+    ensemble : section `ensemble` of the settings
     """
     cases = [case for case in tables[POOL_KINDS[pool]].values() if case["pool"] == pool]
     members = [member for case in cases for member in case.get("ensembles", [case])]

@@ -1,4 +1,4 @@
-"""Log a job: every script uses this helper, which writes messages, warnings and tracebacks to the job's log file."""
+"""Write messages, warnings and tracebacks of a job to its log file; every script of the workflow uses this module."""
 
 import logging
 import sys
@@ -8,9 +8,9 @@ from viscorough.basics.errors import ConvergenceError
 
 
 def run_job(names, call):
-    """Set up the log and call a function with Snakemake's job; do nothing if Snakemake does not run the script.
+    """Set up the log of a Snakemake job and call `call` with the job; do nothing if Snakemake does not run the script.
 
-    names : global names of the script, among them `snakemake` in a job
+    names : global names of the script, which contain `snakemake` in a job
     call : function of the job
     """
     if job := names.get("snakemake"):
@@ -19,10 +19,10 @@ def run_job(names, call):
 
 
 def log_to(path):
-    """Log messages, warnings and uncaught exceptions to a file, which is replaced, and to stderr.
+    """Log messages, warnings and uncaught exceptions to stderr and to a file, which is overwritten.
 
-    The traceback of an uncaught exception is written to both. The traceback of a ValueError or ConvergenceError is only
-    written to the file, since the message suffices on stderr. For an interrupt there is no traceback.
+    The traceback of an uncaught exception is written to both. For a ValueError or ConvergenceError it is only written
+    to the file, since the message suffices on stderr. For an interrupt no traceback is written.
     """
     in_file, on_stderr = logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler()
     form = {"format": "%(asctime)s %(levelname)s %(message)s", "datefmt": "%Y-%m-%d %H:%M:%S"}

@@ -2,7 +2,7 @@
 
     python -m viscorough_study.run.kernels
 
-Otherwise every job that starts at the same time would compile the same functions.
+Without this step, jobs that start at the same time would all compile the same functions.
 """
 
 import subprocess
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from viscorough.io.atomic import atomic_write
 
-# file with the time of the compilation, in the format of Snakemake's benchmarks of jobs
+# File with the time of the compilation, in the format of Snakemake's benchmark files of jobs.
 KERNELS_BENCHMARK = "results/benchmarks/compile_kernels.tsv"
 _STAMP = ".snakemake/kernels"
 
@@ -40,8 +40,9 @@ def compile_once(digest):
 
     digest : digest of the source code of the functions, which is stored in the folder
 
-    The compilation is no rule of the workflow. As an output that many jobs need, it would rerun all of them whenever it
-    is remade. As an `ancient` input, it would hide changes of the parameters of these jobs from Snakemake.
+    There is no Snakemake rule for the compilation, because many jobs would need its output as an input. All these jobs
+    would be rerun whenever this output is remade. If the input were marked as `ancient`, Snakemake would not notice
+    changed parameters of these jobs.
     """
     stamp = Path(_STAMP)
     if stamp.is_file() and stamp.read_text() == digest:
@@ -52,7 +53,7 @@ def compile_once(digest):
     cost = Path(KERNELS_BENCHMARK)
     cost.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(cost) as temporary:
-        # the memory column is empty, since memory is not measured
+        # The column of the memory is empty, since the memory is not measured.
         temporary.write_text(f"s\tmax_rss\n{time.monotonic() - start:.2f}\t\n")
     stamp.write_text(digest)
 

@@ -1,9 +1,9 @@
-"""Define names of models, choices and settings that both tables and figures use."""
+"""Define names of models, methods and settings that both tables and figures use."""
 
-# Models for a single surface, for the mean of many surfaces, or for both.
+# Names of models that predict a single surface, the mean of many surfaces, or both.
 GRID, REQUEST, CONTACT, LAW, PAPER = "grid", "requested error", "one contact", "law", "H/(1 + H)"
 MDR, MDR_PI, MDR_FITTED = "MDR", "MDR, λ = π", "MDR, λ fitted"
-# Methods that place the levels of a loading curve.
+# Names of methods that choose the depths (levels) at which a loading curve is computed.
 AUTOMATIC, BY_HAND, NAIVE = "automatic", "best by hand", "naive"
-# Settings whose values decide whether a method works (robustness.knobs).
+# Names of settings that decide whether a method works (robustness.knobs).
 STEPS, BOX, RANGE = "explicit steps", "box", "power law"

@@ -7,7 +7,10 @@ import yaml
 
 
 def read_paper(folder, name):
-    """Return the content of a YAML file in the folder; its name is "laws", "numbers", "claims" or "sentences"."""
+    """Return the content of a YAML file in a folder.
+
+    name : "laws", "numbers", "claims" or "sentences", the name of the file without suffix
+    """
     return yaml.load((Path(folder) / f"{name}.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader)
 
 

@@ -1,4 +1,4 @@
-"""Hold the registry of figures and tables, workflow/results.yaml, with default values for the keys of its entries."""
+"""Hold the registry of figures and tables (workflow/results.yaml), and add default values for missing keys."""
 
 _FIGURE = {"target": "all", "params": []}
 _RULE = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone": False}
@@ -7,7 +7,7 @@ _RULE = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone":
 class Registry:
     """Figures and tables of the workflow; comments in workflow/results.yaml explain the keys of an entry.
 
-    content : content of this file, a mapping with the keys chapters, figures and tables
+    content : content of workflow/results.yaml, a mapping with the keys chapters, figures and tables
 
     Attributes
     ----------
@@ -16,7 +16,7 @@ class Registry:
     figures : dict
         {figure: its entry}.
     table_rules : dict
-        {rule: its entry}. It includes the rules with a separate script, whose entries name no function.
+        {rule that makes tables: its entry}. Some rules have a separate script; their entries name no function.
     """
 
     def __init__(self, content):
@@ -31,16 +31,20 @@ class Registry:
         return [name for tables in made for name in tables if name != "rule_costs"]
 
     def table_functions(self, rule):
-        """Return dotted names for a rule that makes tables: its function ("tabulate") and the columns of each table."""
+        """Return dotted names of the function and of the column descriptions for a rule that makes tables.
+
+        The key of the function is "tabulate". The keys of the column descriptions are the names of the tables.
+        """
         entry = self.table_rules[rule]
         default = entry["function"].rpartition(".")[0] + ".COLUMNS"
         columns = {name: table.get("columns", default) for name, table in entry["tables"].items()}
         return {"tabulate": entry["function"]} | columns
 
     def figure_functions(self, figure):
-        """Return dotted names of the functions for a figure: the one that draws it ("draw"), and readers of its inputs.
+        """Return dotted names of the function that draws a figure and of the functions that read its inputs.
 
-        Only inputs that are no tables have a reader, under the name of the argument.
+        The key of the drawing function is "draw". The key of a reading function is the argument of the drawing function
+        to which it belongs. Inputs that are tables need no such function.
         """
         entry = self.figures[figure]
         readers = [argument for argument, path in entry["input"].items() if not path.endswith(".csv")]

@@ -46,7 +46,7 @@ def rule_costs(benchmarks):
 
 
 def _shares(ends, seconds):
-    """Return the share of each job in the time of the run [s]; simultaneous jobs share the time equally.
+    """Return the part of the run's time [s] that each job accounts for; simultaneous jobs share the time equally.
 
     ends : time when each job ended [s]; seconds : duration of each job [s]
     Time without a running job does not count. The sum of the shares is at least the total duration of all jobs divided
@@ -80,7 +80,7 @@ def _time_and_memory(path):
     """
     try:
         job = pd.read_csv(path, sep="\t", na_values="-").iloc[-1]
-        # Snakemake measures no memory for the shortest jobs
+        # Snakemake does not measure the memory of very short jobs.
         seconds, memory = float(job["s"]), float(job.fillna(0.0)["max_rss"])
     except (ValueError, LookupError):
         seconds = memory = math.nan

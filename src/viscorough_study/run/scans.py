@@ -1,4 +1,4 @@
-"""Make the cases of the measured surfaces that the settings name."""
+"""Make the cases of the measured surfaces: descriptions of the scans in the settings, for the jobs that indent them."""
 
 import hashlib
 import re
@@ -9,15 +9,17 @@ from viscorough_study.run.settings_model import ScanGroup
 
 
 def scans(entries, indentation):
-    """Return {scan: description of its case} of all files that the setting `measured` names.
+    """Return {name of a scan: description of its case} for all files that the setting `measured` names.
 
     entries : setting `measured`; its patterns of files are relative to the working directory
     indentation : section `indentation` of the settings
 
-    A case is an ensemble of one realization (run.cases). Its description has the keys pool, realizations, batch,
-    indentation and group; file, bytes (size of the file) and digest of its content; and spacing, unit, preparation,
-    forces, young_modulus and poisson_ratio from the entry. The name of a scan consists of the names of its group and
-    its file. Raises ValueError if a pattern matches no file, or if two scans have the same name.
+    A case describes surfaces for a job (run.cases); here it is a single scan. Its description has the keys pool,
+    realizations, batch, indentation and group. It also has file, bytes (size of the file) and digest (of the content of
+    the file). The keys spacing, unit, preparation, forces, young_modulus and poisson_ratio are from the entry. The name
+    of a scan consists of the names of its group and its file.
+
+    Raises ValueError if a pattern matches no file, or if two scans have the same name.
     """
     shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": indentation | {"whole_curves": 1}}
     shared |= {name: field.default for name, field in ScanGroup.model_fields.items() if not field.is_required()}
@@ -38,7 +40,10 @@ def scans(entries, indentation):
 
 
 def _content(file):
-    """Return the size and a digest of the content of a file, so that only a change of the content reruns its jobs."""
+    """Return the size of a file and a digest of its content.
+
+    The digest is a parameter of the jobs that use the file, so the jobs are rerun only if the content changes.
+    """
     with open(file, "rb") as opened:
         digest = hashlib.file_digest(opened, "sha256").hexdigest()[:16]
     return {"digest": digest, "bytes": Path(file).stat().st_size}

@@ -1,13 +1,13 @@
 """Define random streams: the keys of `numpy.random.SeedSequence` for all parts of the study.
 
 A seed consists of a root, the setting `seed`, and a spawn key. The first number of a spawn key is the number of the
-stream; every part of the study has one stream. The other numbers are properties of a realization (Hurst exponent, grid,
-combination), never its position in a list. So the random numbers of a realization do not depend on other realizations,
-on their order, or on the number of cores. The numbers of the streams are part of every published result: do not change
-them, and give a new stream a new number.
+stream; every part of the study has one stream. The other numbers are properties of a realization, such as its Hurst
+exponent, grid or combination, but never its position in a list. So the random numbers of a realization do not depend on
+other realizations, on their order, or on the number of cores. The numbers of the streams are part of every published
+result: do not change them, and give a new stream a new number.
 
 Three parts have no stream. The bootstrap of the fits and the disc of the level-placement scenes use the root without a
-spawn key. The spawn key of a random indenter in the stability campaign is only the number of its case
+spawn key. The spawn key of a random indenter in the stability campaign is only the number of its test case
 (`random_indenter_key`), and the campaign has a separate root.
 """
 
@@ -25,20 +25,24 @@ def realization_seed(root, *key):
 
 
 def disc_key(hurst, combination):
-    """Return the spawn key of the discs of a combination, to which the number of the realization is appended.
+    """Return the spawn key of the discs of a combination of force, viscosity, diameter and rms height.
 
-    combination : number of the combination of force, viscosity, diameter and rms height in the settings
+    combination : number of the combination in the settings
+    To make the seed of a disc, append the number of the realization to the key.
     """
     return _key(1, _millionths(hurst), combination)
 
 
 def variant_key(hurst, name):
-    """Return the spawn key of the discs of a variant of the surfaces; name : name of the variant"""
+    """Return the spawn key of the discs of a variant, whose surfaces differ from the base discs in some settings.
+
+    name : name of the variant
+    """
     return _key(2, _millionths(hurst), zlib.crc32(name.encode()))
 
 
 def line_key(hurst):
-    """Return the spawn key of the lines whose curves the method of dimensionality reduction computes."""
+    """Return the spawn key of the lines whose curves are computed by the method of dimensionality reduction."""
     return _key(3, _millionths(hurst))
 
 
@@ -53,25 +57,28 @@ def solver_race_key(task, hurst):
 
 
 def failure_map_key():
-    """Return the spawn key of the indenters in the stress tests for the failure map."""
+    """Return the spawn key of the indenters in the stress tests, from which the failure map is made."""
     return _key(6)
 
 
-# Stream 7 belonged to a table that no longer exists; it must not be reused.
+# Stream number 7 belonged to a table that no longer exists. Do not use this number again.
 
 
 def size_disc_key(hurst, elements):
-    """Return the spawn key of discs on grids from coarse to fine; elements : elements across the disc"""
+    """Return the spawn key of the discs that compare grids from coarse to fine; elements : elements across the disc"""
     return _key(8, _millionths(hurst), elements)
 
 
 def size_line_key(hurst, points):
-    """Return the spawn key of lines on grids from coarse to fine; points : points of the line"""
+    """Return the spawn key of the lines that compare grids from coarse to fine; points : points of the line"""
     return _key(9, _millionths(hurst), points)
 
 
 def large_disc_key(elements):
-    """Return the spawn key of the disc for the cost on grids up to the finest; elements : elements across the disc"""
+    """Return the spawn key of the disc in the benchmark of time and memory on grids up to the finest.
+
+    elements : elements across the disc
+    """
     return _key(10, elements)
 
 
@@ -81,12 +88,15 @@ def gamma_factor_key(hurst):
 
 
 def mdr_comparison_key(hurst, realization):
-    """Return the spawn key of a disc and a line with equal spectra; each spawns its seed from the common seed."""
+    """Return the spawn key for comparing a disc with a line that has the same spectrum.
+
+    The seed with this key spawns two seeds, one seed for the disc and one for the line.
+    """
     return _key(12, _millionths(hurst), realization)
 
 
 def size_control_key(hurst, elements):
-    """Return the spawn key of control discs, which have no power law, on grids from coarse to fine.
+    """Return the spawn key of the control discs on grids from coarse to fine. Their curves follow no power law.
 
     elements : elements across the disc
     """
@@ -102,27 +112,39 @@ def plateau_key(hurst, group):
 
 
 def periodic_key(hurst, realization):
-    """Return the spawn key of a periodic surface that tests the model of two springs, with and without a roll-off."""
+    """Return the spawn key of a periodic surface in the test of the model of two springs.
+
+    The surfaces with and without a roll-off use the same key.
+    """
     return _key(15, _millionths(hurst), realization)
 
 
 def law_disc_key(hurst, elements, realization):
-    """Return the spawn key of a disc for the penetration law up to complete contact; elements : elements across it"""
+    """Return the spawn key of a disc on which the penetration law is calibrated or tested, up to complete contact.
+
+    elements : elements across the disc
+    """
     return _key(16, _millionths(hurst), elements, realization)
 
 
 def light_map_key(hurst, elements, number):
-    """Return the spawn key of a square map under a light load; elements : elements across the map"""
+    """Return the spawn key of a square map in the benchmark of light loads.
+
+    elements : elements across the map; number : number of the map
+    """
     return _key(17, _millionths(hurst), elements, number)
 
 
 def one_surface_key(hurst, number):
-    """Return the spawn key of a surface sampled on grids from coarse to fine, and of a line with its h, L and H."""
+    """Return the spawn key of a surface that is sampled on grids from coarse to fine.
+
+    A line with the same h, L and H also gets its seed from this key.
+    """
     return _key(18, _millionths(hurst), number)
 
 
 def random_indenter_key(case):
-    """Return the spawn key of a small indenter in the stability campaign; case : number of its case"""
+    """Return the spawn key of a small random indenter in the stability campaign; case : number of the test case"""
     return _key(case)
 
 

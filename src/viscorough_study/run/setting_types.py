@@ -24,7 +24,7 @@ class Section(BaseModel):
 
 
 def meaning(description, default: Any = ..., *, also=""):
-    """Return the field of a setting, with its meaning, default value and requirements.
+    """Return the pydantic field of a setting, with its meaning, default value and requirements.
 
     description : meaning of the setting; messages quote it up to the first semicolon
     default : value if the setting is omitted. Only settings that may be omitted have a default here; the values of all
@@ -42,7 +42,7 @@ def whole(low, high):
 def real(low=None, high=None, *, above=None, unit="1", decimals=None):
     """Return a setting type that accepts numbers from `low` to `high`, or numbers above `above` up to `high`.
 
-    decimals : largest number of decimals, by default any
+    decimals : largest number of decimals that is accepted; None for no limit
     """
     limited = Annotated[float, Field(ge=low, gt=above, le=high, json_schema_extra={"unit": unit})]
     if decimals is None:
@@ -65,8 +65,8 @@ def several(item, least, most, *, once=False):
     """Return a setting type that accepts lists of `least` to `most` items.
 
     item : type of the items
-    once : True if items must differ; or, for mappings as items, the key whose values must differ; False for no
-        condition
+    once : True if all items must differ, False if items may be equal. For mappings as items, `once` may be a key whose
+        values must differ.
     """
     items = Annotated[list[item], Field(min_length=least, max_length=most)]
     if not once:
@@ -90,10 +90,7 @@ def shown(value):
 
 
 class Schema(GenerateJsonSchema):
-    """Generator of the JSON schema of the settings.
-
-    The schema has no titles, and no default None.
-    """
+    """Generator of the JSON schema of the settings; it omits titles, and default values that are None."""
 
     def field_title_should_be_set(self, schema):
         return False

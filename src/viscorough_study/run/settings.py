@@ -1,6 +1,7 @@
-"""Complete the settings of a run with the default settings, and check them; an error is one line on the first fault.
+"""Complete the settings of a run with the default settings, and check them.
 
-The model of the settings (run.settings_model) has types, limits and rules. Default values are in config/config.yaml.
+If settings are wrong, the error message describes the first fault in one line. The model of the settings
+(run.settings_model) has types, limits and rules. Default values are in config/config.yaml.
 """
 
 import difflib
@@ -21,7 +22,8 @@ def complete_settings(defaults, given, files, options):
     defaults : path of the file of the default settings
     given : all settings of this run, from files, from the command line, or from a workflow that uses this workflow as a
         module
-    files : paths of settings files, and options : settings of the command line; they only locate faults in messages
+    files, options : paths of settings files, and settings from the command line. They only serve to name the source of
+        a wrong setting in messages.
     Raises ValueError, one line that names a file, for the first file that cannot be read or the first wrong setting.
     """
     sources = {_shown(defaults): read_settings_file(defaults), "the settings of the module": given}
@@ -47,8 +49,8 @@ def check_settings(settings, sources=None):
     """Raise ValueError unless the settings agree with their model.
 
     settings : mapping of all settings
-    sources : {name of a source, such as a file: settings from this source}, where later sources override earlier ones.
-        Messages name the source of a wrong setting; by default they name none.
+    sources : {name of a source, such as a file: settings from this source}. Later sources override earlier sources.
+        Messages name the source of a wrong setting. By default messages name no source.
     The message is one line with the source, the key, the value, and the allowed values.
     """
     try:
@@ -102,7 +104,7 @@ def _complaint(error):
     return [path], f"{name} is {value:.60}; allowed: {allowed(rule)}{_unit(rule)} ({_gist(path)}){hint}"
 
 
-# ---- the rule of a setting, which is the part of the JSON schema that describes the setting
+# ---- JSON schema; the part of the schema that describes a setting is called a rule
 
 
 @cache
@@ -112,7 +114,7 @@ def schema():
 
 
 def resolved(rule):
-    """Return a part of the JSON schema itself, or, if this part is a reference, the definition to which it refers."""
+    """Return a part of the JSON schema. If this part is only a reference to a definition, return the definition."""
     return schema()["$defs"][rule["$ref"].rpartition("/")[2]] if "$ref" in rule else rule
 
 
@@ -144,7 +146,8 @@ def allowed(rule):
     return ", ".join(filter(None, parts))
 
 
-# {type of the items of a list: (noun for the items, words between this noun and the allowed values of an item)}
+# {type of the items of a list: (noun for the items, words before the allowed values of an item)}, as in "integers, each
+# 1 to 9"
 _ITEMS = {
     "integer": ("integers", ", each"),
     "number": ("numbers", ", each"),
@@ -163,7 +166,7 @@ def _allowed_items(rule):
 
 
 def unit_of(rule):
-    """Return the unit of a setting, or of the items of a list; empty if there is none."""
+    """Return the unit of a setting or, for a list, of its items; "" if there is no unit."""
     rule = resolved(rule)
     unit = unit_of(rule["items"]) if "items" in rule else rule.get("unit", "1")
     return "" if unit == "1" else unit
@@ -175,9 +178,9 @@ def _unit(rule):
 
 
 def _gist(path):
-    """Return the meaning of a setting up to the first semicolon.
+    """Return the description of a setting up to its first semicolon.
 
-    If an item of a list has no description, the meaning of the list is returned.
+    For an item of a list that has no description, the description of the list is returned.
     """
     meaning = next(filter(None, (_rule(path[:end]).get("description") for end in range(len(path), -1, -1))))
     return meaning.partition(";")[0].rstrip(".")

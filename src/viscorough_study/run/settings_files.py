@@ -1,10 +1,11 @@
-"""Read settings files; an error is one line that names the file and, if possible, the line in it.
+"""Read settings files; an error message is one line that names the file and, if possible, the line in it.
+
+This command checks that a settings file can be read:
 
     python -m viscorough_study.run.settings_files mine.yaml
 
-checks that settings files can be read. Snakemake reads the files given with --configfile before it reads the Snakefile,
-and its own messages name neither file nor line. Therefore profiles/default calls `check_command_line` before Snakemake
-reads the files.
+Snakemake reads the files given with --configfile before it reads the Snakefile, and its own messages name neither file
+nor line. Therefore profiles/default calls `check_command_line` before Snakemake reads the files.
 """
 
 import sys

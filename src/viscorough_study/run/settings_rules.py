@@ -22,8 +22,8 @@ _RANGES = [
     ("verdicts.plateau_range.1", "ensemble.x_high", 1),
     ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
 ]
-# Ranges in lists, whose ends must differ by a factor of ten: {setting with a list of upper ends: setting with the lower
-# end}. The lower end is None if each entry of the list is a pair of both ends.
+# Lists of ranges: {setting with a list of upper ends: setting with the lower end of all ranges}. The lower end is None
+# if each entry of the list is a pair (lower end, upper end). In each range the ends must differ by a factor of ten.
 _RANGES_IN_LISTS = {
     "sizes.windows": None,
     "collapse.x_high": "ensemble.x_low",
@@ -32,7 +32,10 @@ _RANGES_IN_LISTS = {
 
 
 def contradictions(settings):
-    """Yield (paths of settings, one line about them) for all contradictions between settings; settings : Settings"""
+    """Yield (paths of settings, one line about them) for every contradiction between settings.
+
+    settings : Settings
+    """
     return chain.from_iterable(rule(settings) for rule in _RULES)
 
 
@@ -100,7 +103,7 @@ def _value(settings, path):
 
 
 def _range_name(low, high):
-    """Return the name of a range from the paths of its ends."""
+    """Return the name of a range for messages, from the paths of the settings at its two ends."""
     if low[:-1] != high[:-1]:
         return f"{name_of(low)} and {name_of(high)}"
     return f"{name_of(low)} and {high[-1]}" if isinstance(low[-1], str) else name_of(low[:-1])

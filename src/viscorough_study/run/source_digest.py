@@ -25,12 +25,12 @@ _WITH_DOCSTRING = (ast.Module, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassD
 
 
 class SourceDigests:
-    """Compute digests of scripts.
+    """Compute digests of scripts, and keep them in a cache file.
 
-    A module is read once, and its text is parsed again only if it differs from the text in the last run.
+    Each module is read once. Its text is parsed again only if it has changed since the last run.
 
     folder : folder of the packages
-    kept : path of the cache file, which keeps digests for later runs
+    kept : path of the cache file
     """
 
     def __init__(self, folder, kept):
@@ -39,7 +39,7 @@ class SourceDigests:
         self._used = {}
 
     def digest(self, script, *functions):
-        """Return sixteen hexadecimal digits for a script and all modules that it uses.
+        """Return the digest, sixteen hexadecimal digits, of a script and all modules that it uses.
 
         script : path of the script
         functions : dotted names of functions that the script imports by name at run time
@@ -71,7 +71,7 @@ class SourceDigests:
                 temporary.write_text(json.dumps(self._used))
 
     def _files(self, parts):
-        """Return the set of the source files of an imported name; empty if the name is not in our packages.
+        """Return the set of source files to which an imported name refers; empty if the name is not in our packages.
 
         parts : parts of the dotted name, such as ["viscorough", "lines", "SelfAffineLines"]
         """
@@ -87,7 +87,7 @@ class SourceDigests:
 def _parsed(text, tables):
     """Return (digest of the syntax tree and of tables, imported names) of a module.
 
-    text : source code of the module; tables : contents of the tables that it names
+    text : source code of the module; tables : contents of the CSV tables that the module names
     """
     tree, names = ast.parse(text), set()
     for node in _statements(tree):

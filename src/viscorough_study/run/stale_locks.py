@@ -26,7 +26,7 @@ def remove_stale_locks(folder=".snakemake"):
     try:
         folder.mkdir(exist_ok=True)
         alive = os.open(folder / "alive", os.O_RDWR | os.O_CREAT)
-        with contextlib.suppress(BlockingIOError):  # another Snakemake is running
+        with contextlib.suppress(BlockingIOError):  # raised if another Snakemake is running
             fcntl.flock(alive, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if stale := list(folder.glob("locks/*.lock")):
                 print(REMOVED, file=sys.stderr)

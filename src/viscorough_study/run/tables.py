@@ -1,7 +1,7 @@
 """Read and write tidy tables as pairs of a CSV and a NetCDF file.
 
-The NetCDF file contains its own digest (viscorough.io.digest) and the digest of the CSV file. So reading refuses a
-table that was truncated or changed after it was written, although the CSV file contains only the table.
+The CSV file contains only the table. The NetCDF file contains its own digest (viscorough.io.digest) and the digest of
+the CSV file. A table that was truncated or changed after it was written is therefore refused when it is read.
 """
 
 import io
@@ -18,15 +18,15 @@ CSV_DIGEST = "csv_sha256"  # name of the attribute of the NetCDF file with the S
 
 
 def write_table(table, csv_path, nc_path, *, columns, dimension, title, attributes=None):
-    """Write a tidy table (pandas.DataFrame, one case per row) to a CSV file and to a NetCDF file, each atomically.
+    """Write a tidy table (a pandas.DataFrame) to a CSV file and to a NetCDF file, each atomically.
 
     csv_path, nc_path : paths that differ only in their suffix
     columns : {column: (long_name, units)} for exactly the columns of the table; text has no units
     dimension : name of the dimension of the rows in the NetCDF file
     title, attributes : global attributes of the NetCDF file
 
-    Floats in the CSV file have as many digits as needed to read them back exactly; missing values are empty. Raises
-    ValueError if `columns` and the columns of the table differ.
+    Each row is one observation. Floats in the CSV file have as many digits as needed to read them back exactly; missing
+    values are empty. Raises ValueError if `columns` and the columns of the table differ.
     """
     import xarray as xr  # imported here, since the import takes long and only writing needs it
 
@@ -42,7 +42,7 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
             values = values.astype(float if units else str)
         if values.dtype.kind not in "biuf":
             values, attributes = values.astype(str), {"long_name": long_name}
-            # an empty array of objects would be stored as numbers
+            # An empty array of texts stays as it is; as an array of objects it would be stored as numbers.
             values = values.astype(object) if values.size else values
         ds[name] = (dimension, values, attributes)
     write_dataset(ds, nc_path)

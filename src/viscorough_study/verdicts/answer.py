@@ -2,7 +2,7 @@
 
 from viscorough_study.verdicts.claims import HELD, overall
 
-# Words for the outcome of a claim: True if the claim holds, False if it fails, None if the data do not decide.
+# Texts by the outcome of a claim: True if the claim holds, False if it fails, None if the data do not decide.
 COLLAPSE = {
     True: "The curves of each Hurst exponent collapse",
     False: "The curves of each Hurst exponent do not collapse",
@@ -19,9 +19,9 @@ REGION_C = {
 def answer(table):
     """Return the answer as a paragraph of plain text, from a table of verdicts (verdicts.claims.judge).
 
-    For claims on exponents, the paragraph lists the Hurst exponents at which they hold, and gives the difference from
-    the paper at the others. Claims that the data do not decide are left out, except the claims on the collapse and the
-    exponents.
+    For claims on exponents, the paragraph lists the Hurst exponents at which they hold. For other Hurst exponents, it
+    gives the difference from the paper. Claims that the data do not decide are left out, except the claims on exponents
+    and on the collapse of the curves.
     """
     verdicts = overall(table)
     last = [_statement(verdicts, names, texts) for names, texts in _LAST]
@@ -48,16 +48,16 @@ def _outcome(verdict):
 
 
 def _statement(verdicts, names, texts):
-    """Return the sentence for a set of claims if all of them have the same outcome, otherwise an empty text.
+    """Return the sentence on the common outcome of several claims, or "" if their outcomes differ or have no sentence.
 
-    verdicts : {claim: verdict}; names : the claims; texts : {outcome: sentence}; without a sentence the text is empty
+    verdicts : {claim: verdict}; names : the claims; texts : {outcome: sentence}
     """
     outcomes = {_outcome(verdicts[name]) for name in names}
     return texts.get(outcomes.pop(), "") if len(outcomes) == 1 else ""
 
 
 def _boundary_elements(table):
-    """Return the sentence on the exponent β of boundary elements, which lists all Hurst exponents of the discs."""
+    """Return the sentence on the exponent β by boundary elements, which mentions all Hurst exponents of the discs."""
     cases = _exponents(table, "beta", "discs")
     parts = [f"is H/(1 + H) at H = {_joined(_hursts(cases, HELD))} (the paper: above 0.4)"] if _any(cases, HELD) else []
     differences = [(case["difference"], hurst) for hurst, case in cases.items() if case["verdict"] == "not reproduced"]
@@ -69,7 +69,10 @@ def _boundary_elements(table):
 
 
 def _reduction(table):
-    """Return the sentence on the exponent β of the MDR, and on its difference from β of boundary elements."""
+    """Return the sentence on the exponent β of the MDR, and on its difference from β by boundary elements.
+
+    The MDR is the method of dimensionality reduction.
+    """
     cases = _exponents(table, "beta_lines", "lines")
     text = "The method of dimensionality reduction (MDR) "
     failing = [hurst for hurst, case in cases.items() if case["verdict"] not in HELD]
@@ -86,8 +89,8 @@ def _reduction(table):
 def _exponents(table, claim, source):
     """Return {H: {"verdict": verdict, "difference": β − H/(1 + H)}} of discs or lines, by ascending H.
 
-    table : table of verdicts; claim : name of the claim that covers the larger Hurst exponents; source : "discs" or
-        "lines"
+    table : table of verdicts; source : "discs" or "lines"
+    claim : name of the claim on the larger Hurst exponents; the claim exponent_small_hurst covers the smaller exponents
     """
     claimed, small = table[table["claim"] == claim], table[table["claim"] == "exponent_small_hurst"]
     small = small[small["case"].str.endswith(source)]
@@ -113,7 +116,10 @@ def _any(cases, verdicts):
 
 
 def _joined(texts, *, comma=False):
-    """Join texts by commas, and the last two by "and"; `comma` : whether a comma precedes "and"."""
+    """Join texts by commas, and the last two by "and".
+
+    comma : True if a comma precedes "and"
+    """
     *first, last = texts
     return ", ".join(first) + (", and " if comma else " and ") + last if first else last
 

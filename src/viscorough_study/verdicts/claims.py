@@ -1,13 +1,14 @@
-"""Judge the paper's claims: a table of all cases, the verdict on each claim, and a summary in Markdown.
+"""Judge the paper's claims: make a table of all cases, derive the verdict on each claim, and summarize in Markdown.
 
-resources/paper/claims.yaml gives the statement, kind, criterion and tolerance of every claim, and the reason of the
-tolerance. The function that judges a claim has the name of the claim, and is in one of the modules of criteria
-(`MODULES`). It takes the evidence (verdicts.evidence.Evidence) and the tolerance, and yields the cases of the claim.
+A claim is tested in several cases, such as one case for each Hurst exponent. resources/paper/claims.yaml gives the
+statement, kind, criterion and tolerance of every claim, and the reason for the tolerance. The function that judges a
+claim has the name of the claim, and is in one of the modules of criteria (`MODULES`). It takes the evidence
+(verdicts.evidence.Evidence) and the tolerance, and yields the cases of the claim.
 
 Other random surfaces give other numbers, and a verdict must not depend on this choice. If a quantity has a 95 %
 interval, the claim is reproduced only if the whole interval lies within the tolerance, and not reproduced only if the
-whole interval lies outside. Otherwise it is undecided. viscorough_study.verdicts.evidence.Evidence.within describes how
-the number of cases and the number of realizations enter.
+whole interval lies outside. Otherwise it is undecided. The numbers of cases and of realizations also influence the
+verdict, see verdicts.evidence.Evidence.within.
 
 The scoreboard (`counted_verdicts`) counts only the claims on physics. Identities and bookkeeping cannot fail by the
 physics, and statements beyond the paper are not claims of the paper.
@@ -33,7 +34,10 @@ MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_cr
 
 
 def _criteria(module):
-    """Return {claim: criterion} of a module: its public functions with the arguments `evidence` and `tolerance`."""
+    """Return {claim: function that judges it} of a module.
+
+    These are the public functions whose first two arguments are `evidence` and `tolerance`.
+    """
     public = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
     return {name: f for name, f in public.items() if [*signature(f).parameters][:2] == ["evidence", "tolerance"]}
 
@@ -45,7 +49,7 @@ KINDS = {
     "bookkeeping": "Bookkeeping (not counted)",
     "beyond": "Beyond the paper (not counted)",
 }
-# Common causes of failing claims: {name of the cause, as a claim in claims.yaml states it: cause in words}.
+# Reasons why claims fail: {name of the reason in claims.yaml: reason in words}.
 FINDINGS = {
     "small_hurst": "at small H the exponents depart from H/(1 + H), on every grid tried at fixed X",
     "prefactor": "the prefactor differs",
@@ -75,14 +79,16 @@ COLUMNS = {
     "reason": ("why the tolerance is what it is", ""),
     "figure": ("figure that shows it", ""),
 }
-# A trial has fewer elements across than this share of the paper's. On such coarse grids region (b) is too short for a
-# fit.
+# A study is a trial if its discs have fewer elements across than this share of the paper's number. On such coarse grids
+# region (b) is too short for a fit.
 SMALLEST_SHARE = 0.5
-CASES_SHOWN_MAX = 10  # of a claim with more cases, the summary shows only three
+CASES_SHOWN_MAX = 10  # if a claim has more cases, the summary shows only three of them
 
 
 def judge(claims, evidence):
-    """Judge the claims; return a pandas.DataFrame with the columns of `COLUMNS` and one row per case of a claim.
+    """Judge the claims; return a pandas.DataFrame with the columns of `COLUMNS`.
+
+    A claim is tested in several cases, such as one case for each Hurst exponent. The table has one row for each case.
 
     claims : {name: title, quantity, kind, where, statement, criterion, tolerance, reason, figure}
     evidence : verdicts.evidence.Evidence
@@ -95,12 +101,14 @@ def judge(claims, evidence):
 
 
 def is_trial(elements_across, paper_elements_across):
-    """Return True if discs have too few elements across for a power law, so that verdicts mean nothing."""
+    """Return True if the discs have too few elements across to show a power law; the verdicts then mean nothing."""
     return elements_across < SMALLEST_SHARE * paper_elements_across
 
 
 def scale_attributes(evidence):
-    """Return attributes of the table of verdicts that state the scale of the study, from its results, not its settings.
+    """Return attributes for the table of verdicts that state the size of the study.
+
+    The numbers are taken from the results, not from the settings:
 
     elements_across : number of elements across the discs
     paper_elements_across : number of elements across the discs of the paper
@@ -118,11 +126,11 @@ def scale_attributes(evidence):
 
 
 def overall(table):
-    """Return {claim: verdict}, where the verdict on a claim follows from the verdicts on its cases.
+    """Return {claim: verdict}; the verdict on a claim follows from the verdicts on its cases.
 
-    A claim with holding and failing cases is reproduced in part. Otherwise the claim has the worst verdict of its cases
-    in the order of `VERDICTS`. So a claim with failing cases but no holding cases is not reproduced, and a claim with
-    holding and undecided cases is undecided.
+    A claim is tested in several cases. If some cases hold and others fail, the claim is reproduced in part. Otherwise
+    the claim has the worst verdict of its cases, in the order of `VERDICTS`. So a claim with failing cases but no
+    holding cases is not reproduced, and a claim with holding and undecided cases is undecided.
     """
     return {claim: _of_cases(verdicts) for claim, verdicts in table.groupby("claim", sort=False)["verdict"]}
 
@@ -171,9 +179,10 @@ def case_counts(rows):
 
 
 def findings(table, claims):
-    """Return {cause in words: claims on physics that are not reproduced, or only in part, for this cause}.
+    """Return {reason in words: claims that failed for this reason}.
 
-    claims : {name: content of claims.yaml}, where the entry `finding` of a claim names its cause, a key of `FINDINGS`
+    Only claims on physics are included, if they are not reproduced, or only in part.
+    claims : {name: entry of claims.yaml}; the key `finding` of an entry is the name of the reason in `FINDINGS`
     """
     verdicts = overall(physics(table))
     failed = [name for name, verdict in verdicts.items() if verdict in ("reproduced in part", "not reproduced")]
@@ -228,7 +237,10 @@ def markdown(table, claims):
 
 
 def cases_shown(rows):
-    """Return the cases of a claim that a summary shows: all, or three of more than `CASES_SHOWN_MAX` (`markdown`)."""
+    """Return the cases of a claim that a summary shows: all cases, or only three if there are too many.
+
+    More than `CASES_SHOWN_MAX` cases are too many; `markdown` describes the choice of the three.
+    """
     if len(rows) <= CASES_SHOWN_MAX:
         return rows
     farthest = np.abs(rows["value"] - rows["expected"]).idxmax()

@@ -1,4 +1,7 @@
-"""Hold the evidence for judging the paper's claims, and make the cases of a claim with their verdicts."""
+"""Hold the results by which the paper's claims are judged, and judge the cases of a claim.
+
+A claim is tested in several cases, such as one case for each Hurst exponent. Each case has a separate verdict.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,8 +17,8 @@ from viscorough_study.fits.conventions import FITTED, as_text, select, source_va
 from viscorough_study.fits.intervals import NO_INTERVAL, equivalence, interval
 from viscorough_study.fits.power_law import find_region
 
-# Verdicts on claims, from best to worst. Only a claim can be reproduced in part, if some of its cases hold and others
-# fail (verdicts.claims.overall); a single case has one of the other verdicts.
+# Verdicts, from best to worst. A claim is tested in several cases. It is reproduced in part if some cases hold and
+# others fail (verdicts.claims.overall); a single case never has this verdict.
 VERDICTS = (
     "reproduced",
     "reproduced under a stated convention",
@@ -23,13 +26,14 @@ VERDICTS = (
     "undecided",
     "not reproduced",
 )
-# Verdict on a case by whether the criterion is met; None: the data do not decide.
+# {True if the criterion is met, False if it is not met, None if the data do not decide: verdict}
 OUTCOMES = {True: "reproduced", False: "not reproduced", None: "undecided"}
-# Columns of a case in the table of verdicts. verdicts.claims describes these columns.
+# Keys of a case, which are also columns of the table of verdicts. verdicts.claims describes these columns.
 CASE = ("case", "value", "low", "high", "least", "largest", "expected", "verdict")
 CASE += ("convention", "conventions", "agreeing", "contradicting")
-CONFIDENCE_TAIL = 0.025  # probability that a quantity lies below a 95 % interval, or above
-# Verdicts from few realizations must remain when intervals are widened by this factor (`Evidence.within`).
+# Probability that a quantity lies below its 95 % interval. It lies above the interval with the same probability.
+CONFIDENCE_TAIL = 0.025
+# If there are few realizations, a verdict must also hold with intervals wider by this factor (`Evidence.within`).
 FEW_WIDENED = 20.0
 
 
@@ -37,15 +41,17 @@ FEW_WIDENED = 20.0
 class Evidence:
     """Results, settings and numbers of the paper by which claims are judged.
 
-    discs : pool of the base discs (viscorough_study.ensembles.pool)
-    tables : {name: pandas.DataFrame} of the tables of the workflow that some criterion reads
+    A convention is a choice that the paper leaves open, such as the kind of average over realizations.
+
+    discs : loading curves of the base discs, which all figures use, as made by viscorough_study.ensembles.pool
+    tables : {name of a table: pandas.DataFrame}, all tables of the workflow that the criteria read
     numbers : content of resources/paper/numbers.yaml
-    conventions : conventions of the figures, {convention: value}
-    surfaces : groups of cases whose surfaces differ only in conventions that the paper leaves open
-    across : elements across a disc
+    conventions : {convention: value}, the conventions of the figures
+    surfaces : names of the groups of discs whose surfaces differ only in conventions
+    across : number of elements across a disc
     limits : arguments of viscorough_study.fits.power_law.find_region
-    rules : decades_min and end_decades, settings of section `verdicts`
-    resamples, seed : arguments of bootstraps
+    rules : settings decades_min and end_decades of section `verdicts`
+    resamples, seed : number of bootstrap samples, and seed of the bootstrap
     """
 
     discs: xr.Dataset
@@ -61,21 +67,27 @@ class Evidence:
 
     @cached_property
     def pooled(self):
-        """Return {H: ensemble of all discs of this Hurst exponent}, by ascending H, in the figures' rms convention."""
+        """Return {H: ensemble of all discs with this Hurst exponent}, by ascending H.
+
+        The rms height h of the discs is measured as in the figures (`rms_convention` in `conventions`).
+        """
         return dict(sorted(self._ensembles(self.discs, "hurst").items()))
 
     @cached_property
     def whole(self):
         """Return {H: ensemble of the discs whose curves extend to region (c)}, by ascending H.
 
-        These discs, a part of `pooled`, are those whose curves were computed to the largest X.
+        Only some of the discs in `pooled` have such curves, which were computed to the largest X (dimensionless force).
         """
         longest = pool.select(self.discs, until_x=self.discs["until_x"].values.max())
         return dict(sorted(self._ensembles(longest, "hurst").items()))
 
     @cached_property
     def combinations(self):
-        """Return {H: list of ensembles}, one for each combination of force, viscosity, diameter and rms height."""
+        """Return {H: list of ensembles}, with one ensemble for each combination of the physical parameters.
+
+        A combination consists of force, viscosity, diameter and rms height.
+        """
         return {h: list(self._ensembles(pool.select(self.discs, hurst=h), "case").values()) for h in self.pooled}
 
     def _ensembles(self, discs, name):
@@ -83,20 +95,27 @@ class Evidence:
 
     @cached_property
     def regions(self):
-        """Return {H: window (X_low, X_high) of region (b) of the ensemble in `pooled`, or None without a region}."""
+        """Return {H: (X_low, X_high), the ends of region (b)}, with None for an ensemble without such a region.
+
+        There is an entry for every ensemble in `pooled`. X is the dimensionless force F/(4GhL).
+        """
         return {hurst: find_region(ensemble, **self.limits) for hurst, ensemble in self.pooled.items()}
 
     def fits(self, source, **changed):
-        """Return the fits of "discs" or "lines" in the conventions of the figures, one row per Hurst exponent.
+        """Return the power-law fits of "discs" or "lines" in the conventions of the figures.
 
-        Only fits of base surfaces are returned. changed : {convention: value} that replaces the conventions of the
-        figures
+        The table has one row for each Hurst exponent. Only base surfaces are included, which all figures use.
+        changed : {convention: value}, values that replace the conventions of the figures
         """
         changed = self.conventions | changed | source_values(source) | {"case_group": "base"}
         return select(self.tables["scaling"], changed).set_index("hurst")
 
     def every_fit(self, source):
-        """Return the fits of "discs" or "lines" in every convention that needs a fit, for all groups in `surfaces`."""
+        """Return the power-law fits of "discs" or "lines" for every combination of conventions.
+
+        Only conventions that change the fit itself are combined (fits.conventions.FITTED). The table has the fits of
+        all groups in `surfaces`.
+        """
         table = self.tables["scaling"]
         return table[(table["source"] == source) & table["case_group"].isin(self.surfaces)]
 
@@ -105,7 +124,7 @@ class Evidence:
         return self.numbers[section][name]["value"]
 
     def are_few(self, realizations):
-        """Return True if this number of realizations is below the number that the paper averages for a curve."""
+        """Return True if there are fewer realizations than the paper averages for a curve."""
         return realizations < self.paper_value("boundary_elements", "realizations_min")
 
     def within(self, values, low, high, *, realizations, cases=1):
@@ -114,15 +133,15 @@ class Evidence:
         values : (value, low end, high end), with the 95 % interval of the quantity
         realizations : number of realizations behind the value; cases : number of cases of the claim
 
-        A claim holds if all its cases lie within the range. For this test the separate intervals of the cases are valid
-        (intersection-union test: Berger, Technometrics 24, 295 (1982)). A single case outside refutes the claim. Since
-        one of many cases may be outside by chance, this test uses intervals that are widened so that all of them
-        together hold with 95 % (Bonferroni).
+        A claim holds only if all its cases lie in the range. The 95 % interval of each single case is valid for this
+        test (intersection-union test: Berger, Technometrics 24, 295 (1982)). A claim fails if a single case lies
+        outside. Among many cases, one may lie outside by chance. The test of failure therefore uses wider intervals,
+        which hold together with a probability of 95 % (Bonferroni).
 
-        If there are fewer realizations than the paper averages, the verdict must also hold with intervals `FEW_WIDENED`
-        times as wide. By Chebyshev's inequality a quantity lies beyond such an interval in less than 0.07 % of all
-        draws, for any distribution. So a run at reduced scale decides only cases that other surfaces would confirm, and
-        leaves the others undecided.
+        If there are fewer realizations than the paper averages for a curve, the verdict must also hold with intervals
+        `FEW_WIDENED` times as wide. By Chebyshev's inequality, a quantity with any distribution lies beyond such an
+        interval in less than 0.07 % of all draws. A study with few realizations therefore decides only cases that other
+        random surfaces would confirm, and leaves all other cases undecided.
         """
         factor = FEW_WIDENED if self.are_few(realizations) else 1.0
         if equivalence(widened(values, factor), low, high):
@@ -131,17 +150,19 @@ class Evidence:
         return False if equivalence(widened(values, factor * together), low, high) is False else None
 
     def case(self, name, values, expected, allowed, *, extremes=NO_INTERVAL, **counted):
-        """Return the case of a quantity that must lie in the allowed range: a dict with its verdict (`judged`).
+        """Return a case of a claim: a dict with a quantity, and the verdict whether it lies in the allowed range.
 
         name : name of the case; expected : value of the paper, or nan
         values : value and 95 % interval; allowed : (low, high); extremes : (least, largest) value
         counted : arguments `realizations` and `cases` of `within`
+        `judged` describes the dict.
         """
         return judged(name, values, expected, self.within(values, *allowed, **counted), extremes=extremes)
 
     def case_in_combinations(self, name, values, expected, allowed, combinations, **counted):
-        """Return the case of a quantity that was computed in several conventions which the paper leaves open.
+        """Return the case of a quantity that was computed in several combinations of conventions.
 
+        Conventions are choices that the paper leaves open.
         values : value and 95 % interval in the conventions of the figures
         combinations : `Combinations`, the quantity in all conventions
         The other arguments are described in `case`. With few realizations the combinations are ignored, because the
@@ -157,14 +178,15 @@ class Evidence:
         return judged(name, values, expected, met, holds_in, counts=counts)
 
     def cases_in_conventions(self, own, every, column, law, *, names, compared=True):
-        """Yield the cases of a quantity that must follow a law, one for each H, with its values in all conventions.
+        """Yield one case for each Hurst exponent: a quantity that must follow a law, judged in all conventions.
 
         own : table of the quantity in the conventions of the figures, indexed by H
-        every : table of the quantity in every combination of conventions, with the column `hurst` and the columns
-            `names`
-        column : column of the quantity; law : `Law`
-        names : columns that together name a combination
-        compared : mask of the rows of `every` that are searched for a combination in which all cases of the claim hold
+        every : table of the quantity in every combination of conventions. It has the column `hurst` and the columns
+            `names`.
+        column : column of the quantity in both tables; law : `Law`
+        names : columns of `every` that together name a combination
+        compared : mask of rows of `every`. A combination for which all cases of the claim hold is only sought in these
+            rows.
         """
         columns = [column, f"{column}_low", f"{column}_high"]
         deviation = every[columns[1:]].sub(law.value(every["hurst"]), axis=0).abs().max(axis=1, skipna=False)
@@ -185,11 +207,11 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Combinations:
-    """Values of a quantity in every combination of the conventions that the paper leaves open.
+    """Values of a quantity in every combination of conventions, which are choices that the paper leaves open.
 
     values : value and 95 % interval of the quantity, shape (combinations, 3)
-    holds_in : the combination, in words, that makes every case of the claim hold; "" if there is none
-    own : the combination of the case itself, in words; by default the conventions of the figures
+    holds_in : text that names a combination for which all cases of the claim hold; "" if there is none
+    own : text that names the combination of the case itself; "" for the conventions of the figures
     """
 
     values: np.ndarray | list
@@ -201,9 +223,9 @@ class Combinations:
 class Law:
     """A law for a quantity as a function of H, and the tolerance of the claim that the quantity follows this law.
 
-    value : function of H
+    value : the law, a function of H
     tolerance : largest deviation from the law that the claim allows
-    relative : whether the tolerance is relative to the value of the law
+    relative : True if the tolerance is relative to the value of the law
     """
 
     value: Callable
@@ -211,32 +233,32 @@ class Law:
     relative: bool = False
 
     def allowed_deviation(self, hurst):
-        """Return the largest absolute deviation from the law that the claim allows at a Hurst exponent."""
+        """Return the largest absolute deviation from the law that the claim allows at this Hurst exponent."""
         return abs(self.value(hurst)) * self.tolerance if self.relative else self.tolerance
 
 
 def widened(values, factor):
-    """Return the ends (low, high) of a widened interval.
+    """Widen an interval about its value by a factor, and return the new ends (low, high).
 
-    The distances of its ends from the value are multiplied by a factor. values : (value, low, high)
+    values : (value, low, high)
     """
     value, low, high = values
     return value - factor * (value - low), value + factor * (high - value)
 
 
 def hurst_name(hurst):
-    """Return the name of the case of a Hurst exponent, such as "H = 0.4"."""
+    """Return the name of the case for a Hurst exponent, such as "H = 0.4"."""
     return f"H = {hurst:g}"
 
 
 def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, counts=(np.nan,) * 3):
-    """Return a case with its verdict: a dict with the keys `CASE`.
+    """Return a case of a claim with its verdict: a dict with the keys `CASE`.
 
     name : name of the case; values : (value, low, high); expected : value of the paper, or nan
-    met : True if the criterion is met, and no convention that the paper leaves open contradicts; False if it is not
-        met, or only in some conventions; None if the data do not decide (`Evidence.within`). A case with an undefined
-        value is always undecided.
-    convention : conventions, in words, that meet the criterion although `met` is not True; "" if there are none
+    met : True if the criterion is met, and no other choice of conventions contradicts it. False if the criterion is
+        not met, or is met only in some conventions. None if the data do not decide (`Evidence.within`). If the value is
+        nan, the case is always undecided.
+    convention : text that names conventions that meet the criterion although `met` is not True; "" if there are none
     extremes : (least, largest) value; counts : entries of the columns conventions, agreeing and contradicting
     """
     if not np.isfinite(values[0]):
@@ -248,6 +270,10 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, 
 
 
 def exact(name, value, expected, met, values):
-    """Return the case of a quantity without statistical scatter; values : samples, for the least and largest value"""
+    """Return the case of a quantity without statistical scatter.
+
+    met : True if the criterion is met
+    values : samples of the quantity; the case contains the least and the largest sample
+    """
     extremes = min(values, default=np.nan), max(values, default=np.nan)
     return judged(name, (float(value), *NO_INTERVAL), expected, bool(met), extremes=extremes)

@@ -1,8 +1,8 @@
 """Judge claims on the variables that determine the contact, tested on one small rough disc.
 
-These claims follow from the equations of the contact for every surface, so a small disc shows them without scatter. The
-integration in time, which some of them use, solves a contact problem in every step. It never uses the correspondence
-with the elastic problem, so its results are independent evidence.
+These claims follow from the equations of the contact for every surface, so a small disc shows them without scatter.
+Some claims are tested by integration in time, which solves a contact problem in every step. The integration never uses
+the correspondence with the elastic problem, so its results are independent evidence.
 """
 
 from itertools import pairwise
@@ -20,10 +20,11 @@ from viscorough.viscous.integration.march import march
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 from viscorough_study.verdicts.evidence import exact, hurst_name
 
-ACROSS = 33  # number of elements across the disc
-DEPTH = 1.5  # depth in rms heights, so that some tens of elements are in contact
+ACROSS = 33  # number of elements across the diameter of the disc
+DEPTH = 1.5  # depth divided by the rms height; some tens of elements are then in contact
 IMPULSE = 2.0  # ∫F dt/(ηhL) at the end of each force history
-# {history: (times, forces divided by IMPULSE)}. The force is linear between times, and steps at a repeated time.
+# {force history: (times, forces divided by IMPULSE)}. The force is linear between the times, and jumps where a time is
+# repeated.
 HISTORIES = {
     "constant": ([0.0, 1.0], [1.0, 1.0]),
     "growing": ([0.0, 0.25, 0.5, 0.75, 1.0], [0.0, 0.5, 1.0, 1.5, 2.0]),
@@ -32,13 +33,13 @@ HISTORIES = {
         [2.0, 2.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 2.0, 2.0],
     ),
 }
-SCALES = (1e-3, 0.2, 7.0)  # common factors of heights and depth
-# pairs (factor of the heights, factor of the lengths in the plane)
+SCALES = (1e-3, 0.2, 7.0)  # factors by which heights and depth are both multiplied
+# Pairs of factors that rescale a surface: (factor of the heights, factor of the lengths in the plane).
 UNITS = ((7.0, 1.0), (1e-3, 3.0), (0.2, 1e-2))
-FORCES = np.geomspace(1e-3, 1, 31)  # values of X where curves are compared
-# pairs (F/(hL), viscosity) for indentations of one disc
+FORCES = np.geomspace(1e-3, 1, 31)  # values of X, the dimensionless force F/(4GhL), at which curves are compared
+# Pairs (F/(hL), viscosity); the same disc is indented with each pair.
 DRIVES = ((1.0, 1.0), (1.0, 5.0), (1e-2, 1.0), (30.0, 0.2))
-STEPS = 10  # number of steps, of equal impulse, in each direct integration
+STEPS = 10  # number of time steps in each direct integration; the impulse ∫F dt of all steps is equal
 
 
 def _disc(evidence, hurst):
@@ -47,15 +48,15 @@ def _disc(evidence, hurst):
 
 
 def _case(name, deviations, tolerance):
-    """Return the case of several deviations that should vanish, judged by the largest of them."""
+    """Return the case of several deviations that should be zero; the largest deviation decides the verdict."""
     return exact(name, max(deviations), 0.0, max(deviations) <= tolerance, deviations)
 
 
 def history(evidence, tolerance):
-    """Yield differences between contacts at the end of force histories of equal impulse.
+    """Test whether force histories of equal impulse end at equal depths with equal contact.
 
-    The histories should reach equal depths with equal contact. The first case is the number of elements whose contact
-    differs between two histories, the second case is the relative difference of the depths.
+    The first case is the number of elements whose contact differs between two histories. The second case is the
+    relative difference of the depths.
     """
     disc = _disc(evidence, min(evidence.pooled))
     histories = [(times, IMPULSE * np.array(forces)) for times, forces in HISTORIES.values()]
@@ -69,7 +70,10 @@ def history(evidence, tolerance):
 
 
 def depth_over_rms(evidence, tolerance):
-    """Yield the number of elements whose contact changes when the depth u and the rms height h are scaled together."""
+    """Test whether the contact stays the same if the depth u and the rms height h are multiplied by the same factor.
+
+    There is one case for each Hurst exponent: the number of elements whose contact changes.
+    """
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         touching = contact_at(disc, depth=DEPTH).contact
@@ -80,11 +84,11 @@ def depth_over_rms(evidence, tolerance):
 
 
 def one_surface(evidence, tolerance):
-    """Yield relative differences between results for one surface in different units, which should vanish.
+    """Yield relative differences between results for one surface in different units, which should be zero.
 
-    For every Hurst exponent, κ(X) is compared between surfaces with other heights and other diameters. For the smallest
-    Hurst exponent, F/(ηvL) is also compared between direct integrations with other forces and viscosities, at equal
-    Ft/η and hence in equal contact.
+    For every Hurst exponent, the stiffness κ(X) is compared between surfaces with other heights and other diameters.
+    For the smallest Hurst exponent, F/(ηvL) is also compared between direct integrations in time with other forces and
+    viscosities. The values are compared at equal Ft/η, where the contacts are equal.
     """
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
@@ -97,13 +101,19 @@ def one_surface(evidence, tolerance):
 
 
 def _resistance(disc, force, viscosity):
-    """Return F/(ηvL), with the mean velocity v, in each step of a direct integration in steps of equal impulse Ft/η."""
+    """Return F/(ηvL) in each step of a direct integration in time, with the mean velocity v of the step.
+
+    The impulse Ft/η of all steps is equal.
+    """
     times = np.linspace(0.0, IMPULSE * viscosity / force, STEPS + 1)
     depth = march(disc, Load(times, force=np.full(times.size, force)), Newtonian(viscosity)).depth
     return force / (viscosity * np.diff(depth) / np.diff(times))
 
 
 def _stiffness(indenter, rms, diameter):
-    """Return κ at the dimensionless forces X in `FORCES`, for a surface of the given rms height and diameter."""
+    """Return the dimensionless stiffness κ at the forces X in `FORCES`.
+
+    The surface of the indenter has the given rms height and diameter.
+    """
     force = 4 * rms * diameter * FORCES
     return indent(indenter, until_force=force[-1]).at_force(force)[1] / diameter

@@ -17,11 +17,14 @@ from viscorough_study.verdicts.region_criteria import combinations_case
 SHARE_OF_SQUARE = 0.75
 
 
-# ---- exponents
+# ---- claims on exponents
 
 
 def beta(evidence, tolerance, source="discs"):
-    """Compare β with H/(1 + H), for the Hurst exponents that this claim of the paper covers."""
+    """Test whether the exponent β is H/(1 + H), at the Hurst exponents for which the paper claims this.
+
+    source : "discs" or "lines"
+    """
     fits, every = evidence.fits(source), evidence.every_fit(source)
     fits = fits[fits.index > evidence.paper_value("agreement", "beta_hurst_min")]
     named = {"names": list(FITTED), "compared": every["case_group"] == "base"}
@@ -29,12 +32,15 @@ def beta(evidence, tolerance, source="discs"):
 
 
 def beta_lines(evidence, tolerance):
-    """Compare β of lines with H/(1 + H)."""
+    """Test whether the exponent β of lines is H/(1 + H), at the Hurst exponents for which the paper claims this."""
     return beta(evidence, tolerance, "lines")
 
 
 def exponent_small_hurst(evidence, tolerance):
-    """Yield β − H/(1 + H) of discs and lines, for the Hurst exponents about which the paper claims nothing."""
+    """Test whether β is H/(1 + H) also at the small Hurst exponents about which the paper claims nothing.
+
+    The value of a case is β − H/(1 + H), for discs or for lines.
+    """
     disc_fits = evidence.fits("discs")
     small = disc_fits.index[disc_fits.index <= evidence.paper_value("agreement", "beta_hurst_min")]
     for source in ("discs", "lines"):
@@ -48,7 +54,10 @@ def exponent_small_hurst(evidence, tolerance):
 
 
 def coincide(evidence, tolerance):
-    """Compare β of lines with β of discs at equal Hurst exponents, by their difference, in all conventions."""
+    """Test whether the exponents β of lines and of discs are equal at equal Hurst exponents, in all conventions.
+
+    The value of a case is β of the lines minus β of the discs.
+    """
     discs, lines = (evidence.every_fit(source).query("case_group == 'base'") for source in ("discs", "lines"))
     both = discs.merge(lines, on=["hurst", "average", "window_rule"], how="left", suffixes=("", "_of_lines"))
     line_columns = tuple(both[f"{name}_of_lines"] for name in ("beta", "beta_low", "beta_high"))
@@ -60,7 +69,11 @@ def coincide(evidence, tolerance):
 
 
 def hurst_only(evidence, tolerance):
-    """Yield the standard deviation of β between combinations of force, viscosity, L and h, without sampling scatter."""
+    """Test whether β depends on H alone, and not on force, viscosity, L and h.
+
+    The value is the standard deviation of β between combinations of these four quantities at equal H, without the
+    sampling scatter of β.
+    """
     if None in evidence.regions.values():
         yield judged("all H", UNDEFINED, 0.0, None)
         return
@@ -70,10 +83,11 @@ def hurst_only(evidence, tolerance):
 
 
 def no_grid(evidence, tolerance):
-    """Yield the ratio of κ at given u/h with ten times as many elements to κ without (fits.grid_dependence).
+    """Test whether the stiffness κ at a given depth u/h is independent of the grid.
 
-    The extremes of a case are the least and the largest κ of the grids. The number of realizations of a grid is already
-    in the interval of the factor, and does not enter the verdict a second time.
+    The value of a case is the factor by which κ changes if the number of elements grows tenfold (fits.grid_dependence).
+    The extremes of a case are the least and the largest κ of the grids. The interval of the factor already includes the
+    effect of the number of realizations, so this number does not influence the verdict a second time.
     """
     table, ends = evidence.tables["grid_dependence"], (1 / (1 + tolerance), 1 + tolerance)
     table = table[table["quantity"].str.startswith("κ at u/h") & (table["compared"] == 1)].dropna(subset="factor")
@@ -87,9 +101,10 @@ def no_grid(evidence, tolerance):
 
 
 def realizations(evidence, tolerance):
-    """Return the cases of half the width of the 95 % interval of β for as many indentations as in the paper's Fig. 4.
+    """Test whether the paper has enough indentations in Fig. 4 to determine β.
 
-    This half width has an interval itself, by the χ² distribution of the standard deviation of normal samples.
+    The value of a case is half the width of the 95 % interval of β for this number of indentations. This half width has
+    a 95 % interval itself, by the χ² distribution of the standard deviation of normal samples.
     """
     number = evidence.paper_value("boundary_elements", "realizations_fig4")
 
@@ -101,11 +116,11 @@ def realizations(evidence, tolerance):
 
 
 def _cases_in_regions(evidence, evaluate, expected, allowed):
-    """Yield the cases of a quantity in region (b) of the ensembles in `Evidence.pooled`, one for each H.
+    """Yield one case for each Hurst exponent: a quantity in region (b), where the curves follow a power law.
 
-    evaluate : function of H, ensemble and window; returns (value, low, high) and the number of realizations
+    evaluate : function of H, ensemble and window of X; returns (value, low, high) and the number of realizations
     expected : value of the paper, or nan; allowed : (low, high)
-    A case without a region is undecided.
+    The ensembles are taken from `Evidence.pooled`. If an ensemble has no region (b), its case is undecided.
     """
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
@@ -115,7 +130,10 @@ def _cases_in_regions(evidence, evaluate, expected, allowed):
 
 
 def _slopes(ensemble, window):
-    """Return the slope of ln(vt/h) along ln X in a window, for every realization defined in the whole window."""
+    """Return the slope of ln(vt/h) along ln X in a window of X, for every realization of the ensemble.
+
+    Realizations that are undefined in a part of the window are omitted.
+    """
     inside = in_window(ensemble["x"].values, window)
     log_x, log_velocity = np.log(ensemble["x"].values[inside]), np.log(ensemble["velocity"].values[:, inside])
     log_velocity = log_velocity[np.isfinite(log_velocity).all(axis=1)]
@@ -123,7 +141,10 @@ def _slopes(ensemble, window):
 
 
 def alpha_limit(evidence, tolerance):
-    """Yield β of lines, and of discs on the paper's grid, at H = 1, where the paper calls the exponent exact."""
+    """Test whether β is 1/2 at H = 1, where the paper calls the exponent exact.
+
+    There are two cases: lines, and discs on the paper's grid.
+    """
     chosen = evidence.conventions | source_values("discs") | {"case_group": "sizes"}
     discs = select(evidence.tables["sizes"], chosen).set_index("hurst")
     discs = discs[discs["elements"] >= SHARE_OF_SQUARE * evidence.across**2].sort_values("elements", kind="stable")
@@ -134,11 +155,11 @@ def alpha_limit(evidence, tolerance):
         yield evidence.case(f"H = 1, {source}", values, 0.5, ends, realizations=number, cases=2)
 
 
-# ---- curves
+# ---- claims on curves
 
 
 def depth(evidence, tolerance):
-    """Return the cases of (1 − α)κu/(hX) at the centre of region (b), which is 1 for a power law of κ.
+    """Test whether (1 − α)κu/(hX) is 1 at the centre of region (b), as it is if κ is a power law κ ∝ X^α.
 
     The depth is u/h = ∫dX/κ, where κ is constant below the first abscissa.
     """
@@ -148,8 +169,8 @@ def depth(evidence, tolerance):
         end = int(np.argmin(np.abs(np.log(x / centre)))) + 1
         depths = x[0] * softness[:, 0] + np.trapezoid(softness[:, :end], x[:end], axis=1)
         ratios = (depths / (x[end - 1] * softness[:, end - 1]))[:, None]
-        # With the seed of the fit the same realizations are drawn, so the interval includes the scatter of both
-        # factors.
+        # With the seed of the fit, the same realizations are drawn as for `betas`. The interval of the product
+        # therefore includes the scatter of both factors.
         random = np.random.default_rng(evidence.seed)
         return betas * np.exp(log_means(ratios, "arithmetic", evidence.resamples, random))[:, 0]
 
@@ -157,9 +178,10 @@ def depth(evidence, tolerance):
 
 
 def master_curve(evidence, tolerance):
-    """Yield the ratio of vt/h to the right side of Eq. 12 as printed, at the centre of region (b).
+    """Test whether vt/h follows Eq. 12 as printed, at the centre of region (b).
 
-    There are cases for discs, and for lines at the Hurst exponents of the discs.
+    The value of a case is the ratio of vt/h to the right side of Eq. 12. There are cases for discs, and for lines at
+    the Hurst exponents of the discs.
     """
 
     def ratio(hurst, ensemble, betas, zetas, centre):
@@ -172,8 +194,8 @@ def master_curve(evidence, tolerance):
     for hurst, row in lines.iterrows():
         centre = np.sqrt(row["x_low"] * row["x_high"])
         value = ratio(hurst, None, row["beta"], row["zeta"], centre)
-        # The relative error of ζ is the error of vt/h at X = 1. It is an upper bound of the error at the centre of the
-        # fit.
+        # The relative error of ζ equals the relative error of vt/h at X = 1. The error of vt/h at the centre of the
+        # fit is at most as large.
         zeta, zeta_low, zeta_high = interval(row, "zeta")
         values = value, value * zeta / zeta_high, value * zeta / zeta_low
         context = {"realizations": row["realizations"], "cases": len(discs) + len(lines)}
@@ -181,10 +203,11 @@ def master_curve(evidence, tolerance):
 
 
 def _cases_at_centre(evidence, tolerance, ratio):
-    """Return the cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
+    """Return one case for each Hurst exponent: a ratio at the geometric centre of region (b), which should be 1.
 
-    ratio : function of H, ensemble, β and ζ (arrays of fit and resamples), and centre X; returns the ratio and its
-        resamples
+    If an ensemble has no region (b), its case is undecided.
+    ratio : function of H, ensemble, β, ζ, and X at the centre. β and ζ are arrays with the value of the fit and the
+        values of bootstrap resamples. The function returns the ratio as an array of the same form.
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
 

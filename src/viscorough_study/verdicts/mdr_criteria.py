@@ -1,8 +1,9 @@
-"""Judge claims on lines that represent surfaces: λ, exponents, contact area, separation, single surfaces.
+"""Judge claims on lines that represent surfaces in the method of dimensionality reduction.
 
-The paper calls the applicability of the method of dimensionality reduction proven, and compares exponents only. Further
-quantities that a line should reproduce are judged here as well. Lyashenko, Pastewka & Persson (Tribology Letters 52,
-223 (2013)) find that the method reproduces neither contact area nor separation.
+The claims concern the factor λ in the spectrum of a line, exponents, contact area, separation, and single surfaces. The
+paper calls the applicability of the method proven, and compares exponents only. Further quantities that a line should
+reproduce are judged here as well. Lyashenko, Pastewka & Persson (Tribology Letters 52, 223 (2013)) find that the method
+reproduces neither contact area nor separation.
 """
 
 import numpy as np
@@ -14,22 +15,32 @@ EQUAL_WINDOWS = ("same X", "same κ")
 
 
 def lambda_constant(evidence, tolerance):
-    """Return the cases of the ratio of λ at the upper end of region (b) to λ at its lower end, one for each H."""
+    """Test whether λ, the factor in the spectrum of a line (Eq. 13), is constant in region (b).
+
+    The value of a case is the ratio of λ at the upper end of region (b) to λ at its lower end, for one Hurst exponent.
+    """
     return _cases(evidence, evidence.tables["mdr_summary"], "drift", 1.0, (1 / (1 + tolerance), 1 + tolerance))
 
 
 def exact_correspondence(evidence, tolerance):
-    """Return cases of the error of ln(vt/h) at the upper end of region (b), with the best single λ in region (b)."""
+    """Test whether lines with a single λ for each Hurst exponent have the same vt/h as discs in region (b).
+
+    The value of a case is the error of ln(vt/h) at the upper end of region (b), with the λ that is best in this region.
+    """
     return _cases(evidence, evidence.tables["mdr_summary"], "error_trend", 0.0, (-tolerance, tolerance))
 
 
 def whole_curve(evidence, tolerance):
-    """Return the cases of the largest error of ln(vt/h) on the whole curve, with the best single λ in region (b)."""
+    """Test whether lines with a single λ for each Hurst exponent have the same vt/h as discs up to complete contact.
+
+    The value of a case is the largest error of ln(vt/h) from the start of region (b) to the end of the curve, with the
+    λ that is best in region (b).
+    """
     return _cases(evidence, evidence.tables["mdr_summary"], "error_whole", 0.0, (-tolerance, tolerance))
 
 
 def _cases(evidence, table, column, expected, allowed):
-    """Yield a case for each row of a table, from one of its columns.
+    """Yield one case for each row of a table, with the quantity in one of its columns.
 
     The name of a case is the Hurst exponent, followed by the window if the table has the column `window`.
     """
@@ -40,25 +51,28 @@ def _cases(evidence, table, column, expected, allowed):
 
 
 def coincide_equal_windows(evidence, tolerance):
-    """Return the cases of β of lines minus β of discs, fitted in equal ranges of X, and fitted in equal ranges of κ."""
+    """Test whether the exponents β of lines and discs are equal if both are fitted in the same range of X, or of κ.
+
+    The value of a case is β of the lines minus β of the discs.
+    """
     table = evidence.tables["mdr_exponents"]
     return _cases(evidence, table[table["window"].isin(EQUAL_WINDOWS)], "difference", 0.0, (-tolerance, tolerance))
 
 
 def line_area(evidence, tolerance):
-    """Return the cases of the ratio of the contact fraction of lines to the contact fraction of discs."""
+    """Test whether lines have the same contact fraction as discs, by the ratio of line to disc."""
     return _at_centres(evidence, "area_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
 
 def line_gap(evidence, tolerance):
-    """Return the cases of the ratio of the mean gap of lines to the mean gap of discs."""
+    """Test whether lines have the same mean gap as discs, by the ratio of line to disc."""
     return _at_centres(evidence, "gap_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
 
 def single_surface(evidence, tolerance):
-    """Return the cases of the typical factor between κ of a disc and κ of its line.
+    """Test whether a single line has the same stiffness κ as its disc, by a typical factor between the two values.
 
-    The logarithm of this factor is the standard deviation of the logarithm of the ratio of line to disc. Its interval
+    The typical factor is exp(s), where s is the standard deviation of ln(κ of the line/κ of the disc). Its interval
     follows from the χ² distribution of the standard deviation of normal samples.
     """
 
@@ -69,10 +83,10 @@ def single_surface(evidence, tolerance):
 
 
 def own_line(evidence, tolerance):
-    """Yield the deviation between the row of springs of a surface's own line and direct integration in time.
+    """Test whether the row of springs with a surface's loading curve moves like the surface in direct integration.
 
-    The deviation must be within the tolerance and fall to less than half with twice as many steps. The extremes of a
-    case are the deviations with both numbers of steps.
+    The value of a case is the deviation between both motions. It must be within the tolerance. It must also fall to
+    less than half with twice as many time steps. The extremes of a case are the deviations with both numbers of steps.
     """
     for hurst, rows in evidence.tables["histories"].groupby("hurst"):
         fine, coarse = (rows[name].abs().max() for name in ("deviation", "deviation_coarse"))
@@ -80,11 +94,12 @@ def own_line(evidence, tolerance):
 
 
 def _at_centres(evidence, column, allowed, values=interval):
-    """Yield the cases of the comparison of lines and discs by surface, at the centre of region (b), one for each H.
+    """Yield one case for each Hurst exponent: a comparison of lines with their discs at the centre of region (b).
 
-    column : column of the table `reduction`, which must be defined
-    allowed : (low, high); values : function of a row of the table and the column, which returns (value, low, high)
-    The extremes of a case are the least and the largest value in the region.
+    column : column of the table `reduction`. Rows of the table without a value in this column are omitted.
+    allowed : (low, high)
+    values : function of a row of the table and the column; returns (value, low, high)
+    The extremes of a case are the least and the largest value in region (b).
     """
     table = evidence.tables["reduction"].dropna(subset=column)
     for hurst, window in evidence.regions.items():

@@ -1,4 +1,8 @@
-"""Judge claims on the methods: the factor 1/Γ(2 − α), the spectrum of the line of the MDR, and counts."""
+"""Judge claims on the methods of the paper.
+
+The claims concern the factor 1/Γ(2 − α), the method of dimensionality reduction (MDR) with its line spectrum, and the
+numbers of elements and of contact problems.
+"""
 
 import numpy as np
 
@@ -6,25 +10,28 @@ from viscorough.surfaces.self_affine import cut_disc
 from viscorough_study.fits.intervals import UNDEFINED, difference
 from viscorough_study.verdicts.evidence import exact, judged
 
-SMALL_ERROR = 0.01  # relative error of the velocity that explicit steps must reach when they are counted
+SMALL_ERROR = 0.01  # largest relative error of the velocity with which an explicit integration counts
 HUNDREDS = 100  # smallest number of contact problems that counts as "some hundreds"
-# name, in the table of methods, of the method that solves a contact problem in every step
+# Name of a method in the table of methods. This method solves a contact problem in every time step.
 EXPLICIT = "explicit, logarithmic steps"
 
 
 def gamma(evidence, tolerance):
-    """Compare the ratio of the depth of a direct integration in time to the elastic depth with the factor of Eq. 8."""
+    """Test whether the viscous depth, by direct integration in time, is the elastic depth times the factor in Eq. 8.
+
+    There is one case for each indenter. Its value is the median of the ratio of viscous to elastic depth.
+    """
     for name, rows in evidence.tables["direct"].groupby("case", sort=False):
         ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
         yield exact(name, ratio.median(), factor, (np.abs(ratio - factor) <= tolerance).all(), ratio)
 
 
 def line_spectrum(evidence, tolerance):
-    """Yield the ratio of λ at the largest Hurst exponent to λ at the smallest.
+    """Test whether the factor λ in the spectrum of a line (Eq. 13) depends on the Hurst exponent H.
 
-    If λ varies with H by more than the tolerance, it is not constant, and so not π. The two λ are independent, so the
-    half-widths of the intervals of their logarithms add in quadrature. The extremes of the case are the smallest and
-    the largest λ/π of all Hurst exponents.
+    The value is the ratio of λ at the largest H to λ at the smallest. If the ratio differs from 1 by more than the
+    tolerance, λ is not constant, and so not π. The two λ are independent, so the half-widths of the intervals of their
+    logarithms add in quadrature. The extremes of the case are the smallest and the largest λ/π of all Hurst exponents.
     """
     fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high", "realizations"]].dropna()
     if len(fits) < 2:
@@ -41,7 +48,10 @@ def line_spectrum(evidence, tolerance):
 
 
 def bodies_of_revolution(evidence, tolerance):
-    """Yield the error of the reduction on the finest grid; the extremes of a case are the errors on all grids."""
+    """Test whether the method of dimensionality reduction is exact for bodies of revolution.
+
+    The value of a case is the error of the method on the finest grid. The extremes are its errors on all grids.
+    """
     validation = evidence.tables["validation"]
     rows = validation[validation["case"].str.endswith("_reduction")]
     for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
@@ -51,9 +61,9 @@ def bodies_of_revolution(evidence, tolerance):
 
 
 def elements(evidence, tolerance):
-    """Yield the number of elements of a disc with as many elements across as the paper's.
+    """Test whether a disc with the paper's number of elements across has as many elements in total as the paper states.
 
-    The extremes of the case are this number without and with the elements whose centres lie exactly on the rim.
+    The extremes of the case are the total numbers without and with the elements whose centres lie exactly on the rim.
     """
     across, paper_count = (evidence.paper_value("boundary_elements", name) for name in ("elements_across", "elements"))
     count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
@@ -64,13 +74,13 @@ def elements(evidence, tolerance):
 
 
 def contact_problems(evidence, tolerance):
-    """Yield the number of contact problems of one indentation, counted in two ways.
+    """Yield the number of contact problems that one indentation takes, counted in two ways.
 
-    The first case counts the changes of the contact: every element that comes into contact is a change. Its extremes
-    are the least and the largest number of all discs. The second case counts the steps of explicit integration, which
-    solves a contact problem in every step. For each rough disc it is the smallest number of steps with an error of the
-    velocity of at most `SMALL_ERROR`; its extremes are the least and the largest number of all discs that reach this
-    error.
+    The first case counts the changes of the contact: every element that comes into contact is a change. The second case
+    counts the steps of explicit integration in time, which solves a contact problem in every step. For each rough disc,
+    this is the smallest number of steps with an error of the velocity of at most `SMALL_ERROR`; discs that do not reach
+    this error are omitted. The value of a case is the median over the discs. The extremes are the least and the largest
+    number.
     """
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
     methods = evidence.tables["methods"]

@@ -1,4 +1,8 @@
-"""Judge claims on the form of the curves: their collapse, and the regions (a), (b) and (c)."""
+"""Judge claims on the form of the curves: their collapse onto one curve, and their three regions.
+
+In region (a) a single element is in contact. In region (b) the curves follow a power law. In region (c) they are lines
+of slope 1, which the paper explains by almost complete contact.
+"""
 
 from itertools import pairwise
 
@@ -10,21 +14,25 @@ from viscorough_study.fits.intervals import UNDEFINED, interval, mean_with_inter
 from viscorough_study.fits.plateau import inner_slopes
 from viscorough_study.verdicts.evidence import exact, hurst_name, judged
 
-ROUNDING = 1e-9  # numbers of decades count as equal if they differ relatively by at most this
-LEFT_REGION = 2.0  # a curve leaves region (a) when κ reaches this multiple of κ of a single element
-SLOPE_OF_LINE = 0.05  # a slope that differs from 1 by at most this looks like 1 in Fig. 2
-POWER_LAWS_LOST_MAX = 0.05  # largest fraction of synthetic power laws that may fail the test of `power_law_decades`
-ONE_ELEMENT = 1 + 1e-9  # largest contact count, interpolated logarithmically, that still means a single element
+ROUNDING = 1e-9  # relative difference up to which two numbers of decades count as equal
+LEFT_REGION = 2.0  # region (a) ends where κ is this multiple of κ of a single element in contact
+SLOPE_OF_LINE = 0.05  # largest deviation from 1 with which a local slope still looks like 1 in Fig. 2
+# A failure in `power_law_decades` counts only if at most this fraction of synthetic power laws fail as well.
+POWER_LAWS_LOST_MAX = 0.05
+# Largest contact count that still means a single element. Logarithmic interpolation of counts causes rounding errors.
+ONE_ELEMENT = 1 + 1e-9
 
 
 def collapse(evidence, tolerance):
-    """Yield the ratio of the scatter of ln(vt/h) between combinations to its scatter between Hurst exponents, at one X.
+    """Test whether the curves of one Hurst exponent collapse for all combinations of physical parameters.
 
-    A combination is a combination of force, viscosity, size and rms height. The X lies in the regions (b) of all Hurst
-    exponents. The scatter of combinations is the component of variance between combinations (`excess_variance`),
-    without the sampling scatter of their means. It is pooled over all Hurst exponents, because few combinations
-    determine it poorly: the upper end of its interval from the nine combinations of one Hurst exponent would be twice
-    as large as from the 36 combinations of four Hurst exponents.
+    A combination consists of force, viscosity, size and rms height. The value is the ratio of two scatters of ln(vt/h)
+    at one X: the scatter between combinations, divided by the scatter between Hurst exponents. The X is the geometric
+    mean of the ends of region (b) of all Hurst exponents.
+
+    The scatter between combinations excludes the sampling scatter of their means (`excess_variance`). It is pooled over
+    all Hurst exponents, because few combinations determine it poorly. From the nine combinations of one Hurst exponent,
+    the upper end of its interval would be twice as large as from the 36 combinations of four Hurst exponents.
     """
     windows = [window for window in evidence.regions.values() if window is not None]
     if len(windows) < 2 or len(windows) < len(evidence.regions):
@@ -41,11 +49,13 @@ def collapse(evidence, tolerance):
 
 
 def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
-    """Return the case of the standard deviation of a quantity between combinations of one H, pooled over all H.
+    """Return the case of the standard deviation of a quantity between combinations, pooled over all Hurst exponents.
 
-    sets : for every Hurst exponent, the samples of each combination (see `excess_variance`)
+    Only combinations (of force, viscosity, diameter and rms height) with the same Hurst exponent are compared.
+    sets : for every Hurst exponent, a list with the samples of each combination (see `excess_variance`)
     unit : divisor of the standard deviation
-    The extremes of the case are from single Hurst exponents, whose few combinations determine them poorly.
+    The extremes of the case are the least and the largest result for a single Hurst exponent. They are poorly
+    determined, because a single Hurst exponent has few combinations.
     """
     *values, _ = np.sqrt(excess_variance(sets)) / unit
     single = [np.sqrt(excess_variance([groups])[0]) / unit for groups in sets]
@@ -57,15 +67,16 @@ def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
 def excess_variance(sets):
     """Return the component of variance between groups, by one-way analysis of variance with random effects.
 
-    sets : list of sets; a set is a list of groups; a group holds samples, shape (realizations,), nan if undefined. The
-        variance between groups is computed within each set, so the means of the sets may differ.
+    sets : list of sets; a set is a list of groups; a group is an array of samples, shape (realizations,), nan if
+        undefined. Groups are compared only within a set, so the means of the sets may differ.
 
     Let σ_b² be the variance between groups, σ_w² the variance within groups, and n the number of realizations per
-    group. The ratio of MS_between/MS_within to 1 + n σ_b²/σ_w² has the F distribution. Its quantiles F_p therefore give
+    group. MS_between and MS_within are the mean squares of the analysis of variance. The quotient of
+    MS_between/MS_within and 1 + n σ_b²/σ_w² has the F distribution. Its quantiles F_p therefore give
     σ_b² = (MS_between/MS_within/F_p − 1) σ_w²/n, or 0 if this is negative. With MS_within for σ_w² the interval is
     exact for the ratio of the two variances.
 
-    The upper end is at least the upper end for groups with sampling scatter only, MS_between = MS_within. Means that
+    The upper end is at least as large as for groups with sampling scatter only, MS_between = MS_within. Means that
     lie closer together than expected by chance are no evidence of a smaller component (power-constrained limit: Cowan,
     Cranmer, Gross & Vitells, arXiv:1105.3166).
 
@@ -87,9 +98,10 @@ def excess_variance(sets):
 
 
 def first_region(evidence, tolerance):
-    """Yield the ratio of κ, while a single element is in contact, to κ = π/(K₀₀ n) of a single element.
+    """Test whether the stiffness κ in region (a), with a single element in contact, is π/(K₀₀ n).
 
-    n is the number of elements across; `reference.one_element_stiffness` defines K₀₀.
+    The value of a case is the ratio of κ to this law. n is the number of elements across;
+    `reference.one_element_stiffness` defines K₀₀.
     """
     for hurst, ensemble in evidence.pooled.items():
         alone = ensemble["contact_count"].values <= ONE_ELEMENT
@@ -99,7 +111,11 @@ def first_region(evidence, tolerance):
 
 
 def last_region(evidence, tolerance):
-    """Yield two cases at the end of the curves of each H: κ, which is Xh/(vt), and the slope of ln(vt/h) along ln X."""
+    """Test whether the curves end on the line vt/h = X in region (c); yield two cases for each Hurst exponent.
+
+    Both cases are means at the end of the curves. The first case is κ, which is Xh/(vt). The second case is the slope
+    of ln(vt/h) along ln X.
+    """
     paper_slope = evidence.paper_value("regions", "slope_last")
     for hurst, ensemble in evidence.whole.items():
         x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
@@ -114,16 +130,20 @@ def last_region(evidence, tolerance):
 
 
 def _mean_case(evidence, name, samples, expected, allowed, **counts):
-    """Return the case of the mean of a quantity over realizations, with the least and largest realization as extremes.
+    """Return the case of the mean of a quantity over the realizations of an ensemble.
 
-    samples : the quantity for each realization; allowed : (low, high); counts : argument `cases` of `Evidence.case`
+    samples : quantity for each realization; the extremes of the case are the least and the largest sample
+    allowed : (low, high); counts : argument `cases` of `Evidence.case`
     """
     counts |= {"realizations": samples.size, "extremes": (samples.min(), samples.max())}
     return evidence.case(name, mean_with_interval(samples), expected, allowed, **counts)
 
 
 def power_law(evidence, tolerance):
-    """Yield half the spread of the local slope within region (b) of base discs (viscorough_study.fits.plateau)."""
+    """Test whether the local slope is constant in region (b), for every Hurst exponent of the base discs.
+
+    The value of a case is half the spread of the local slope (viscorough_study.fits.plateau).
+    """
     plateaus = evidence.tables["plateaus"].query("case_group == 'base'")
     for row in plateaus.to_dict("records"):
         context = {"realizations": row["realizations"], "cases": len(plateaus)}
@@ -133,10 +153,10 @@ def power_law(evidence, tolerance):
 
 
 def power_law_decades(evidence, tolerance):
-    """Yield the number of decades with constant local slope, within the tolerance (viscorough_study.fits.plateau).
+    """Yield the number of decades of X where the local slope is constant within the tolerance (see fits.plateau).
 
-    Scatter shortens plateaus. A curve therefore fails only if synthetic power laws with the same scatter pass;
-    otherwise it is undecided.
+    Scatter of the curves shortens this range. A curve therefore fails only if synthetic power laws with the same
+    scatter pass; otherwise it is undecided.
     """
     plateaus, needed = evidence.tables["plateaus"], evidence.rules["decades_min"] * (1 - ROUNDING)
     plateaus = plateaus[plateaus["case_group"] == "base"]
@@ -148,10 +168,10 @@ def power_law_decades(evidence, tolerance):
 
 
 def power_law_control(evidence, tolerance):
-    """Yield half the spread of the local slope in region (b) of discs without long waves, hence without a power law.
+    """Test whether the criterion of `power_law` rejects discs without long waves, whose curves follow no power law.
 
-    The claim is that the test of `power_law` rejects these discs, so their spread must be above the tolerance of this
-    test.
+    The value of a case is half the spread of the local slope in region (b). To be rejected, the discs must have a value
+    above the tolerance of `power_law`.
     """
     plateaus = evidence.tables["plateaus"].query("case_group != 'base'")
     if plateaus.empty:
@@ -163,19 +183,21 @@ def power_law_control(evidence, tolerance):
 
 
 def separation(evidence, tolerance):
-    """Yield the ratio of the X where region (a) ends for one Hurst exponent to the X for the next larger exponent.
+    """Test whether curves of larger Hurst exponents leave region (a) at smaller X.
 
-    The ratio is above 1 if the curve of the larger exponent leaves region (a) first. Region (a) ends when the geometric
-    mean of κ reaches `LEFT_REGION` times κ of a single element.
+    The value of a case is the ratio of the X where region (a) ends for one Hurst exponent to this X for the next larger
+    exponent. It is above 1 if the curve of the larger exponent leaves region (a) first. Region (a) ends where the
+    geometric mean of κ reaches `LEFT_REGION` times κ of a single element.
     """
     ends, level = {}, np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
     for i, (hurst, ensemble) in enumerate(evidence.pooled.items()):
         stiffness = np.log(ensemble["stiffness"].values)
         stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
-        # With different seeds, the bootstrap samples of the ensembles are independent.
+        # Each ensemble has a different seed, so that the bootstrap samples of the ensembles are independent.
         means = resampled_means(stiffness, evidence.resamples, np.random.default_rng([evidence.seed, i]))
         log_x = np.log(ensemble["x"].values[: means.shape[1]])
-        # ln X where region (a) ends: of the ensemble, then of its resamples; nan if the end is not reached.
+        # Values of ln X at the end of region (a), first for the ensemble, then for its resamples. Values are nan for
+        # curves that do not reach this end.
         ends[hurst] = np.array([np.interp(level, mean, log_x, left=np.nan, right=np.nan) for mean in means])
     for lower, higher in pairwise(ends):
         ratios = np.exp(ends[lower] - ends[higher])
@@ -185,7 +207,10 @@ def separation(evidence, tolerance):
 
 
 def complete_contact(evidence, tolerance):
-    """Yield the contact fraction at the X where the local slope reaches 1 within `SLOPE_OF_LINE`, and remains there."""
+    """Test whether the contact is almost complete where region (c) begins, by the mean contact fraction.
+
+    Region (c) begins at the X from which on the local slope is 1 within `SLOPE_OF_LINE`.
+    """
     for hurst, ensemble in evidence.whole.items():
         defined = ensemble["fraction_defined"].values == 1
         log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
@@ -200,7 +225,7 @@ def complete_contact(evidence, tolerance):
 
 
 def complete_contact_end(evidence, tolerance):
-    """Yield the contact fraction at the largest X that all curves of a Hurst exponent reach."""
+    """Test whether the contact is almost complete at the largest X that all curves of a Hurst exponent reach."""
     for hurst, ensemble in evidence.whole.items():
         last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
         name = f"{hurst_name(hurst)}, at X = {ensemble['x'].values[last]:.3g}"
@@ -208,9 +233,9 @@ def complete_contact_end(evidence, tolerance):
 
 
 def _contact_case(evidence, name, ensemble, abscissa, tolerance):
-    """Return the case of the mean contact fraction, which should be 1, at one abscissa.
+    """Return the case of the mean contact fraction, which should be 1, at one X of an ensemble.
 
-    abscissa : index of this abscissa
+    abscissa : index of this X
     """
     fractions = ensemble["contact_count"].values[:, abscissa] / ensemble["elements"].item()
     return _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=len(evidence.pooled))

@@ -1,8 +1,8 @@
-"""Judge claims on the prefactor ζ: its value, its value up to a factor common to all H, and which law fits better.
+"""Judge claims on the prefactor ζ: its value, its dependence on H up to a common factor, and which law fits better.
 
-The criteria use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). A claim on the value may fail
-in the conventions of the figures but hold in other conventions that the paper leaves open, conventions of the surfaces
-included. The verdict then names the conventions with the smallest deviation.
+The criteria use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). The paper leaves some
+conventions open, also for the surfaces. A claim on the value of ζ may fail in the conventions of the figures but hold
+in others. The verdict then names the conventions with the smallest deviation.
 """
 
 import numpy as np
@@ -12,24 +12,26 @@ from viscorough_study.fits.conventions import VALUES, in_reading
 from viscorough_study.fits.zeta_laws import difference, measure_value
 from viscorough_study.verdicts.evidence import Combinations, Law
 
-# (quantity, measure) of fits.zeta_laws by which one law fits better than another: the criterion first, then others.
+# Pairs (quantity, measure) of fits.zeta_laws that show which law fits better. The criterion uses the first pair; the
+# other pairs are further measures that the paper may have meant.
 MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), ("zeta", "spread"))
 
 
 def zeta_elastic(evidence, tolerance):
-    """Return the cases of ζ compared with Eq. 4, a law of the elastic contact without the factor 1/Γ(2 − α)."""
+    """Test whether ζ follows Eq. 4, a law of the elastic contact without the factor 1/Γ(2 − α)."""
     return _absolute(evidence, tolerance, reference.zeta_elastic, "without")
 
 
 def zeta_viscous(evidence, tolerance):
-    """Return the cases of ζ compared with Eq. 11, a law that the paper fitted with the factor 1/Γ(2 − α) (Eq. 9)."""
+    """Test whether ζ follows Eq. 11, a law that the paper fitted with the factor 1/Γ(2 − α) (Eq. 9)."""
     return _absolute(evidence, tolerance, reference.zeta_viscous, "with")
 
 
 def _absolute(evidence, tolerance, law, gamma):
-    """Return the cases of ζ compared with a law, one for each Hurst exponent.
+    """Test whether ζ follows a law; return one case for each Hurst exponent.
 
-    law : function of H; gamma : reading of the law, "with" or "without" the factor 1/Γ(2 − α)
+    law : ζ as a function of H
+    gamma : "with" or "without", whether ζ is fitted with the factor 1/Γ(2 − α)
     """
     every = in_reading(evidence.every_fit("discs"), gamma).rename(columns={"case_group": "surfaces"})
     own, law = evidence.fits("discs", gamma=gamma), Law(law, tolerance, relative=True)
@@ -37,24 +39,34 @@ def _absolute(evidence, tolerance, law, gamma):
 
 
 def zeta_elastic_shape(evidence, tolerance):
-    """Return the cases of the spread, between Hurst exponents, of the ratio of ζ to Eq. 4, without 1/Γ(2 − α)."""
+    """Test whether ζ, without the factor 1/Γ(2 − α), follows Eq. 4 up to a factor common to all H.
+
+    The value of a case is the spread of the ratio of ζ to Eq. 4 between Hurst exponents.
+    """
     return _spreads(evidence, tolerance, "zeta", "Eq. 4, without Γ")
 
 
 def zeta_viscous_shape(evidence, tolerance):
-    """Return the cases of the spread, between Hurst exponents, of the ratio of ζ to Eq. 11, with 1/Γ(2 − α)."""
+    """Test whether ζ, with the factor 1/Γ(2 − α), follows Eq. 11 up to a factor common to all H.
+
+    The value of a case is the spread of the ratio of ζ to Eq. 11 between Hurst exponents.
+    """
     return _spreads(evidence, tolerance, "zeta", "Eq. 11, with Γ")
 
 
 def master_curve_shape(evidence, tolerance):
-    """Return the cases of the spread, between Hurst exponents, of the ratio of vt/h at equal X to Eq. 12."""
+    """Test whether vt/h at equal X follows Eq. 12 up to a factor common to all H.
+
+    The value of a case is the spread of the ratio of vt/h to Eq. 12 between Hurst exponents.
+    """
     return _spreads(evidence, tolerance, "curve", "Eq. 11, with Γ")
 
 
 def _spreads(evidence, tolerance, quantity, law):
-    """Yield the cases of the spread between Hurst exponents, which is 0 if the law holds up to a common factor.
+    """Yield two cases of the spread between Hurst exponents, which is 0 if a law holds up to a common factor.
 
-    There is a case for all H, and a case for H from 0.4 on. quantity, law : row of the table `zeta_laws`
+    The first case includes all Hurst exponents, the second case Hurst exponents from 0.4 on.
+    quantity, law : entries in the columns `quantity` and `law` of the table `zeta_laws`
     """
     table = evidence.tables["zeta_laws"]
     counts = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
@@ -65,11 +77,14 @@ def _spreads(evidence, tolerance, quantity, law):
 
 
 def zeta_better(evidence, tolerance):
-    """Yield the deviation of vt/h from Eq. 4 minus its deviation from Eq. 11, which is positive if Eq. 11 fits better.
+    """Test whether Eq. 11 fits vt/h better than Eq. 4.
 
-    The exponent is H/(1 + H). In the first case both laws have the factor 1/Γ(2 − α), as the paper compares them. In
-    the second case each law has its own form, that is, Eq. 4 has no factor. The paper does not say by which measure the
-    law fits better. Other measures are the spread of the curves over H, and the deviation and spread of the fitted ζ.
+    The value of a case is the deviation of vt/h from Eq. 4 minus its deviation from Eq. 11, which is positive if Eq. 11
+    fits better. Both laws have the exponent H/(1 + H). In the first case both laws have the factor 1/Γ(2 − α), as the
+    paper compares them. In the second case Eq. 4 has no such factor, as the paper prints it.
+
+    The paper does not say by which measure Eq. 11 fits better. Other measures than the deviation of the curves are the
+    spread of the curves over H, and the deviation and the spread of the fitted ζ.
     """
     table = evidence.tables["zeta_laws"]
     readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}

@@ -1,8 +1,8 @@
-"""Make tables of cases: the ensembles, batches and indenters of the settings, and the memory of their jobs.
+"""List the cases that the settings define, divide them into batches, and estimate the memory of their jobs.
 
 A case is a dictionary for the jobs that compute loading curves. It describes one or several ensembles of surfaces.
 Cases of the same kind form a group. A pool contains the curves of all cases that are evaluated together, at common
-abscissae.
+abscissae. The indenters in the comparison of methods are listed here as well.
 
 A job computes one batch, that is, some realizations of a case. There are two ways to form the batches of a case with
 several ensembles:
@@ -21,7 +21,7 @@ import math
 
 from viscorough_study.run import seeds
 
-# {pool of curves: conventions for the rms height h of its surfaces, that is, for the region where h is measured}
+# {pool of curves: conventions for the rms height h of its surfaces}. A convention names the region where h is measured.
 POOLS = {
     "discs": ("disc", "square", "ensemble"),
     "lines": ("line",),
@@ -87,7 +87,7 @@ def _changes_of_variants(settings):
 
 
 def surfaces_left_open(settings):
-    """Return the names of the groups of discs that differ only in conventions, which the paper leaves open.
+    """Return the names of the groups of discs whose surfaces differ only in conventions that the paper leaves open.
 
     Variants with other differences, such as a roll-off, are controls, and are omitted.
     """
@@ -125,7 +125,7 @@ def _ensemble(name, spawn_key, surface, grid):
 
 
 def _joint_case(ensembles, batch, group, **shared):
-    """Return the description of a case whose batches contain one ensemble after the other.
+    """Return the description of a case whose batches run through its ensembles in sequence.
 
     batch : number of realizations in a batch; shared : further keys of the description
     """
@@ -293,7 +293,7 @@ def disc_memory(case):
 def measured_memory(case):
     """Return the memory [MB] of a job that indents a measured surface, including the fields of the solver.
 
-    The file of the scan has at least four bytes per height.
+    The memory follows from the size of the file with the heights, which has at least four bytes per height.
     """
     return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
 

@@ -31,9 +31,10 @@ class Registry:
         return [name for tables in made for name in tables if name != "rule_costs"]
 
     def table_functions(self, rule):
-        """Return dotted names of the function and of the column descriptions for a rule that makes tables.
+        """Return {key: dotted name} of the function and the column descriptions for a rule that makes tables.
 
-        The key of the function is "tabulate". The keys of the column descriptions are the names of the tables.
+        The key "tabulate" has the function that makes the tables. Each other key is the name of a table, and has the
+        description of the columns of this table.
         """
         entry = self.table_rules[rule]
         default = entry["function"].rpartition(".")[0] + ".COLUMNS"
@@ -41,10 +42,10 @@ class Registry:
         return {"tabulate": entry["function"]} | columns
 
     def figure_functions(self, figure):
-        """Return dotted names of the function that draws a figure and of the functions that read its inputs.
+        """Return {key: dotted name} of the functions that make a figure.
 
-        The key of the drawing function is "draw". The key of a reading function is the argument of the drawing function
-        to which it belongs. Inputs that are tables need no such function.
+        The key "draw" has the function that draws the figure. Each other key is an argument of this drawing function,
+        and has the function that reads the input file for the argument. Input files with tables need no such function.
         """
         entry = self.figures[figure]
         readers = [argument for argument, path in entry["input"].items() if not path.endswith(".csv")]

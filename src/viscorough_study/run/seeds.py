@@ -65,12 +65,18 @@ def failure_map_key():
 
 
 def size_disc_key(hurst, elements):
-    """Return the spawn key of the discs that compare grids from coarse to fine; elements : elements across the disc"""
+    """Return the spawn key of the discs on which grids from coarse to fine are compared.
+
+    elements : number of elements across the disc
+    """
     return _key(8, _millionths(hurst), elements)
 
 
 def size_line_key(hurst, points):
-    """Return the spawn key of the lines that compare grids from coarse to fine; points : points of the line"""
+    """Return the spawn key of the lines on which grids from coarse to fine are compared.
+
+    points : number of points of the line
+    """
     return _key(9, _millionths(hurst), points)
 
 

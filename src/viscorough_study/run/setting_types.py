@@ -5,7 +5,7 @@ becomes a part of the JSON schema, with keywords that the JSON Schema standard d
 
 - `unit` of a number, "1" for a number without a unit,
 - `decimals`, the largest number of decimals, so that different Hurst exponents have different file names,
-- `eachOnce` of a list: true if its items must differ, or the key whose values must differ between its mappings,
+- `eachOnce` of a list: true if its items must differ, or, for a list of mappings, a key whose values must differ,
 - `allowed`, a description in words of the pattern of a text,
 - `also`, a requirement in addition to the limits, such as an order of two settings.
 """

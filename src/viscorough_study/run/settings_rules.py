@@ -91,7 +91,7 @@ def _empty_range(settings):
 
 
 def _path(name):
-    """Return the path of a setting from its name with dots, in which a whole number is a position in a list."""
+    """Return the path of a setting from its name, such as ["sizes", "windows", 0] from "sizes.windows.0"."""
     return [int(key) if key.isdecimal() else key for key in name.split(".")]
 
 

@@ -20,7 +20,8 @@ def remove_stale_locks(folder=".snakemake"):
 
     folder : Snakemake's folder for its records
     Returns the descriptor of an open file, whose lock marks this process as running until it ends. Returns None if the
-    folder cannot be written, or if its file system has no such locks; Snakemake then shows its own message on locks.
+    folder cannot be written, or if its file system does not support such locks; Snakemake then shows its own message on
+    locks.
     """
     folder = Path(folder)
     try:

@@ -201,8 +201,8 @@ def place(claim):
 def deciding_case(rows):
     """Return the index of the case that decides the verdict on a claim.
 
-    Among the cases with the worst verdict it is the case farthest from the paper's value, or the first case if the
-    paper states no value for any of them.
+    Among the cases with the worst verdict, the case farthest from the paper's value decides. If the paper states no
+    value for any of these cases, the first of them decides.
 
     rows : the cases of one claim
     """
@@ -215,8 +215,8 @@ def markdown(table, claims):
     """Return the verdicts as Markdown tables, one table for each kind of claim.
 
     A table has a row for each claim, followed by rows for its cases. If a claim has more than `CASES_SHOWN_MAX` cases,
-    only three are shown: the first, the last, and the case farthest from the paper. The verdict of a case is followed
-    by the number of conventions that meet the criterion.
+    only three are shown: the first, the last, and the case farthest from the paper's value. The verdict of a case is
+    followed by the number of conventions that meet the criterion.
     """
     parts, verdicts = [], overall(table)
     for kind, heading in KINDS.items():

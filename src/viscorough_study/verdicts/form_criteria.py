@@ -22,7 +22,7 @@ from viscorough_study.verdicts.evidence import exact, hurst_name
 
 ACROSS = 33  # number of elements across the diameter of the disc
 DEPTH = 1.5  # depth divided by the rms height; some tens of elements are then in contact
-IMPULSE = 2.0  # ∫F dt/(ηhL) at the end of each force history
+IMPULSE = 2.0  # value of ∫F dt/(ηhL) at the end of each force history
 # {force history: (times, forces divided by IMPULSE)}. The force is linear between the times, and jumps where a time is
 # repeated.
 HISTORIES = {
@@ -33,7 +33,7 @@ HISTORIES = {
         [2.0, 2.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 2.0, 2.0],
     ),
 }
-SCALES = (1e-3, 0.2, 7.0)  # factors by which heights and depth are both multiplied
+SCALES = (1e-3, 0.2, 7.0)  # factors that multiply both the heights and the depth
 # Pairs of factors that rescale a surface: (factor of the heights, factor of the lengths in the plane).
 UNITS = ((7.0, 1.0), (1e-3, 3.0), (0.2, 1e-2))
 FORCES = np.geomspace(1e-3, 1, 31)  # values of X, the dimensionless force F/(4GhL), at which curves are compared
@@ -43,7 +43,7 @@ STEPS = 10  # number of time steps in each direct integration; the impulse ∫F 
 
 
 def _disc(evidence, hurst):
-    """Return the small disc of a Hurst exponent, with rms height 1 and diameter 1."""
+    """Return a small disc with the given Hurst exponent, rms height 1 and diameter 1."""
     return self_affine_disc(hurst, ACROSS, seed=realization_seed(evidence.seed, *gamma_factor_key(hurst)))
 
 

@@ -37,7 +37,7 @@ def beta_lines(evidence, tolerance):
 
 
 def exponent_small_hurst(evidence, tolerance):
-    """Test whether β is H/(1 + H) also at the small Hurst exponents about which the paper claims nothing.
+    """Test whether the exponent β is H/(1 + H) also at the small Hurst exponents about which the paper claims nothing.
 
     The value of a case is β − H/(1 + H), for discs or for lines.
     """
@@ -69,7 +69,7 @@ def coincide(evidence, tolerance):
 
 
 def hurst_only(evidence, tolerance):
-    """Test whether β depends on H alone, and not on force, viscosity, L and h.
+    """Test whether the exponent β depends on H alone, and not on force, viscosity, L and h.
 
     The value is the standard deviation of β between combinations of these four quantities at equal H, without the
     sampling scatter of β.
@@ -101,7 +101,7 @@ def no_grid(evidence, tolerance):
 
 
 def realizations(evidence, tolerance):
-    """Test whether the paper has enough indentations in Fig. 4 to determine β.
+    """Test whether the paper has enough indentations in Fig. 4 to determine the exponent β.
 
     The value of a case is half the width of the 95 % interval of β for this number of indentations. This half width has
     a 95 % interval itself, by the χ² distribution of the standard deviation of normal samples.
@@ -141,7 +141,7 @@ def _slopes(ensemble, window):
 
 
 def alpha_limit(evidence, tolerance):
-    """Test whether β is 1/2 at H = 1, where the paper calls the exponent exact.
+    """Test whether the exponent β is 1/2 at H = 1, where the paper calls the exponent exact.
 
     There are two cases: lines, and discs on the paper's grid.
     """
@@ -159,7 +159,7 @@ def alpha_limit(evidence, tolerance):
 
 
 def depth(evidence, tolerance):
-    """Test whether (1 − α)κu/(hX) is 1 at the centre of region (b), as it is if κ is a power law κ ∝ X^α.
+    """Test whether (1 − α)κu/(hX) is 1 at the centre of region (b), as it is if the stiffness κ is a power law κ ∝ X^α.
 
     The depth is u/h = ∫dX/κ, where κ is constant below the first abscissa.
     """

@@ -23,24 +23,25 @@ def lambda_constant(evidence, tolerance):
 
 
 def exact_correspondence(evidence, tolerance):
-    """Test whether lines with a single λ for each Hurst exponent have the same vt/h as discs in region (b).
+    """Test whether lines have the same vt/h as discs in region (b), with a single factor λ for each H (Eq. 13).
 
     The value of a case is the error of ln(vt/h) at the upper end of region (b), with the λ that is best in this region.
+    λ is a factor in the spectrum of the line.
     """
     return _cases(evidence, evidence.tables["mdr_summary"], "error_trend", 0.0, (-tolerance, tolerance))
 
 
 def whole_curve(evidence, tolerance):
-    """Test whether lines with a single λ for each Hurst exponent have the same vt/h as discs up to complete contact.
+    """Test whether lines have the same vt/h as discs up to complete contact, with a single λ for each H (Eq. 13).
 
     The value of a case is the largest error of ln(vt/h) from the start of region (b) to the end of the curve, with the
-    λ that is best in region (b).
+    λ that is best in region (b). λ is a factor in the spectrum of the line.
     """
     return _cases(evidence, evidence.tables["mdr_summary"], "error_whole", 0.0, (-tolerance, tolerance))
 
 
 def _cases(evidence, table, column, expected, allowed):
-    """Yield one case for each row of a table, with the quantity in one of its columns.
+    """Yield one case for each row of a table; the quantity of the case is the value in `column`.
 
     The name of a case is the Hurst exponent, followed by the window if the table has the column `window`.
     """
@@ -60,12 +61,18 @@ def coincide_equal_windows(evidence, tolerance):
 
 
 def line_area(evidence, tolerance):
-    """Test whether lines have the same contact fraction as discs, by the ratio of line to disc."""
+    """Test whether lines have the same contact fraction as the discs that they represent.
+
+    The value of a case is the ratio of the contact fraction of lines to the contact fraction of discs.
+    """
     return _at_centres(evidence, "area_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
 
 def line_gap(evidence, tolerance):
-    """Test whether lines have the same mean gap as discs, by the ratio of line to disc."""
+    """Test whether lines have the same mean gap as the discs that they represent.
+
+    The value of a case is the ratio of the mean gap of lines to the mean gap of discs.
+    """
     return _at_centres(evidence, "gap_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
 
@@ -83,10 +90,11 @@ def single_surface(evidence, tolerance):
 
 
 def own_line(evidence, tolerance):
-    """Test whether the row of springs with a surface's loading curve moves like the surface in direct integration.
+    """Test whether a row of independent springs with the loading curve of a surface moves like this surface.
 
-    The value of a case is the deviation between both motions. It must be within the tolerance. It must also fall to
-    less than half with twice as many time steps. The extremes of a case are the deviations with both numbers of steps.
+    The motion of the surface is computed by direct integration in time. The value of a case is the deviation between
+    both motions. It must be within the tolerance, and must fall to less than half with twice as many time steps. The
+    extremes of a case are the deviations with both numbers of steps.
     """
     for hurst, rows in evidence.tables["histories"].groupby("hurst"):
         fine, coarse = (rows[name].abs().max() for name in ("deviation", "deviation_coarse"))

@@ -10,7 +10,7 @@ from viscorough.surfaces.self_affine import cut_disc
 from viscorough_study.fits.intervals import UNDEFINED, difference
 from viscorough_study.verdicts.evidence import exact, judged
 
-SMALL_ERROR = 0.01  # largest relative error of the velocity with which an explicit integration counts
+SMALL_ERROR = 0.01  # explicit integrations with a larger relative error of the velocity do not count
 HUNDREDS = 100  # smallest number of contact problems that counts as "some hundreds"
 # Name of a method in the table of methods. This method solves a contact problem in every time step.
 EXPLICIT = "explicit, logarithmic steps"
@@ -50,7 +50,8 @@ def line_spectrum(evidence, tolerance):
 def bodies_of_revolution(evidence, tolerance):
     """Test whether the method of dimensionality reduction is exact for bodies of revolution.
 
-    The value of a case is the error of the method on the finest grid. The extremes are its errors on all grids.
+    The value of a case is the error of the method on the finest grid. The extremes are the least and the largest error
+    of all grids.
     """
     validation = evidence.tables["validation"]
     rows = validation[validation["case"].str.endswith("_reduction")]
@@ -77,10 +78,11 @@ def contact_problems(evidence, tolerance):
     """Yield the number of contact problems that one indentation takes, counted in two ways.
 
     The first case counts the changes of the contact: every element that comes into contact is a change. The second case
-    counts the steps of explicit integration in time, which solves a contact problem in every step. For each rough disc,
-    this is the smallest number of steps with an error of the velocity of at most `SMALL_ERROR`; discs that do not reach
-    this error are omitted. The value of a case is the median over the discs. The extremes are the least and the largest
-    number.
+    counts the steps of explicit integration in time, which solves a contact problem in every step. Each rough disc
+    counts with the smallest number of steps that gives the velocity with an error of at most `SMALL_ERROR`. Discs that
+    do not reach this error are omitted.
+
+    The value of a case is the median over the discs. The extremes are the least and the largest number.
     """
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
     methods = evidence.tables["methods"]

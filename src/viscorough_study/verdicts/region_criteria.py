@@ -76,9 +76,9 @@ def excess_variance(sets):
     σ_b² = (MS_between/MS_within/F_p − 1) σ_w²/n, or 0 if this is negative. With MS_within for σ_w² the interval is
     exact for the ratio of the two variances.
 
-    The upper end is at least as large as for groups with sampling scatter only, MS_between = MS_within. Means that
-    lie closer together than expected by chance are no evidence of a smaller component (power-constrained limit: Cowan,
-    Cranmer, Gross & Vitells, arXiv:1105.3166).
+    The upper end of the interval is never smaller than its value for MS_between = MS_within, which is expected for
+    groups with sampling scatter only. Means that lie closer together than expected by chance are no evidence of a
+    smaller component (power-constrained limit: Cowan, Cranmer, Gross & Vitells, arXiv:1105.3166).
 
     Returns the median of σ_b², the two ends of its 95 % interval, and σ_w²/n, the sampling variance of the mean of a
     group. All are nan for too few groups or realizations.
@@ -140,9 +140,9 @@ def _mean_case(evidence, name, samples, expected, allowed, **counts):
 
 
 def power_law(evidence, tolerance):
-    """Test whether the local slope is constant in region (b), for every Hurst exponent of the base discs.
+    """Test whether the slope of ln(vt/h) along ln X is constant in region (b), for each Hurst exponent of base discs.
 
-    The value of a case is half the spread of the local slope (viscorough_study.fits.plateau).
+    The value of a case is half the difference of the largest and the smallest slope (viscorough_study.fits.plateau).
     """
     plateaus = evidence.tables["plateaus"].query("case_group == 'base'")
     for row in plateaus.to_dict("records"):
@@ -155,8 +155,8 @@ def power_law(evidence, tolerance):
 def power_law_decades(evidence, tolerance):
     """Yield the number of decades of X where the local slope is constant within the tolerance (see fits.plateau).
 
-    Scatter of the curves shortens this range. A curve therefore fails only if synthetic power laws with the same
-    scatter pass; otherwise it is undecided.
+    Scatter of the curves shortens the range of constant slope. A curve therefore fails only if synthetic power laws
+    with the same scatter pass; otherwise it is undecided.
     """
     plateaus, needed = evidence.tables["plateaus"], evidence.rules["decades_min"] * (1 - ROUNDING)
     plateaus = plateaus[plateaus["case_group"] == "base"]
@@ -170,8 +170,8 @@ def power_law_decades(evidence, tolerance):
 def power_law_control(evidence, tolerance):
     """Test whether the criterion of `power_law` rejects discs without long waves, whose curves follow no power law.
 
-    The value of a case is half the spread of the local slope in region (b). To be rejected, the discs must have a value
-    above the tolerance of `power_law`.
+    The value of a case is half the spread of the local slope in region (b). These control discs are rejected if the
+    value is above the tolerance of `power_law`.
     """
     plateaus = evidence.tables["plateaus"].query("case_group != 'base'")
     if plateaus.empty:
@@ -183,7 +183,7 @@ def power_law_control(evidence, tolerance):
 
 
 def separation(evidence, tolerance):
-    """Test whether curves of larger Hurst exponents leave region (a) at smaller X.
+    """Test whether curves of larger Hurst exponents leave region (a) at smaller X (dimensionless force).
 
     The value of a case is the ratio of the X where region (a) ends for one Hurst exponent to this X for the next larger
     exponent. It is above 1 if the curve of the larger exponent leaves region (a) first. Region (a) ends where the
@@ -209,7 +209,7 @@ def separation(evidence, tolerance):
 def complete_contact(evidence, tolerance):
     """Test whether the contact is almost complete where region (c) begins, by the mean contact fraction.
 
-    Region (c) begins at the X from which on the local slope is 1 within `SLOPE_OF_LINE`.
+    Region (c) begins at the X from which on the slope of ln(vt/h) along ln X is 1 within `SLOPE_OF_LINE`.
     """
     for hurst, ensemble in evidence.whole.items():
         defined = ensemble["fraction_defined"].values == 1

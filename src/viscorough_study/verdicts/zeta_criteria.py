@@ -18,17 +18,17 @@ MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), 
 
 
 def zeta_elastic(evidence, tolerance):
-    """Test whether ζ follows Eq. 4, a law of the elastic contact without the factor 1/Γ(2 − α)."""
+    """Test whether the prefactor ζ follows Eq. 4, a law of the elastic contact without the factor 1/Γ(2 − α)."""
     return _absolute(evidence, tolerance, reference.zeta_elastic, "without")
 
 
 def zeta_viscous(evidence, tolerance):
-    """Test whether ζ follows Eq. 11, a law that the paper fitted with the factor 1/Γ(2 − α) (Eq. 9)."""
+    """Test whether the prefactor ζ follows Eq. 11, a law that the paper fitted with the factor 1/Γ(2 − α) (Eq. 9)."""
     return _absolute(evidence, tolerance, reference.zeta_viscous, "with")
 
 
 def _absolute(evidence, tolerance, law, gamma):
-    """Test whether ζ follows a law; return one case for each Hurst exponent.
+    """Test whether the prefactor ζ follows a law; return one case for each Hurst exponent.
 
     law : ζ as a function of H
     gamma : "with" or "without", whether ζ is fitted with the factor 1/Γ(2 − α)
@@ -39,7 +39,7 @@ def _absolute(evidence, tolerance, law, gamma):
 
 
 def zeta_elastic_shape(evidence, tolerance):
-    """Test whether ζ, without the factor 1/Γ(2 − α), follows Eq. 4 up to a factor common to all H.
+    """Test whether the prefactor ζ, without the factor 1/Γ(2 − α), follows Eq. 4 up to a factor common to all H.
 
     The value of a case is the spread of the ratio of ζ to Eq. 4 between Hurst exponents.
     """
@@ -47,7 +47,7 @@ def zeta_elastic_shape(evidence, tolerance):
 
 
 def zeta_viscous_shape(evidence, tolerance):
-    """Test whether ζ, with the factor 1/Γ(2 − α), follows Eq. 11 up to a factor common to all H.
+    """Test whether the prefactor ζ, with the factor 1/Γ(2 − α), follows Eq. 11 up to a factor common to all H.
 
     The value of a case is the spread of the ratio of ζ to Eq. 11 between Hurst exponents.
     """

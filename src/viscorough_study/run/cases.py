@@ -173,7 +173,7 @@ def first_combination(settings):
 
 
 def combined_ensembles(settings):
-    """Return {name: description} of the base ensembles, one for every combination and Hurst exponent.
+    """Return {name: description} of the base ensembles, one ensemble for every combination and Hurst exponent.
 
     A combination consists of force, viscosity, diameter and rms height.
     """
@@ -247,7 +247,7 @@ def pool_groups(tables, pool):
 
 
 def pool_jobs(tables):
-    """Return {name of a Snakemake wildcard: its value} for every batch of every pool of curves.
+    """Return a list of {name of a Snakemake wildcard: its value}, with one entry for every batch of every pool.
 
     tables : {kind of surface: {name of a case: description}}
     """
@@ -261,9 +261,9 @@ def pool_jobs(tables):
 
 
 def combination_curves(discs):
-    """Return the files of the loading curves of all combinations, that is, of the base discs.
+    """Return the files of the loading curves of the base discs, which all figures use.
 
-    A combination consists of force, viscosity, diameter and rms height.
+    These are the curves of all combinations of force, viscosity, diameter and rms height.
     discs : {name of a case: description}
     """
     bases = {name: case for name, case in discs.items() if case["group"] == "base"}

@@ -18,7 +18,7 @@ _STAMP = ".snakemake/kernels"
 
 
 def compile_kernels():
-    """Compile all functions of the loading path, of the lines and of the direct integration, by calling them.
+    """Compile the numba functions of the loading path, of the lines and of the direct integration, by calling them.
 
     The disc of the loading path is large enough for the preconditioner to use coarse grids.
     """

@@ -181,7 +181,7 @@ def case_counts(rows):
 def findings(table, claims):
     """Return {reason in words: claims that failed for this reason}.
 
-    Only claims on physics are included, if they are not reproduced, or only in part.
+    Claims on physics are included if they are not reproduced, or if they are reproduced only in part.
     claims : {name: entry of claims.yaml}; the key `finding` of an entry is the name of the reason in `FINDINGS`
     """
     verdicts = overall(physics(table))

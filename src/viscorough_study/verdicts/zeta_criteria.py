@@ -63,7 +63,7 @@ def master_curve_shape(evidence, tolerance):
 
 
 def _spreads(evidence, tolerance, quantity, law):
-    """Yield two cases of the spread between Hurst exponents, which is 0 if a law holds up to a common factor.
+    """Yield two cases of the spread between Hurst exponents, which is 0 if a law holds up to a factor common to all H.
 
     The first case includes all Hurst exponents, the second case Hurst exponents from 0.4 on.
     quantity, law : entries in the columns `quantity` and `law` of the table `zeta_laws`

@@ -14,7 +14,7 @@ rule indent_surfaces:
         "results/logs/indent_surfaces/{kind}/{case}/{batch}.log",
     benchmark:
         "results/benchmarks/indent_surfaces/{kind}/{case}/{batch}.tsv"
-    priority: 1  # indent early, since this frees the disk space of the surfaces
+    priority: 2  # indent the surfaces of a batch before the next batch is generated, which frees their disk space
     conda:
         "../envs/viscorough.yaml"
     resources:

@@ -11,6 +11,7 @@ rule generate_discs:
         "results/logs/generate_discs/{case}/{batch}.log",
     benchmark:
         "results/benchmarks/generate_discs/{case}/{batch}.tsv"
+    priority: 1  # start the long jobs that indent the discs early; at the end, short jobs then share the cores evenly
     conda:
         "../envs/viscorough.yaml"
     resources:
@@ -52,6 +53,7 @@ rule prepare_measured:
         "results/logs/prepare_measured/{scan}.log",
     benchmark:
         "results/benchmarks/prepare_measured/{scan}.tsv"
+    priority: 1  # as for discs
     conda:
         "../envs/viscorough.yaml"
     resources:

@@ -97,6 +97,8 @@ for name, made in REGISTRY.table_rules.items():
             f"results/logs/{name}.log",
         benchmark:
             f"results/benchmarks/{name}.tsv"
+        # jobs that run alone come first: at the end, the jobs that use their tables would have to wait for them
+        priority: 3 if made["alone"] else 0
         localrule: not made["queued"]
         conda:
             "../envs/viscorough.yaml"

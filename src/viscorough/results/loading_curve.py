@@ -315,9 +315,11 @@ def interpolate_between(
     # Use the tangents if at most one element comes into contact between the levels, or if the cubic polynomial lies
     # above the tangents. Use the chord if the polynomial lies below the chord. Otherwise use the polynomial.
     on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
-    where = [on_tangents, cubic < chord * (1 - 1e-12)]
-    stiffness = np.select(where, [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness)
-    return np.select(where, [tangents, chord], cubic), stiffness
+    on_chord = cubic < chord * (1 - 1e-12)
+    depth = np.where(on_tangents, tangents, np.where(on_chord, chord, cubic))
+    chord_stiffness = (f1 - f0) / (u1 - u0)
+    stiffness = np.where(on_tangents, tangent_stiffness, np.where(on_chord, chord_stiffness, cubic_stiffness))
+    return depth, stiffness
 
 
 def _hermite_in_logarithms(force: Array, forces: Pair, depths: Pair, stiffnesses: Pair) -> tuple[Array, Array]:

@@ -58,7 +58,7 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
     line : Indenter
         Indenter with one-dimensional heights.
     until_fraction : float, optional
-        Contact fraction of the last level, in (0, 1] [1].
+        Contact fraction of the last level (computed point of the curve), in (0, 1].
     until_force : float, optional
         Force F/G of the last level [length²]. If the whole line is in contact at a smaller force, a level at exactly
         `until_force` is added, unless the curve ends earlier at `until_fraction`.
@@ -141,7 +141,9 @@ def _levels(heights: Array, spacing: float) -> tuple[Array, Array, Array, Intege
     """Return depth, force F/G, stiffness k/G and contact count at the edges of all bins that contain a gap."""
     edges, counts, sums = _binned_gaps(heights)
     grown = 1 + np.flatnonzero(counts[1:])
-    levels = np.union1d(grown, grown + 1)  # edges[r] and edges[r + 1] are the edges of bin r
+    # Bins with the numbers `grown` contain gaps. Bin r lies between edges[r] and edges[r + 1], so the levels are at the
+    # edges with the numbers r and r + 1 of these bins.
+    levels = np.union1d(grown, grown + 1)
     depth, below = edges[levels], levels - 1
     if levels.size == 0:
         depth, below = np.array([0.5, 1.0]) * spacing, np.array([0, 0])

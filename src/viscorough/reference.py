@@ -46,7 +46,7 @@ class PowerLawBody:
     coefficient : float
         Coefficient c > 0 [length^(1−n)].
     exponent : float
-        Exponent n > 0 [1]: 1 for a cone, 2 for a paraboloid, which approximates a sphere.
+        Exponent n > 0: 1 for a cone, 2 for a paraboloid, which approximates a sphere.
 
     Raises
     ------

@@ -7,7 +7,7 @@ from viscorough_study.run.tables import recorded, write_table
 
 
 def main(discs, lines, csv, nc, **fit):
-    """Fit every ensemble for all choices that the paper leaves open, and write the table of fits.
+    """Fit every ensemble with each kind of mean, range of X and definition of h, and write the table of fits.
 
     discs, lines : files of the pools, the datasets of all realizations of discs and of lines
     csv, nc : files to write

@@ -12,9 +12,9 @@ from viscorough_study.verdicts.evidence import Evidence
 
 
 def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
-    """Judge the claims by the base discs and by tables, and write the verdicts.
+    """Judge the claims by the loading curves of the base discs (group "base") and by tables, and write the verdicts.
 
-    discs : file with the realizations of all discs; tables : CSV files, named after the tables
+    discs : file with the loading curves of discs of all groups; tables : CSV files, named after the tables
     csv, nc, verdicts : files to write; verdicts is in Markdown
     claims : content of resources/paper/claims.yaml; settings : further fields of `Evidence`
     """

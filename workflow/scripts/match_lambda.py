@@ -1,4 +1,4 @@
-"""Match lines to discs: λ as a function of X, the error of using a single λ, and exponents in equal windows."""
+"""Compare MDR lines with discs: the factor λ in the spectrum (Eq. 13), the error with one λ, and exponents β."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.comparisons import mdr_equivalence

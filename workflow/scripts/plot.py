@@ -1,4 +1,4 @@
-"""Draw a figure of workflow/results.yaml."""
+"""Draw one of the figures that workflow/results.yaml lists."""
 
 from pkgutil import resolve_name
 

@@ -64,14 +64,17 @@ def poisson_ratio(name: str, value: Any) -> float:
 
 
 def young_over_shear(poisson: float) -> float:
-    """Return 4(1 − ν²), the ratio of Young's modulus to the shear modulus of the equivalent incompressible medium."""
+    """Return E/G = 4(1 − ν²), where G is the shear modulus of an incompressible medium with the same contact stiffness.
+
+    E and ν are Young's modulus and the Poisson ratio of the given medium. The two media have the same E/(1 − ν²).
+    """
     return 4 * (1 - poisson**2)
 
 
 def shear_over_incompressible(poisson: float) -> float:
-    """Return 2(1 − ν), the ratio of a medium's shear modulus to the modulus of the equivalent incompressible medium.
+    """Return 2(1 − ν), the shear modulus of a medium divided by that of an incompressible medium of equal stiffness.
 
-    The ratio of the shear viscosities is the same. A contact responds in the same way on both media.
+    Contacts respond in the same way on both media. The shear viscosities have the same ratio.
     """
     return 2 * (1 - poisson)
 

@@ -1,4 +1,4 @@
-"""Solve contacts of few elements by dense linear algebra, which is exact within rounding and cheaper than a grid.
+"""Solve contacts of few elements directly, with a dense matrix, which is exact within rounding and faster than a grid.
 
 Elements are identified by their rank in the order of increasing initial gap. Only elements with an initial gap below
 the depth can be in contact, so these elements have the lowest ranks.
@@ -35,7 +35,8 @@ class ContactEvents(NamedTuple):
     step_control.Level.
 
     depth : depth u of each event
-    pressure_sum, tangent_sum : sums ΣP and Σq of the elements in contact just beyond the event
+    pressure_sum, tangent_sum : sums of the pressures P and of the tangents q = dP/du of the elements in contact, just
+        beyond the event
     count : number of elements in contact just beyond the event
     """
 
@@ -148,8 +149,9 @@ def follow_events(
 
     Until the next element touches, the pressures grow linearly with the depth, at the constant rate q. The depths of
     events are therefore exact. Every element that touches adds a row to the Cholesky factor of the influence matrix, so
-    hundreds of events cost as much as a few dense solutions. Elements that touch at the same depth, within rounding,
-    are one event. The module viscous.integration.events integrates the viscous problem in time by the same recursion.
+    hundreds of events cost as much as a few solutions of linear equations. Elements that touch at the same depth,
+    within rounding, are one event. The module viscous.integration.events integrates the viscous problem in time by the
+    same recursion.
 
     most : largest number of elements in contact
     pressure_sum : largest reduced ΣP

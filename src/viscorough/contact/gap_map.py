@@ -75,8 +75,8 @@ def _add_deflection(solver: ContactSolver, contact: ContactState, gap: Array, bo
         restricted.load[place] = load * solver.units.length
         restricted.add_to(gap, tiles.tiles_beyond(box, elements.shape))
     else:
-        # Compute the deflection in double precision for dense solutions, which are exact within rounding, and for small
-        # tolerances.
+        # Compute the deflection in double precision for small tolerances, and for contacts that were solved with a
+        # dense matrix, which are exact within rounding.
         is_exact = isinstance(contact, DenseContact) or solver.tolerance < options.exact_gap_below
         precision, threads = np.float64 if is_exact else np.float32, solver.threads
         spectrum = spectrum_of_grid(rows, columns, aspect=elements.aspect, padding=options.padding, threads=threads)

@@ -396,7 +396,8 @@ class _LoadingPath:
         if contact.pressure_sum >= self._until_pressure_sum or contact is self._complete:
             return False
         if contact.count < every or isinstance(contact, DenseContact):
-            return contact.count < self._until_count  # a dense solution is exact, and so is its contact count
+            # A DenseContact was solved directly, with a dense matrix, so its number of elements in contact is exact.
+            return contact.count < self._until_count
         # All elements are in contact on the grid, but contact need not be complete yet. Gaps on the grid are accurate
         # only to the tolerance, so elements may join slightly too early.
         return self._until_count > every - 1 and not self._solver.is_flat
@@ -447,9 +448,10 @@ class _LoadingPath:
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 
     def _follow_events(self) -> None:
-        """Add contact events as levels while few elements are in contact.
+        """Add a level at every contact event (depth at which an element touches), while few elements are in contact.
 
-        Nothing is added once a contact was solved on the grid: only dense solutions are exact enough to find events.
+        Nothing is added once a contact was solved by iteration on the grid. Only contacts that are solved with a dense
+        matrix are exact enough to find contact events.
         """
         contact = self._contact
         if not self._is_unfinished() or not isinstance(contact, DenseContact) or contact.count >= self._control.events:

@@ -30,9 +30,9 @@ class SolverOptions:
     max_iterations : int
         Largest number of iterations for one contact. ConvergenceError is raised if these do not suffice.
     dense_contacts : int
-        Contacts of up to this number of elements are solved by dense linear algebra instead of on a grid.
+        Contacts of up to this number of elements are solved directly, with a dense matrix, instead of on a grid.
     dense_interactions : int
-        A contact is solved by dense linear algebra only if a product of two numbers is at most this: the number of
+        A contact is solved with a dense matrix only if a product of two numbers is at most this: the number of
         elements that can touch at its depth, and the number of elements in contact at the depth solved before.
     padding : bool
         True to pad the grid with zeros, as a single indenter requires. Without padding, the grid is repeated

@@ -1,7 +1,7 @@
 """Solve the frictionless contact of a rigid indenter at a prescribed depth, from the contact at a smaller depth.
 
-A contact of few elements is solved by dense linear algebra. A larger contact is solved on the grid of a box around the
-elements that can touch.
+A contact of few elements is solved directly, with a dense matrix. A larger contact is solved by iteration on the grid
+of a box around the elements that can touch.
 
 The half-space is elastic with the shear modulus G. The pressures p of elements of area d² are written as lengths
 P = p d/(4πG). The deflections are then w = K P with the influence coefficients K, and the force is F/G = 4π d ΣP
@@ -148,8 +148,8 @@ class ContactSolver:
         elements outside the box of the grid: 1 − g/u, where g is the smallest initial gap of these elements.
 
         contact : the contact solved last
-        depth, pressure_sum : reduced depth u and sum ΣP of the returned contact. For a `contact` from dense linear
-            algebra, they must equal the depth and the sum of `contact`
+        depth, pressure_sum : reduced depth u and sum ΣP of the returned contact. For a `contact` that was solved with a
+            dense matrix, they must equal the depth and the sum of `contact`
         """
         if not isinstance(contact, GridContact) or self._grid is None:
             return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
@@ -176,7 +176,7 @@ class ContactSolver:
         contact : contact at a smaller depth
         depth : depth at which the contact is solved, or a first guess of the depth if there is a target
         target : force to reach. A contact on the grid is solved at this force within the tolerance, or at the largest
-            depth that the target allows. A dense solution ignores the target and is solved at `depth`
+            depth that the target allows. A contact solved with a dense matrix is solved at `depth`, not at the target
         guess : expected loads. If the depth of `contact` is much smaller than `depth`, the iteration on the grid starts
             from the expected loads instead of `contact`
         """
@@ -220,7 +220,8 @@ class ContactSolver:
         the tolerance need not join the contact.
         """
         if not isinstance(contact, GridContact):
-            return contact.count == self.elements.count  # a dense solution is exact, and so is its contact count
+            # This contact was solved directly, with a dense matrix, so the number of elements in contact is exact.
+            return contact.count == self.elements.count
         if contact.reduced_depth < 1:
             return False  # the depth is less than the initial gap of the lowest element, which therefore cannot touch
         fields, limit = contact.fields, _OPEN_GAP * contact.residual * contact.reduced_depth
@@ -268,7 +269,7 @@ class ContactSolver:
     ) -> GridContact | MemberLoads:
         """Return the start of the iteration for a larger depth: either a contact that is stored on `grid`, or loads.
 
-        contact : contact solved last, on any grid or by dense linear algebra
+        contact : contact solved last, on any grid or with a dense matrix
         guess : loads to start from if the depth of `contact` is much smaller; None for a start without loads
         """
         if isinstance(contact, GridContact) and _is_on(grid, contact):
@@ -307,7 +308,8 @@ class ContactSolver:
         self._grid = None  # frees the memory of the current grid before the next grid needs memory
         require_for_box(self.indenter.heights, box, **self._memory_options)
         if reach == self.elements.count:
-            # Only dense solutions need the influence coefficients. Contacts on the whole grid do not need them.
+            # Only contacts that are solved with a dense matrix need the influence coefficients. From now on, contacts
+            # are solved on the whole grid.
             self.ranking.free_influence()
         self._grid = GridSolver(box, self.elements, self.tolerance, self.options, threads=self.threads, reach=reach)
         return self._grid

@@ -104,7 +104,8 @@ def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
     members = np.flatnonzero(pressure.ravel()[block])
     block, gap = block[members], elements.initial_gap[members]
     highest = np.empty(pressure.size)
-    # Write gaps in the order of decreasing rank: the gap of the highest element of a block is written last and remains.
+    # Find the smallest gap in each block. Elements are sorted by increasing gap, and are written to `highest` in
+    # reverse order, so the smallest gap of a block is written last and replaces the others.
     highest[block[::-1]] = gap[::-1]
     pressure = pressure.ravel()[block]
     share = np.sqrt(np.maximum(highest[block] + _OWN_DEFLECTION * pressure - gap, 0))
@@ -341,7 +342,7 @@ class ForceSearch:
         other : second contact, used to estimate the change of the stiffness with depth
         """
         distance = abs(target - contact.pressure_sum) / contact.tangent_sum
-        if isinstance(contact, DenseContact):  # `settled` cannot extrapolate a dense contact to another depth
+        if isinstance(contact, DenseContact):  # `settled` cannot extrapolate a DenseContact to another depth
             return distance <= ROUNDING * contact.reduced_depth
         width = max(abs(contact.reduced_depth - other.reduced_depth), _TINY)
         change = abs(contact.tangent_sum - other.tangent_sum) / width * distance

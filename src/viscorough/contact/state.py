@@ -39,17 +39,26 @@ class Units:
 
     @property
     def stiffness(self) -> float:
-        """Return the factor 4π d that converts Σq to the tangent stiffness k/G = 4π d Σq [length]."""
+        """Return the factor 4π d that converts the sum of q = dP/du to the tangent stiffness k/G [length].
+
+        d is the side of an element, `side`.
+        """
         return 4 * np.pi * self.side
 
     @property
     def force(self) -> float:
-        """Return the factor that converts reduced ΣP to the force F/G = 4π d ΣP [length²]."""
+        """Return the factor 4π d s that converts the sum of reduced pressures P to the force F/G [length²].
+
+        d is the side of an element, `side`. s is the unit of reduced lengths, `length`.
+        """
         return 4 * np.pi * self.side * self.length
 
     @property
     def pressure(self) -> float:
-        """Return the factor that converts reduced P to the pressure p/G = 4π P/d [1]."""
+        """Return the factor 4π s/d that converts a reduced pressure P to the dimensionless pressure p/G.
+
+        d is the side of an element, `side`. s is the unit of reduced lengths, `length`.
+        """
         return 4 * np.pi * self.length / self.side
 
 
@@ -68,7 +77,10 @@ class ElementGrid:
 
     @cached_property
     def influence(self) -> Array:
-        """Return influence coefficients K as a table [distance in rows, distance in columns], for dense solutions."""
+        """Return influence coefficients K as a table [distance in rows, distance in columns].
+
+        The table is needed for contacts that are solved with a dense matrix.
+        """
         rows, columns = (np.arange(n, dtype=float) for n in self.shape)
         return influence_table(rows, columns, self.aspect)
 
@@ -108,7 +120,10 @@ class Elements:
 
     @property
     def influence(self) -> Array:
-        """Return influence coefficients K as a table [distance in rows, distance in columns], for dense solutions."""
+        """Return influence coefficients K as a table [distance in rows, distance in columns].
+
+        The table is needed for contacts that are solved with a dense matrix.
+        """
         return self.grid.influence
 
     @property
@@ -134,7 +149,7 @@ class Elements:
 
 @dataclass
 class BoundedField:
-    """Reduced quantity at every point of a grid, with a bound on its accumulated rounding error.
+    """Reduced quantity, such as a gap, at every point of a grid, with a bound on its accumulated rounding error.
 
     values : values on the grid and on a border around it, as a flattened array
     rounding : bound on the rounding error of every value
@@ -255,18 +270,21 @@ class ContactState(ABC):
 
     @property
     def force(self) -> float:
-        """Return F/G = 4π d ΣP [length²]."""
+        """Return the force F on the indenter, divided by the shear modulus, F/G [length²]."""
         return self.pressure_sum * self.units.force
 
     @property
     def stiffness(self) -> float:
-        """Return the tangent stiffness k/G = 4π d Σq [length]."""
+        """Return the tangent stiffness k = dF/du, divided by the shear modulus, k/G [length].
+
+        It is computed as k/G = 4π d Σq, with the side d of an element, and the sum of q = dP/du over all elements.
+        """
         return self.tangent_sum * self.units.stiffness
 
 
 @dataclass(frozen=True)
 class DenseContact(ContactState):
-    """Contact solved by dense linear algebra, exact within rounding if `residual` is 0.
+    """Contact solved directly, with a dense matrix; exact within rounding if `residual` is 0.
 
     loads : MemberLoads of the elements in contact
     """

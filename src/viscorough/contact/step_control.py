@@ -22,7 +22,8 @@ from viscorough.results.loading_curve import interpolate_between
 FINEST_ACCURACY = 1e-5
 # Largest ratio of the depths of successive levels.
 _MAX_DEPTH_RATIO = 2.0
-# Ratio of successive depths in the first step after contact events, if the events are too few to estimate this ratio.
+# Depth after the first long step divided by the depth before it, if there are too few levels at contact events (depths
+# where an element touches) to estimate this ratio.
 _INITIAL_DEPTH_RATIO = 1.15
 # If n elements are in contact, the stiffness jumps by about the share 1/n when the next element touches. Every such
 # contact event is a level of the curve as long as n is at most this number divided by the allowed error.
@@ -119,9 +120,13 @@ class StepControl:
         self.events = int(np.clip(_EVENTS_PER_ACCURACY / self._accuracy, _FEWEST_EVENTS, _MAX_EVENTS))
 
     def first_ratio(self, levels: list[Level]) -> float:
-        """Return the ratio of the depths after and before the first step that follows contact events.
+        """Return the depth after the first long step, divided by the depth before this step.
 
-        The ratio is chosen from the error bound of an interval that spans the last quarter of the events.
+        Before this step, there is a level at every contact event, that is, at every depth where an element touches. The
+        step follows the last of these levels. Its length is chosen from the error bound of the interval that spans the
+        last quarter of these levels.
+
+        levels : levels at contact events
         """
         first = levels[-1 - len(levels) // 4]
         ratio = levels[-1].depth / first.depth
@@ -143,7 +148,7 @@ class StepControl:
         return bound / _RELAXED_BOUND if is_smooth else bound
 
     def next_ratio(self, ratio: float, excess: float) -> float:
-        """Return the ratio of the depths after and before the next step.
+        """Return the depth after the next step divided by the depth before it.
 
         ratio : ratio of the depths after and before the last step
         excess : error bound of the last step divided by the allowed bound
@@ -217,7 +222,7 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
     Returns infinity if the error cannot be predicted.
     """
     if not isinstance(before, GridContact) or not isinstance(after, GridContact):
-        return np.inf  # a dense contact does not store the gaps of elements out of contact
+        return np.inf  # a DenseContact does not store the gaps of elements out of contact
     loops = GridLoops(threads)
     place_after, place = loops.new_places(after.fields, before.fields)
     # An element with place 0 lies outside the grid of the contact `before`, so its gap there is unknown.

@@ -146,7 +146,7 @@ class SumRules(ReadOnlyArrays):
         depths and stiffnesses of the levels alone. "between levels" uses the depth that `LoadingCurve.at_force`
         interpolates.
     errors : array
-        Estimated relative errors √(e₁² + e₂²) of the intervals between levels, shape (levels,) [1]. Here e₁ and e₂ are
+        Estimated relative errors √(e₁² + e₂²) of the intervals between levels, shape (levels,). Here e₁ and e₂ are
         the contributions of an interval to the errors of both integrals. The first interval starts at zero force.
     """
 
@@ -174,7 +174,7 @@ class Audit(ReadOnlyArrays):
     Attributes
     ----------
     tolerance : float
-        Requested relative accuracy of both integrals [1].
+        Requested relative accuracy of both integrals.
     complete : CompleteContact
         Complete contact of the indenter.
     curve : LoadingCurve
@@ -182,7 +182,7 @@ class Audit(ReadOnlyArrays):
     rules : SumRules
         Both integrals of the curve with the added levels.
     interpolation_error : float
-        Largest relative error of interpolated depths [1]. At each added level, the computed depth is compared with the
+        Largest relative error of interpolated depths. At each added level, the computed depth is compared with the
         depth that is interpolated on the curve without added levels.
     """
 
@@ -386,7 +386,7 @@ def audit(
     indenter : Indenter
         Indenter with two-dimensional heights.
     tolerance : float, optional
-        Relative accuracy of both integrals, between 1e-10 and 0.1 [1].
+        Relative accuracy of both integrals, between 1e-10 and 0.1.
     progress : Progress, optional
         Function that is called before each round that adds levels, with the number of the round divided by the largest
         allowed number of rounds.
@@ -449,7 +449,11 @@ def audit(
 
 
 def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
-    """Return the curve of `indent`, without AccuracyWarnings: the theory may not hold up to complete contact."""
+    """Return the curve of `indent`, and ignore AccuracyWarnings.
+
+    `indent` warns if the depth is larger than the map is wide, as it may be before contact is complete. The integrals
+    are then still valid for the equations of linear elasticity.
+    """
     with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         return indent(indenter, **how)
 

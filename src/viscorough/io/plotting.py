@@ -106,7 +106,8 @@ def kind_of(content: Content) -> tuple[Callable[[Variables], Figure], Variables]
 
     Raises ValueError for a Content that no function can draw.
     """
-    # If the Content has a loading curve, its conversion to a LoadingCurve raises ValueError for contradictory numbers.
+    # Check a loading curve before it is drawn: the conversion to a LoadingCurve raises ValueError if its numbers
+    # contradict each other. The result of the conversion is not used.
     if set(STORED) <= set(content.variables):
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}

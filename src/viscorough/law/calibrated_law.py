@@ -275,7 +275,7 @@ def penetration_law(hurst: float) -> PenetrationLaw:
     Parameters
     ----------
     hurst : float
-        Hurst exponent H, from 0.1 to 1 [1].
+        Hurst exponent H, from 0.1 to 1.
 
     Returns
     -------

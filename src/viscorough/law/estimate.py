@@ -51,7 +51,8 @@ class Estimate(ReadOnlyArrays):
     def __str__(self) -> str:
         """Return a table with a row for each time, and a last line with the errors of the law.
 
-        The columns are time, X, depth and velocity, and the intervals that contain 95 % of single surfaces.
+        The columns are time, X, depth and velocity. After depth and velocity, the columns "from" and "to" are the ends
+        of the interval in which this quantity lies for 95 % of all surfaces.
         """
         head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
         columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)

@@ -55,8 +55,8 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
 
     half = 0.5 * (above - below)
     # Between two poles, Q falls from +∞ to −∞. So if Q is negative halfway, the zero is nearer to the lower pole.
-    # Between 0, which is not a pole, and the first pole, Q falls from G∞ to −∞. There, too, the unknown is the distance
-    # from the nearer end, so that a small zero keeps all its digits.
+    # Between 0, which is not a pole, and the first pole, Q falls from G∞ to −∞. In every interval, the distance of the
+    # zero from the nearer end of the interval is computed, so that a zero near 0 keeps all its digits.
     lower = relaxance(below, half) < 0
     pole, sign = np.where(lower, below, above), np.where(lower, 1.0, -1.0)
     distance = sign * zero_of_increasing(lambda size: -sign * relaxance(pole, sign * size), np.finfo(float).tiny, half)

@@ -50,7 +50,7 @@ class Contact(ReadOnlyArrays):
     Attributes
     ----------
     pressure : array
-        Pressure p/G, with G the shear modulus of the incompressible half-space, shape (rows, columns) [1]. It is zero
+        Pressure p/G, with G the shear modulus of the incompressible half-space, shape (rows, columns). It is zero
         outside the contact and nan outside the indenter.
     gap : array
         Gap between the deformed surface and the indenter, nan outside the indenter [length]. In contact its magnitude
@@ -64,9 +64,9 @@ class Contact(ReadOnlyArrays):
     stiffness : float
         Tangent stiffness k/G = d(F/G)/du of the elements in contact [length].
     residual : float
-        Largest gap in contact or overlap outside the contact, divided by the depth, rounding included [1].
+        Largest gap in contact or overlap outside the contact, divided by the depth, rounding included.
     tolerance : float
-        Requested upper bound of the residual [1].
+        Requested upper bound of the residual.
     spacing, row_spacing : float
         Distances dx and dy between neighbouring columns and rows [length].
     length_unit : str
@@ -156,7 +156,7 @@ class Contact(ReadOnlyArrays):
 
     @property
     def contact_fraction(self) -> float:
-        """Return the share of the indenter's elements that are in contact [1]."""
+        """Return the share of the indenter's elements that are in contact."""
         return self.contact_count / self.elements
 
     @property
@@ -183,12 +183,12 @@ class Contact(ReadOnlyArrays):
 
     @property
     def mean_pressure(self) -> float:
-        """Return the mean of p/G in the contact [1]."""
+        """Return the mean pressure in the contact, divided by the shear modulus, ⟨p⟩/G (dimensionless)."""
         return self.force / self.contact_area
 
     @property
     def largest_pressure(self) -> float:
-        """Return the largest p/G [1]."""
+        """Return the largest pressure, divided by the shear modulus, max p/G (dimensionless)."""
         return float(np.nanmax(self.pressure))
 
     def patches(self) -> Patches:

@@ -45,28 +45,28 @@ class LoadingCurve(ReadOnlyArrays):
     stiffness : array
         Tangent stiffness k/G = d(F/G)/du of the elements in contact, shape (levels,) [length].
     contact_count : array
-        Number of elements in contact, shape (levels,) [1].
+        Number of elements in contact, shape (levels,).
     elements : int
         Number of elements of the indenter.
     method : str
         Method that computed the curve.
     tolerance : float
-        Requested relative accuracy [1].
+        Requested relative accuracy.
     operator_applications : int
         Number of times that the half-space operator was applied on the grid; a measure of the computing time.
     residual : array
-        Largest remaining gap in contact or overlap outside the contact, divided by the depth, shape (levels,) [1].
+        Largest remaining gap in contact or overlap outside the contact, divided by the depth, shape (levels,).
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if the unit is not known.
     grid_error : array
         Estimated relative error of the viscous velocity due to the spacing of the map, at the force of each level,
-        shape (levels,) [1]. This attribute and the next four attributes are None unless an estimate of the grid error
+        shape (levels,). This attribute and the next four attributes are None unless an estimate of the grid error
         was requested; `viscorough.contact.grid_error` has the formulas.
     force_grid_error : array
-        Estimated relative error of the force due to the spacing, at the depth of each level, shape (levels,) [1]. The
+        Estimated relative error of the force due to the spacing, at the depth of each level, shape (levels,). The
         depth is counted from the highest point of the map.
     area_change : array
-        Estimated relative change of the contact area when the spacing of the map is halved, shape (levels,) [1]. As the
+        Estimated relative change of the contact area when the spacing of the map is halved, shape (levels,). As the
         spacing decreases, the contact area of a rough surface approaches no limit, so it has no error.
     mean_grid_error, mean_area_change : float
         Means of `grid_error` and `area_change` over all forces F/G above hL/25. Here h is the rms height of the map,
@@ -151,7 +151,7 @@ class LoadingCurve(ReadOnlyArrays):
 
     @property
     def contact_fraction(self) -> Array:
-        """Return the share of the indenter's elements that are in contact, shape (levels,) [1]."""
+        """Return the share of the indenter's elements that are in contact, shape (levels,)."""
         return self.contact_count / self.elements
 
     @property

@@ -27,7 +27,7 @@ class Motion(ReadOnlyArrays):
         except at the last time, and at the sample just before a step of the load. There it is the velocity just before
         the jump.
     contact_fraction : array
-        Share of the elements of the indenter that are in contact [1].
+        Share of the elements of the indenter that are in contact.
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if the unit is not known.
     receding_from : float

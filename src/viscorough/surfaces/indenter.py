@@ -146,7 +146,10 @@ class Indenter(ReadOnlyArrays):
 
     @property
     def rms_slope(self) -> float:
-        """Return the rms slope √⟨(∇h)²⟩ of the heights h from differences of neighbours; 0 for a single element [1]."""
+        """Return the dimensionless rms slope √⟨(∇h)²⟩ of the heights h, from the differences of neighbouring heights.
+
+        The slope of a single element is 0.
+        """
         slopes = [0.0]
         with np.errstate(over="ignore", under="ignore"):  # slopes that are too large become infinite
             for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):

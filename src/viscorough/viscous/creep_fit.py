@@ -8,12 +8,12 @@ After a step of the force from 0 to F, Φ = F J(t). For any other force, this is
 for the creep compliance J. Two families of J are fitted to the depth by least squares:
 
 1. Media of springs and dashpots: J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with unknown amounts J₀, φ, J_j ≥ 0. The grid
-   of retardation times θ_j is refined around the times with J_j > 0. Few amounts of the best fit are positive, so that
-   its residuals show the scatter of the record.
+   of retardation times θ_j is refined around the times with J_j > 0. Only a few of the amounts are positive in the best
+   fit, so that its residuals show the scatter of the record.
 2. All J that are concave and do not decrease; every medium that relaxes has such a J. The fit uses
    J = J₀ + Σ c_k min(t, τ_k), with times τ_k (knots) and unknown amounts J₀, c_k ≥ 0. The creep response of min(t, τ)
-   is I(t) − I(t − τ), with the impulse I(t) = ∫₀ᵗ F dt. This family can pass through every row of a short or precise
-   record, so its residuals do not show the scatter.
+   is I(t) − I(t − τ), with the impulse I(t) = ∫₀ᵗ F dt. This family can pass through every measurement of a short or
+   precise record, so its residuals do not show the scatter.
 
 The confidence intervals of J contain every J that fits the record well enough: in the second family, and among all J
 that do not decrease (`_Record.intervals`). They use the scatter of the first fit, or the scatter that the user stated.
@@ -49,7 +49,7 @@ from viscorough.viscous.record_fit import (
 
 # Largest number of knots (times between which the fitted J is straight).
 _KNOTS = 60
-# If the force starts with a ramp, the first knot is the time of the first row of the record divided by this number.
+# If the force starts with a ramp, the first knot is the time of the first measurement divided by this number.
 _EARLIER = 64
 # Largest number of Gauss-Newton iterations, without and with a fitted offset or drift of the depth. Without them, few
 # iterations are enough, because the loading curve is almost straight within the scatter of the depth. The iterations
@@ -66,9 +66,8 @@ def fit_growing_depth(
     """Fit a medium to the measured depth of a contact that grows.
 
     curve : loading curve of the indenter
-    load : force as a function of time, in units of modulus × length², with a sample at the time of each row of the
-        record
-    place : for each row of the record, the index of its sample of the load, shape (rows,)
+    load : force as a function of time, in units of modulus × length², with a sample at the time of each measurement
+    place : index of the sample of the load at the time of each measurement (row of the record), shape (rows,)
     depth : measured depth, shape (rows,)
     kind : kind of medium: "table", "prony" or "springpot"
     scatter : standard deviation of the measured depth; None to estimate it from the record; nan for a fit without
@@ -117,7 +116,8 @@ def spectrum_of_growth(
 ) -> tuple[Array, Array]:
     """Fit springs and dashpots to the measured depth of a growing contact.
 
-    Return the amounts J₀, φ and J_j, and the offset and drift of the depth (as far as they are fitted).
+    Return the coefficients J₀, φ and J_j of J (see the module), and the offset and drift of the depth (as far as they
+    are fitted).
 
     curve, load, place, depth : see fit_growing_depth
     times : retardation times θ_j, shape (elements,)
@@ -128,9 +128,9 @@ def spectrum_of_growth(
 
 
 def _spectral_responses(load: Load, place: Integers, times: Array) -> Array:
-    """Return the creep responses of J = 1, J = t and J = 1 − exp(−t/θ_j) at the rows of the record.
+    """Return the creep responses of J = 1, J = t and J = 1 − exp(−t/θ_j) at the time of each measurement.
 
-    The shape is (rows, 2 + elements).
+    The shape is (rows, 2 + elements), with a row for each measurement.
 
     times : retardation times θ_j, shape (elements,)
     """
@@ -139,12 +139,12 @@ def _spectral_responses(load: Load, place: Integers, times: Array) -> Array:
 
 
 def first_lag(load: Load, lags: Array) -> float:
-    """Return the time, after the start of the load, of the first row of the record that depends on J.
+    """Return the time, after the start of the load, of the first measurement that depends on J.
 
-    If the force starts with a step and the record has a row at this time, this row depends on J, and the result is 0.
-    Otherwise the first row after the start depends on J.
+    If the force starts with a step and the depth is measured at this time, this measurement depends on J, and the
+    result is 0. Otherwise the first measurement after the start depends on J.
 
-    lags : times of the rows, measured from the start of the load
+    lags : times of the measurements, counted from the start of the load
     """
     return 0.0 if lags[0] == 0 < load.values[0] else float(lags[lags > 0][0])
 
@@ -152,13 +152,13 @@ def first_lag(load: Load, lags: Array) -> float:
 def knots_of(load: Load, lags: Array) -> Array:
     """Return the knots, the times between which the fitted J is straight, measured from the start of the load.
 
-    The knots are the times of at most _KNOTS rows. If the force starts with a ramp, they are _KNOTS times with equal
-    ratios instead, and the first of them lies before the first row.
+    The knots are the times of at most _KNOTS measurements. If the force starts with a ramp, they are _KNOTS times with
+    equal ratios instead, and the first of them lies before the first measurement.
 
-    lags : times of the rows, measured from the start of the load
+    lags : times of the measurements, counted from the start of the load
     """
     knots = lags[lags > 0]
-    if load.values[0] == 0:  # after a ramp, the first row depends on J at earlier times, too
+    if load.values[0] == 0:  # after a ramp, the first measurement depends on J at earlier times, too
         return np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
     if knots.size > _KNOTS:  # keep times with about equal ratios
         spread = np.geomspace(knots[0], knots[-1], _KNOTS)
@@ -167,7 +167,7 @@ def knots_of(load: Load, lags: Array) -> Array:
 
 
 def _amounts(compliance: Array, knots: Array) -> Array:
-    """Return the coefficients J₀ and c_k of J = J₀ + Σ c_k min(t, τ_k) from values of J.
+    """Compute the coefficients J₀ and c_k of J = J₀ + Σ c_k min(t, τ_k) from values of J.
 
     compliance : J at time 0 and at the knots τ_k, shape (1 + knots,)
     """
@@ -176,9 +176,10 @@ def _amounts(compliance: Array, knots: Array) -> Array:
 
 
 class _Record:
-    """Record of a growing contact, with the least-squares fit of J to its depth.
+    """Measured depths of a growing contact (the record), with the least-squares fit of J to them.
 
-    J is a sum of given functions of time, each multiplied by an unknown amount ≥ 0.
+    J is a sum of given functions of time, each multiplied by an unknown coefficient ≥ 0, its amount. A row of the
+    record is one measurement, a time with a depth.
 
     signed : derivatives of the measured depth with respect to offset and drift, one column for each that is fitted,
         shape (rows, 0 to 2)
@@ -189,12 +190,12 @@ class _Record:
         self.creep, self.stiffness = elastic_force(curve, depth)  # F/G and k/G of the curve at the measured depths
 
     def fit(self, responses: Array, bend: Array | float = 0.0) -> tuple[Array, Array]:
-        """Fit the amounts, and offset and drift, to the depth by the Gauss-Newton method.
+        """Fit J = Σ a_m f_m(t), and an offset and a drift, to the measured depth by the Gauss-Newton method.
 
-        Return the amounts, which are ≥ 0, and an array with offset and drift (as far as they are fitted).
+        Return the coefficients a_m ≥ 0 (amounts), and an array with offset and drift (as far as they are fitted).
 
-        responses : creep response at each row of the record for a unit of each amount, shape (rows, amounts)
-        bend : known creep response that is added to the response of the amounts, shape (rows,)
+        responses : creep response to the force for J = f_m at each row of the record, shape (rows, amounts)
+        bend : known creep response that is added to Σ a_m × response, shape (rows,)
         """
         # First guess: replace the curve by its tangent at each measured depth, and take offset and drift as 0.
         amounts, _ = non_negative(responses / self.stiffness[:, None], (self.creep - bend) / self.stiffness)
@@ -239,13 +240,16 @@ class _Record:
 
         Each array starts with the ends for J, followed by offset and drift (as far as they are fitted). An interval
         contains a value if the sum of squared residuals of the best fit with this value exceeds the minimum by at most
-        distance². The fits are made in two families: all concave J, and all J that do not decrease. An interval extends
-        from the smaller lower end to the larger upper end of the two families. The second family is needed because
-        concave fits of an almost straight J, as in a fluid, lie above this J.
+        distance². Such fits are made twice: among all concave J, and among all J that do not decrease. The returned
+        interval contains both intervals. Concave J alone do not suffice, because concave fits of an almost straight J,
+        as in a fluid, lie above this J.
 
-        amounts : amounts that `fit` returned for concave J
-        responses, bend : arguments with which `fit` was called
-        values : J at the times of the intervals for a unit of each amount, shape (times, amounts)
+        J = Σ a_m f_m(t) is a sum of given functions of time with unknown coefficients a_m ≥ 0 (amounts).
+
+        amounts : coefficients a_m of the concave J that `fit` returned
+        responses : creep response to the force for J = f_m at each row of the record, shape (rows, amounts)
+        bend : known creep response that is added to Σ a_m × response, shape (rows,)
+        values : f_m at the times of the intervals, shape (times, amounts)
         """
         creep = responses @ amounts
         elastic_depth, stiffness = self._elastic(creep + bend)
@@ -262,7 +266,7 @@ class _Record:
     def shift(self, creep: Array) -> Array:
         """Return the offset and drift that fit the measured depth best for a given creep response.
 
-        creep : creep response at the rows of the record
+        creep : creep response at the time of each measurement
         """
         return np.linalg.lstsq(self.signed, self.depth - self._elastic(creep)[0])[0]
 
@@ -278,8 +282,8 @@ class _Spectrum:
     """Medium of springs and dashpots that fits the depth of a growing contact best.
 
     times : retardation times θ_j
-    amounts : J₀, φ and J_j
-    creep : creep response of the medium at the rows of the record
+    amounts : coefficients J₀, φ and J_j of the creep compliance (see the module)
+    creep : creep response of the medium at the time of each measurement
     """
 
     def __init__(self, record: _Record, load: Load, place: Integers, lags: Array) -> None:
@@ -337,7 +341,7 @@ def _springpot(record: _Record, load: Load, place: Integers) -> Springpot:
     from scipy.optimize import minimize_scalar  # this import takes long
 
     def response(exponent: float) -> Array:
-        # Creep response of J = t^exponent at the rows of the record.
+        # Creep response of J = t^exponent at the time of each measurement.
         return by_sums(Springpot(1 / gamma(1 + exponent), exponent), load)[0][place, None]
 
     def squares(exponent: float) -> float:

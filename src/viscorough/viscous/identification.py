@@ -32,10 +32,10 @@ from viscorough.viscous.record_fit import ROUNDING, RecordFit, Shift
 from viscorough.viscous.relaxation_fit import fit_force
 
 KINDS = ("table", "prony", "springpot")
-# A depth counts as decreasing if the mean of a few neighbouring rows lies below an earlier mean by more than
-# 3 + √(2 ln n) standard deviations of the difference, where n is the number of means. A standard deviation that is
-# estimated from the record is multiplied by 1 + 13/(rows - 4), because few rows do not determine it well. Among records
-# that consist of noise without creep, about one in ten thousand exceeds this limit.
+# A measured depth counts as decreasing if the mean of a few neighbouring measurements (rows of the record) lies below
+# an earlier mean by more than 3 + √(2 ln n) standard deviations of the difference, where n is the number of means. A
+# standard deviation that is estimated from the record is multiplied by 1 + 13/(rows - 4), because few rows do not
+# determine it well. Among records that consist of noise without creep, about one in ten thousand exceeds this limit.
 _LARGEST_DROP, _LARGER_FOR_FEW_ROWS = 3.0, 13.0
 # The curve before its first computed point is taken to be straight if the depth of this point is at most this share of
 # the largest depth.
@@ -151,9 +151,9 @@ class _Record(NamedTuple):
     """Measured record, prescribed load and loading curve, in consistent units.
 
     curve : loading curve of the indenter
-    load : prescribed force or depth, with a sample at the time of each row of the record
-    place : for each row of the record, the index of its sample of the load, shape (rows,)
-    times : times of the rows, shape (rows,)
+    load : prescribed force or depth, with a sample at the time of each measurement
+    place : index of the sample of the load at the time of each measurement (row of the record), shape (rows,)
+    times : times of the measurements, shape (rows,)
     measured : measured depths under a prescribed force, or measured forces at a prescribed depth, shape (rows,)
     scatter : standard deviation of `measured`; None if the user did not state it
     shift : whether an offset and a drift of the depth are fitted, too

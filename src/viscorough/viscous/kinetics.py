@@ -11,11 +11,11 @@ relation u(F/G), which is not linear.
 
 For every other history, the loading curve is replaced by an equivalent row of unilateral springs (docs/theory.md):
 
-1. The module `springs` makes the row from the curve.
-2. If the medium consists of springs and dashpots, the module `unilateral` moves the row exactly from event to event. A
+1. The module `springs` computes the gaps and stiffnesses of the springs from the curve.
+2. If the medium consists of springs and dashpots, the module `unilateral` computes the motion of the springs exactly. A
    springpot is replaced by springs and dashpots that have the same creep within 1e-10, from a millionth of the shortest
    interval between two turns of the history (changes of its slope) up to its whole duration. In every other medium, the
-   module `unilateral_sums` moves the row by steps in time.
+   module `unilateral_sums` computes the motion by steps in time.
 3. At times when the contact is as large as ever before, depth and velocity follow from Φ and the interpolated curve.
    They then have no error from the finite number of springs.
 """
@@ -60,7 +60,8 @@ _SAME_SLOPE, _CLOSE = 1e-6, 10.0
 # A motion that depends on the unknown curve before its first level (computed point) gives a warning if the force at
 # this level is more than this share of the largest elastic force.
 _UNKNOWN_SHARE = 1e-2
-# Largest number of depths, where the history turns, at which the row is made to have exactly the force of the curve.
+# The springs that replace the contact have exactly the force of the loading curve at up to this number of depths, at
+# which the history turns.
 _MOST_TURNS = 200
 
 
@@ -165,7 +166,7 @@ def kinetics(
 
 
 def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) -> tuple[RowOfSprings, RowMotion]:
-    """Return the row of springs of a curve, and the motion of the row under a load in consistent units.
+    """Return the row of springs that has the force of a curve, and its motion under a load in consistent units.
 
     last : index of the last sample of the load at which the motion is needed
 
@@ -397,7 +398,7 @@ def _refuse(curve: LoadingCurve, row: RowOfSprings, medium: Medium, load: Load, 
 
 
 def _growing(curve: LoadingCurve, row: RowOfSprings, load: Load, creep: Array) -> RowMotion:
-    """Return the motion of a row whose contact only grows, from the creep response at the samples of the load."""
+    """Return the motion of a row of springs whose contact only grows, from the creep response at each sample."""
     depth = _at_elastic_force(curve, row, creep)[0]
     in_contact = np.searchsorted(row.gap, np.nan_to_num(depth), side="left")
     nothing = np.zeros(load.time.size)
@@ -437,8 +438,8 @@ def _without_discretisation(
         front = np.where(moved.largest, depth, front)
         viscosity = 0.0 if medium.relaxation is None else medium.relaxation.viscosity
         if viscosity > 0:
-            # The force of a dashpot is η k u', with the stiffness k. The stiffness of the row jumps when a spring
-            # touches, so replace it by the stiffness of the curve.
+            # The force of a dashpot is η k u', with the stiffness k. The total stiffness of the springs jumps when a
+            # spring touches, so replace it by the stiffness of the curve.
             sums = np.append(0.0, np.cumsum(row.stiffness))[count]
             excess = viscosity * velocity * (curve.at_depth(np.maximum(depth, 0.0))[1] - sums)
             corrected = moved.largest & (force > 0) & np.isfinite(excess)

@@ -30,7 +30,7 @@ def estimate(
     Parameters
     ----------
     hurst : float
-        Hurst exponent H, from 0.1 to 1 [1].
+        Hurst exponent H, from 0.1 to 1.
     rms : float
         Rms height h [length].
     diameter : float

@@ -11,7 +11,7 @@ where φ jumps from φ(g*) to 0 at g*. This is a sum of pressures of flat punche
 released in the reverse order of touching, so every weight is positive, and the contact set is A(g*). The sum is
 computed in three steps:
 
-1. Compute the loading curve up to the largest contact of the history, and move its row of springs.
+1. Compute the loading curve up to the largest contact of the history, and the motion of the equivalent springs.
 2. Choose some elastic contacts. Between two successive contacts, p_el is taken to be linear in the force F_el, so this
    interval adds the pressure ΔF · Δp_el/ΔF_el. Here Δp_el and ΔF_el are the differences between the two contacts, and
    ΔF is the part of the force F that the interval carries. The sum of all pressures is then exactly F(t).

@@ -1,10 +1,13 @@
 """Fit of a medium to the measured depth of a contact that recedes, under a known force that decreases.
 
-The medium has the creep compliance J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with retardation times θ_j on a grid and
-unknown amounts J₀, φ, J_j ≥ 0. The loading curve is replaced by a row of springs. The depth follows from the motion of
-this row in the medium (viscous.unilateral), and is not linear in the amounts. Therefore the Gauss-Newton method finds
-the amounts; difference quotients of the exact motion are its derivatives. The first guess is a fit to the rows of the
-record before the force decreases.
+The medium has the creep compliance J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with retardation times θ_j on a grid. The
+unknown coefficients J₀, φ, J_j ≥ 0 are called amounts. Independent viscoelastic springs with gaps, which have the same
+loading curve, replace the contact (viscous.springs). For given amounts, the depth as a function of time follows from
+the exact motion of these springs (viscous.unilateral). It is not linear in the amounts, so the Gauss-Newton method
+finds the amounts that fit the measured depth. The derivatives of the depth are computed as difference quotients. The
+first guess is a fit to the measurements before the force decreases.
+
+A row of the record is one measurement, a time with a depth.
 """
 
 import numpy as np
@@ -43,12 +46,12 @@ _ITERATIONS, _HALVINGS = 12, 6
 _STALLED = 1e-3
 # The refined grid of retardation times has this number of steps in one step of the first grid.
 _FINER = 4
-# Neighbouring springs of the row are merged until there are at most this number of springs.
+# Neighbouring springs that replace the contact are merged until there are at most this number of springs.
 _SPRINGS = 1000
 # Smallest J₀, and smallest φ multiplied by the duration of the load, as shares of J at the end of the load. Both must
 # be above 0, because the motion needs the relaxation spectrum of the medium.
 _LEAST_SPRING, _LEAST_DASHPOT = 1e-6, 1e-7
-# For a difference quotient, one amount is increased so that J at the end of the load grows by this share.
+# For a difference quotient, J₀, φ or one J_j is increased so that J at the end of the load grows by this share.
 _STEP = 1e-4
 
 
@@ -59,8 +62,8 @@ def fit_receding_depth(
 
     The arguments are the same as in creep_fit.fit_growing_depth.
 
-    Raises ValueError if fewer than five rows of the record precede the first decrease of the force. Also raises it if
-    the contact would grow beyond the end of the loading curve in the medium that fits these rows.
+    Raises ValueError if fewer than five measurements precede the first decrease of the force. Also raises it if the
+    contact would grow beyond the end of the loading curve in the medium that fits these measurements.
     """
     lags = load.time[place] - load.time[0]
     falls = np.flatnonzero(np.diff(load.values) < 0)
@@ -106,10 +109,10 @@ def fit_receding_depth(
 def _refined(times: Array, amounts: Array) -> tuple[Array, Array]:
     """Refine the grid of retardation times around the times with positive amounts.
 
-    Return the refined grid, and first guesses of the amounts for a new fit.
+    Return the refined grid, and first guesses of the amounts J₀, φ and J_j for a new fit.
 
     times : first grid of retardation times θ_j
-    amounts : fitted J₀, φ and J_j
+    amounts : J₀, φ and J_j of the fit on the first grid
     """
     found = amounts[2:] > 0
     finer = finer_times(times[found], times, _FINER)
@@ -121,7 +124,7 @@ def _refined(times: Array, amounts: Array) -> tuple[Array, Array]:
 def _prony(amounts: Array, times: Array, last: float) -> Prony:
     """Return the Prony series with given J₀, φ and J_j. Raises ValueError if J₀ is 0, or if φ and all J_j are 0.
 
-    amounts : J₀, φ and J_j
+    amounts : coefficients J₀, φ and J_j of the creep compliance (see the module)
     times : retardation times θ_j
     last : J at the end of the record; J₀ counts as 0 if it is a negligible share of this value
     """
@@ -131,7 +134,7 @@ def _prony(amounts: Array, times: Array, last: float) -> Prony:
 
 
 class _RecedingRecord:
-    """Record of a receding contact, with the least-squares fit of the amounts J₀, φ and J_j to its depth.
+    """Measured depths of a receding contact, with the least-squares fit of J₀, φ and J_j (see the module) to them.
 
     load, place, depth : see creep_fit.fit_growing_depth
     times : retardation times θ_j, shape (elements,)
@@ -147,16 +150,18 @@ class _RecedingRecord:
         self.gap, self.stiffness = merged(row.gap, row.stiffness, curve.depth[-1], _SPRINGS)
         self.limit = row.limit
         self.duration = load.time[-1] - load.time[0]
-        # Contribution of a unit of each amount to J at the end of the load.
+        # Derivatives of J at the end of the load with respect to J₀, φ and J_j.
         self.ends = np.append([1.0, self.duration], -np.expm1(-self.duration / times))
 
     def fit(self, amounts: Array, shift: Array) -> tuple[Array, Array, Array, Array]:
-        """Fit amounts, offset and drift to the depth by the Gauss-Newton method.
+        """Fit the medium, and an offset and a drift of the depth, to the measured depth by the Gauss-Newton method.
 
-        Return the amounts J₀, φ and J_j; the offset and the drift; the fitted depth at the rows of the record (without
-        offset and drift); and its derivatives with respect to the amounts.
+        Return four arrays: the amounts J₀, φ and J_j of the medium (see the module); the offset and the drift, as far
+        as they are fitted; the fitted depth at the time of each measurement, without offset and drift; and the
+        derivatives of this depth with respect to the amounts.
 
-        amounts, shift : first guesses of the amounts, and of offset and drift
+        amounts : first guesses of J₀, φ and J_j
+        shift : first guesses of offset and drift, as far as they are fitted
         """
         predicted = self._predicted(amounts)
         if np.isnan(predicted).any():
@@ -167,7 +172,7 @@ class _RecedingRecord:
         count = amounts.size
 
         def evaluate(unknowns: Array) -> tuple[float, Array]:
-            """Return the sum of squared residuals, and the depth at the rows of the record.
+            """Return the sum of squared residuals, and the depth at the time of each measurement.
 
             If the contact grows beyond the end of the loading curve, the sum is nan. A step with this result is not
             accepted.
@@ -192,7 +197,7 @@ class _RecedingRecord:
         return unknowns[:count], unknowns[count:], predicted, columns
 
     def _predicted(self, amounts: Array) -> Array:
-        """Return the depth at the rows of the record in a medium with these amounts.
+        """Return the depth at the time of each measurement in a medium with the given J₀, φ and J_j.
 
         After the contact has grown beyond the end of the loading curve, the depth is nan.
         """
@@ -211,9 +216,11 @@ class _RecedingRecord:
         return moved.depth[self.place]
 
     def _derivatives(self, amounts: Array, predicted: Array) -> Array:
-        """Return the derivatives of the depth with respect to the amounts, shape (rows, amounts).
+        """Return the derivatives of the depth with respect to J₀, φ and J_j at the time of each measurement.
 
-        predicted : depth at the rows of the record for these amounts
+        The array has a row for each measurement, and a column for each of the amounts J₀, φ and J_j.
+
+        predicted : depth at the time of each measurement for these amounts
         """
         columns = np.empty((predicted.size, amounts.size))
         for k, step in enumerate(_STEP * (amounts @ self.ends) / self.ends):

@@ -21,8 +21,8 @@ from viscorough.media.kinds import CreepTable, Prony, Springpot
 
 # A record counts as exact if its scatter, divided by its largest value, is below this number.
 ROUNDING = 1e-9
-# Relative accuracy of fits that merge springs of the row and use a grid of retardation or relaxation times. For these
-# fits, a record with a smaller scatter counts as exact.
+# Relative accuracy of fits in which springs with gaps replace the contact, neighbouring springs are merged, and a grid
+# of retardation or relaxation times is used. For these fits, a record with a smaller scatter counts as exact.
 RESOLUTION = 5e-5
 # In a non-negative least-squares fit, each positive unknown reduces the number of degrees of freedom by _PER_AMOUNT.
 # The expected sum of squares corresponds to a value between 1 and 2 (Meyer and Woodroofe 2000); with 1.5 the confidence
@@ -34,7 +34,7 @@ _LEVEL = 0.95
 _MANY = 1e9
 # The grid of retardation or relaxation times of a fit begins at the first time of the record divided by BEYOND, and
 # ends at the last time multiplied by BEYOND. It has about _TIMES_PER_DECADE times per decade. After a first fit, it is
-# refined around the times with positive amounts.
+# refined around the times at which the medium has a positive compliance or modulus.
 BEYOND, _TIMES_PER_DECADE = 3.0, 10
 
 
@@ -101,7 +101,7 @@ def scatter_of(residual: Array, amounts: Array, others: int, exact: float) -> tu
     Both results are nan if the record does not determine them.
 
     residual : measured values minus fitted values, shape (rows,)
-    amounts : values of the non-negative unknowns of the fit
+    amounts : values of the unknowns of the fit that cannot be negative, such as moduli
     others : number of unknowns that may have any sign
     exact : if the standard deviation is not above this value, the record counts as exact, and both results are nan
     """
@@ -146,13 +146,13 @@ def damped_step(
 
 
 def limit_early_times(low: Array, high: Array, time: Array, first: float) -> None:
-    """Widen, in place, the intervals of J at times before the first row of the record that depends on J.
+    """Widen, in place, the intervals of J at times before the first measurement that depends on J.
 
     At these times the record shows only that J does not decrease. So the lower ends become 0, and the upper ends become
-    equal to the upper end at the time of the first row that depends on J.
+    equal to the upper end at the time of the first measurement that depends on J.
 
     low, high : ends of the intervals of J at the times `time`
-    first : time of the first row that depends on J
+    first : time of the first measurement that depends on J
     """
     before = np.flatnonzero(time < first)
     low[before], high[before] = 0.0, high[before.size]

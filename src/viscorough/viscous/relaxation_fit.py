@@ -1,18 +1,18 @@
 """Fit of a medium to the measured force on an indenter whose depth is known.
 
-The loading curve is replaced by an equivalent row of springs (viscous.springs). Let spring i have the stiffness k_i and
-touch at time t_i, and let the first n springs be in contact at time t. In a medium with the relaxation modulus
-ψ(t) = G∞ + Σ G_j exp(−t/τ_j) the force is
+Independent springs with gaps, which have the same loading curve, replace the contact (viscous.springs). Let spring i
+have the stiffness k_i and touch at time t_i, and let the first n springs be in contact at time t. In a medium with the
+relaxation modulus ψ(t) = G∞ + Σ G_j exp(−t/τ_j) the force is
 
     F(t) = Σ_{i<n} k_i ∫_{t_i}^t ψ(t − s) du(s).
 
-The relaxation times τ_j are given by a grid. The unknown moduli G∞, G_j ≥ 0 (amounts) are found by least squares:
+The relaxation times τ_j are given by a grid. The unknown moduli G∞, G_j ≥ 0 are found by least squares:
 
-- If the contact only grows, n does not depend on the medium, and the force is linear in the amounts.
-- Otherwise n and the force follow from the exact motion of the row (viscous.unilateral), and the Gauss-Newton method
-  finds the amounts. The formula with constant n gives the derivatives of the force. This is correct because a spring
-  has no force when it is released: the change of n with the amounts changes the force to second order only. (Under a
-  prescribed depth, the motion of a spring does not depend on the other springs.)
+- If the contact only grows, n does not depend on the medium, and the force is linear in the moduli.
+- Otherwise n and the force follow from the exact motion of the springs (viscous.unilateral), and the Gauss-Newton
+  method finds the moduli. The formula with constant n gives the derivatives of the force. This is correct because a
+  spring has no force when it is released: the change of n with the moduli changes the force to second order only.
+  (Under a prescribed depth, the motion of a spring does not depend on the other springs.)
 
 To evaluate the formula for one branch of modulus 1 and relaxation time τ, let R(t) = ∫ exp(−(t − s)/τ) dF_el(s) and
 Z(t) = ∫ exp(−(t − s)/τ) du(s), where F_el is the elastic force at the depth u. With K_n = Σ_{i<n} k_i, and with the
@@ -20,7 +20,8 @@ time t_n when the last spring in contact touched,
 
     Σ_{i<n} k_i ∫_{t_i}^t exp(−(t − s)/τ) du = exp(−(t − t_n)/τ) R(t_n) + K_n (Z(t) − exp(−(t − t_n)/τ) Z(t_n)).
 
-A dashpot parallel to the medium is fitted as a branch that relaxes long before the first row of the record.
+A dashpot parallel to the medium is fitted as a branch that relaxes long before the first measurement. A row of the
+record is one measurement, a time with a force.
 """
 
 from typing import NamedTuple
@@ -54,14 +55,13 @@ from viscorough.viscous.unilateral import law_of, move_row
 # Largest number of Gauss-Newton iterations. The iterations end earlier if the sum of squares decreases by less than the
 # share _STALLED, or if the root mean square of the residuals is below the share _EXACT of the largest force.
 _ITERATIONS, _STALLED, _EXACT = 8, 1e-2, 1e-10
-# Largest number of springs in the row, without and with a fit of the offset. With 5000 springs the relative error of
-# the force is 1e-5, and the relative error of its derivative with respect to the depth is 1e-3.
+# Largest number of springs that replace the contact, without and with a fit of the offset. With 5000 springs the
+# relative error of the force is 1e-5, and the relative error of its derivative with respect to the depth is 1e-3.
 _SPRINGS, _FEWER_SPRINGS = 5000, 2000
-# Relaxation times of the branches that represent a parallel dashpot, divided by the time of the first row of the
-# record.
+# Relaxation times of the branches that represent a parallel dashpot, divided by the time of the first measurement.
 _DASHPOTS = (1e-4, 1e-3, 1e-2, 1e-1)
-# The resulting J and ψ are given at _KNOTS times. The first of them is the time of the first row of the record divided
-# by _EARLIER.
+# The resulting J and ψ are given at _KNOTS times. The first of them is the time of the first measurement divided by
+# _EARLIER.
 _KNOTS, _EARLIER = 120, 64
 # Step of the drift in difference quotients: the largest change of the depth that it causes, divided by the largest
 # depth. This change is larger than the distance between the gaps of neighbouring springs, because the force of a
@@ -91,8 +91,8 @@ def fit_force(
     """Fit a medium to the measured force at a known depth.
 
     curve : loading curve of the indenter
-    load : depth as a function of time, with a sample at the time of each row of the record
-    place : for each row of the record, the index of its sample of the load, shape (rows,)
+    load : depth as a function of time, with a sample at the time of each measurement
+    place : index of the sample of the load at the time of each measurement (row of the record), shape (rows,)
     force : measured force, in units of modulus × length², shape (rows,)
     kind : kind of medium: "table", "prony" or "springpot"
     scatter : standard deviation of the measured force; None to estimate it from the record; nan for a fit without
@@ -126,8 +126,8 @@ def fit_force(
     unknowns = _unknowns_of_region(fit) if shift.offset else 1
     intervals = _intervals(record, fits, time, distance_of(np.hypot(scatter, resolution), freedom, unknowns))
     low, high, shift_low, shift_high = intervals
-    # Before the first row, ψ may be a high pulse: the record shows only its integral over time. So ψ has no upper limit
-    # there.
+    # Before the first measurement, ψ may be a high pulse: the record shows only its integral over time. So ψ has no
+    # upper limit there.
     high[time < first * (1 - 1e-12)] += np.inf
     low[low < resolution / record.elastic_force] = 0.0
     prony, residual = _prony(fit), force - fit.force
@@ -169,10 +169,10 @@ def _scatter(record: "_ForceRecord", fit: "_Fit", scatter: float | None, exact: 
 def _fits_of_offsets(record: "_ForceRecord", times: Array, scatter: float | None, resolution: float) -> list["_Fit"]:
     """Return fits at increasing offsets, which include the best offset and enclose its confidence interval.
 
-    The force is not linear in the offset. Besides, branches that relax before the first rows have almost the same
-    effect as a small offset, and the noise hides the difference. Therefore a separate fit is made at each of several
-    offsets. If the medium has a dashpot, an early row determines the offset so accurately that only closely spaced
-    offsets show the interval.
+    The force is not linear in the offset. Besides, branches that relax before the first measurements have almost the
+    same effect as a small offset, and the noise hides the difference. Therefore a separate fit is made at each of
+    several offsets. If the medium has a dashpot, an early measurement determines the offset so accurately that only
+    closely spaced offsets show the interval.
 
     times : grid of relaxation times
     scatter, resolution : standard deviation of the force (None if not known), and error of the computed force
@@ -222,9 +222,9 @@ def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, r
 def _unknowns_of_region(fit: "_Fit") -> int:
     """Return the number of unknowns of the joint confidence region that gives the intervals if the offset is fitted.
 
-    The drift, and branches that relax before the first rows, can replace a part of the offset. The true values may then
-    lie at the edge of all values that fit the record, and the confidence region of a single unknown would be too
-    narrow. So all unknowns count: the offset, the drift, and the amounts above 0.
+    The drift, and branches that relax before the first measurements, can replace a part of the offset. The true values
+    may then lie at the edge of all values that fit the record, and the confidence region of a single unknown would be
+    too narrow. So all unknowns count: the offset, the drift, and the moduli above 0.
     """
     return 1 + fit.drift.size + int(np.count_nonzero(fit.amounts))
 
@@ -286,7 +286,7 @@ class _Path(NamedTuple):
 
     time, depth : times, and depths at these times, shape (samples,)
     touches : index of the sample at which each spring first touches, shape (springs that ever touch,)
-    place : index of the sample of each row of the record, shape (rows,)
+    place : index of the sample at the time of each measurement (row of the record), shape (rows,)
     """
 
     time: Array
@@ -299,11 +299,11 @@ class _Fit(NamedTuple):
     """Result of a fit: the unknowns, the force that follows from them, and the derivatives of this force.
 
     times : grid of relaxation times τ_j, shape (branches,)
-    amounts : G∞ and G_j, shape (1 + branches,)
+    amounts : moduli G∞ and G_j, shape (1 + branches,)
     offset : offset of the depth, which is prescribed
     drift : drift of the depth, shape (1,); or shape (0,) if the drift is not fitted
-    force : force at the rows of the record, shape (rows,)
-    columns : derivatives of the force with respect to the amounts, shape (rows, 1 + branches)
+    force : force at the time of each row of the record, shape (rows,)
+    columns : derivatives of the force with respect to the moduli G∞ and G_j, shape (rows, 1 + branches)
     signed : derivative of the force with respect to the drift, shape (rows, 1); or (rows, 0) if the drift is not fitted
     """
 
@@ -334,7 +334,9 @@ class _ForceRecord:
         self.grows = bool((np.diff(load.values) >= 0).all())
 
     def fit(self, times: Array, offset: float) -> _Fit:
-        """Fit the moduli of a spring and of branches, and the drift if the user wants it, at a given offset.
+        """Fit the moduli of a spring and parallel Maxwell branches at a given offset of the depth.
+
+        The drift of the depth is fitted, too, if the user wants it.
 
         times : relaxation times of the branches
         """
@@ -370,7 +372,12 @@ class _ForceRecord:
         return float(((self.force - fit.force) ** 2).sum())
 
     def _linearised(self, times: Array, amounts: Array, offset: float, drift: Array) -> _Fit:
-        """Return a _Fit: force at the rows of the record, and its derivatives with respect to amounts and drift."""
+        """Return a _Fit with the force at each row of the record, and its derivatives.
+
+        The derivatives are with respect to the moduli and, if it is fitted, to the drift.
+
+        amounts : moduli G∞ and G_j
+        """
         path, force, in_contact = self._force(times, amounts, offset, drift)
         columns = self._columns(path, times, in_contact)
         signed = np.empty((force.size, drift.size))
@@ -381,10 +388,10 @@ class _ForceRecord:
         return _Fit(times, amounts, offset, drift, force, columns, signed)
 
     def _force(self, times: Array, amounts: Array, offset: float, drift: Array) -> tuple[_Path, Array, Integers]:
-        """Return the path of the depth, and the force and the number of springs in contact at each row of the record.
+        """Return the depth as a function of time, and force and number of springs in contact at each measurement.
 
         times : relaxation times τ_j of the branches
-        amounts : G∞ and G_j
+        amounts : moduli G∞ and G_j
         """
         path = self._path(offset, drift)
         branches = amounts[1:] > 0
@@ -420,10 +427,10 @@ class _ForceRecord:
     def _columns(self, path: _Path, times: Array, in_contact: Integers) -> Array:
         """Return the forces in media that consist of one spring, or of one branch, of modulus 1.
 
-        The shape is (rows, 1 + times), with a row for each row of the record. The first column is for the spring, and
-        each further column is for a branch with one of the relaxation times.
+        The shape is (rows, 1 + times), with a row for each measurement. The first column is for the spring, and each
+        further column is for a branch with one of the relaxation times.
 
-        in_contact : number of springs in contact at each row of the record
+        in_contact : number of springs in contact at each measurement
         """
         in_contact = np.minimum(in_contact, path.touches.size)
         stiffness = self.stiffness[in_contact]
@@ -434,8 +441,8 @@ class _ForceRecord:
         _, to_force = branch_states(intervals, elastic, times)
         _, to_depth = branch_states(intervals, path.depth, times)
         touch = path.touches[np.maximum(in_contact, 1) - 1]
-        # Time since the last spring in contact touched. At rows without contact it may be negative; the forces at these
-        # rows are set to 0 below.
+        # Time since the last spring in contact touched. For measurements without contact it may be negative; the forces
+        # for these measurements are set to 0 below.
         since = np.maximum(path.time[path.place] - path.time[touch], 0.0)
         kept = np.exp(-since[:, None] / times)
         memory = to_depth[path.place] - kept * to_depth[touch]

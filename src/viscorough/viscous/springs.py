@@ -49,8 +49,7 @@ class RowOfSprings(NamedTuple):
 
     gap : initial gaps, which increase from 0 [length]
     stiffness : stiffness dk/G > 0 of each spring [length]
-    contact_fraction : share of the elements of the indenter in contact when this spring is the last spring in contact
-        [1]
+    contact_fraction : share of the elements of the indenter that are in contact when this spring has just touched
     limit : depth up to which the curve is known; infinite if the curve reaches complete contact
     first_depth : depth below which the curve is not known and is taken to be a power law; 0 if the whole curve is known
     """
@@ -157,11 +156,14 @@ def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
 
 
 def merged(gap: Array, stiffness: Array, depth: float, most: int) -> tuple[Array, Array]:
-    """Merge the springs of a row with gaps up to `depth` into at most `most` springs.
+    """Replace the springs with initial gaps up to `depth` by at most `most` springs; return their gaps and stiffnesses.
 
-    Return gaps and stiffnesses of the new springs. Fits use fewer springs because they move the row often. Each new
-    spring replaces some neighbouring springs: it has their mean gap and the sum of their stiffnesses. The new springs
-    lie at about equal steps of the cube root of the gap.
+    Springs with larger gaps are dropped, because they do not touch up to this depth. A fit to a record computes the
+    motion of the springs many times, which takes less time with fewer springs. Each new spring replaces some
+    neighbouring springs: it has their mean gap, weighted by stiffness, and the sum of their stiffnesses. The new
+    springs lie at about equal steps of the cube root of the gap.
+
+    gap, stiffness : initial gaps and stiffnesses of the independent springs of a RowOfSprings, by increasing gap
     """
     inside = gap < depth * (1 + 1e-9)
     gap, stiffness = gap[inside], stiffness[inside]

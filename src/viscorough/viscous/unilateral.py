@@ -54,7 +54,7 @@ _CLOSE = 0.2
 _AT_ONCE = 1e-11
 # The force of a spring is a sum of exponentials of the time since the last event or sample. Terms that have decayed
 # leave their rounding errors in the sum. If the next release is more than _FORGOTTEN relaxation times of the fastest
-# branch ahead, the row first moves by the share _APPROACH of the time until the release. Then a new sum begins.
+# branch ahead, the springs first move by the share _APPROACH of the time until the release. Then a new sum begins.
 _FORGOTTEN, _APPROACH = 5.0, 0.999
 # Largest number of halvings of the interval that contains the time of an event, and of Newton steps. Both numbers
 # suffice to find the time to rounding.
@@ -64,13 +64,13 @@ _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
 # Limit for the number of events at one time, divided by the number of springs. Only rounding errors can lead to more
 # events, since at one time a spring can be released once and touch once.
 _MOST_AT_ONCE = 4
-# If events at one time do not end, the row moves for a short time without events (a pause). The n-th pause between two
-# samples, n ≤ _MOST_PAUSES, has the length _PAUSE · 2^n times the time of the second sample. So pauses last from the
-# rounding error of a time to 1e-9 of the time.
+# If events at one time do not end, the springs move for a short time without events (a pause). The n-th pause between
+# two samples, n ≤ _MOST_PAUSES, has the length _PAUSE · 2^n times the time of the second sample. So pauses last from
+# the rounding error of a time to 1e-9 of the time.
 _PAUSE, _MOST_PAUSES = 5e-16, 21
 
-# Ways in which a motion ends: at the last sample, when the depth reaches its limit, at a step that needs an infinite
-# force, or because events at one time do not end.
+# Ways in which a motion ends: at the last sample (SETTLED), when the depth reaches its limit (BEYOND), at a step that
+# needs an infinite force (INFINITE), or because events at one time do not end (RESTLESS).
 SETTLED, BEYOND, INFINITE, RESTLESS = 0, 1, 2, 3
 
 
@@ -143,7 +143,7 @@ class _Row(NamedTuple):
 
 
 class _State(NamedTuple):
-    """State of the row, in arrays that are changed in place; the symbols are defined in the module docstring.
+    """State of the springs, in arrays that are changed in place; the symbols are defined in the module docstring.
 
     common : internal variables D_b that are common to the springs in contact, shape (branches,)
     joined : time of the last touch of each spring, shape (springs,)
@@ -499,12 +499,17 @@ def _gap_of_next(row, law, state, t, count):
 
 @njit(inner=True)
 def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts):
-    """Step the load to `target` at time t.
+    """Change the load in a step at time t: the depth to `target` if `by_depth`, otherwise the force to `target`.
 
-    Return the depth and the force after the step, the number of springs in contact, and how the step ended (SETTLED,
-    BEYOND, INFINITE or RESTLESS).
+    Return the depth and the force after the step, the number of springs in contact, and how the step ended:
 
-    release_amounts : work array for arguments of `_first_crossing`, changed in place
+    - SETTLED: the load is `target`.
+    - BEYOND: all springs touch and the depth reaches its limit before the load is `target`.
+    - INFINITE: the step of the depth needs an infinite force, because of a parallel dashpot.
+    - RESTLESS: springs touch and are released again without end.
+
+    u, force, count : depth, force and number of springs in contact before the step
+    release_amounts : work array for the argument `first` of `_first_crossing`, changed in place
     """
     if law.viscosity > 0 and not by_depth:
         # The dashpot keeps the indenter in place. Release the springs that the new force would pull.
@@ -582,7 +587,7 @@ def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders,
 
 @njit(inner=True)
 def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
-    """Move the row by a time s without events, and return the new depth.
+    """Advance the motion of all springs by a time s without events, and return the new depth.
 
     The common variables and the R_j (`remainders`) are changed in place.
 

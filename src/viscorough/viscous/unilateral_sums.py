@@ -145,7 +145,7 @@ def _refined(load: Load, parts: int) -> tuple[Array, Array, Array]:
 
 
 def step_row(row: RowOfSprings, medium: Medium, load: Load, parts: int) -> RowMotion:
-    """Return the motion of a row at the samples of the load, computed with `parts` steps between two samples."""
+    """Return the motion of a row of springs at the samples of the load, with `parts` time steps between two samples."""
     gap, stiffness, last_of_group = _with_fewer_springs(row)
     times, values, place = _refined(load, parts)
     steps, at_once = times.size, float(medium.creep_compliance(0.0))

@@ -70,7 +70,7 @@ def _rows(case, alpha, events, impulse, elastic_depth):
     """Return the table rows of one indenter, one row for each impulse ∫F dt/η, with the columns of `COLUMNS`.
 
     case : name of the indenter; alpha : α in the stiffness k ∝ F^α of the indenter; events : result of `march_events`
-    impulse : values of the impulse; elastic_depth : elastic depths at F/G equal to these values
+    impulse : values of the impulse; elastic_depth : depths of the elastic contact at F/G equal to each impulse
     """
     counts = events.contact_count[events.event_at(impulse)]
     ratios = events.depth_at(impulse) / elastic_depth

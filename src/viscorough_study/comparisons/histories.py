@@ -48,7 +48,9 @@ TOLERANCE = 1e-6  # tolerance of the loading curves
 
 
 def compare_histories(*, hursts, elements, seed):
-    """Compute motions of discs by the row of springs and by direct integration; return a table with `COLUMNS`.
+    """Compare motions of discs by a row of springs (see the module) and by direct integration; return a table.
+
+    Returns a pandas.DataFrame with the columns of `COLUMNS`.
 
     There is one disc per Hurst exponent. Each disc undergoes two kinds of motion, each with three durations. In a force
     curve the depth is prescribed; the contact opens and closes again. In a recovery a constant force is removed; all
@@ -70,7 +72,9 @@ def compare_histories(*, hursts, elements, seed):
 
 
 def _compare(disc, curve, load):
-    """Compute one motion by both methods; return {column: values} at the ends of the coarse time steps.
+    """Compute a motion by the row of springs and by direct integration; return {column: values}.
+
+    The values are at the ends of the coarse time steps of the direct integration.
 
     disc : rough disc with h = L = 1; curve : LoadingCurve of the disc; load : prescribed force or depth as a Load
     """

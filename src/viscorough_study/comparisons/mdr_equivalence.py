@@ -123,12 +123,14 @@ def _rise(x, values):
 
 
 def _exponent_rows(discs, lines, windows, number, *, seed, **bootstrap):
-    """Compare exponents β of one Hurst exponent; return a row of the table mdr_exponents for each of `WINDOWS`.
+    """Compare the exponents β of lines and discs in each of the `WINDOWS`; return rows of the table mdr_exponents.
 
-    If a window does not exist for the discs or for the lines, its row contains only the name of the window.
+    Discs and lines have the same Hurst exponent. A row has β of the lines minus β of the discs, fitted in one window
+    (range of X). If a window does not exist for the discs or for the lines, its row contains only the name of the
+    window.
 
     windows : windows of the discs, and windows of the lines, each as returned by `named_windows`
-    number : number of discs or number of lines, whichever is smaller
+    number : number of discs or number of lines, whichever is smaller; it determines the width of the interval
     """
     regions, kappa = ([rules[rule] for rules in windows] for rule in ("default", "kappa"))
     # Different seeds make the bootstrap samples of discs and lines independent.

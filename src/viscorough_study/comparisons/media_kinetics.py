@@ -41,7 +41,7 @@ def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
 
     curves : iterable of the Content of each file; discs : names of the ensembles of discs that are used
     rms_convention : where the rms height h is measured (fits.conventions); force : F [N]
-    cases : media, as mappings for `named_media`
+    cases : media, each described by a mapping, for `named_media`
     times : {"low", "high", "per_decade"}, the range [s] and the number per decade of the times
     """
     ensembles = {}

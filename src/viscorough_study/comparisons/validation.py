@@ -75,7 +75,8 @@ def validation_table(elements, limits, order_margin):
 def judge_errors(errors, limits, order_margin):
     """Fit orders of convergence to given errors; return the table of `validation_table`, with the column `passed`.
 
-    errors : the columns of `COLUMNS` up to "error"; rows of a case and quantity are sorted from coarse to fine grids
+    errors : table with the columns of `COLUMNS` up to "error". The rows of one case (body and method) and one quantity
+        are sorted from coarse to fine grids
     limits, order_margin : arguments of `validation_table`
     """
     judged = []
@@ -89,7 +90,7 @@ def judge_errors(errors, limits, order_margin):
 
 
 def failures(table, order_margin):
-    """Return one line of text for each failed case and quantity of a validation table.
+    """Return one line of text for each case (body and method) and quantity that failed in a validation table.
 
     The line states the error, the observed order, and the limits of both.
     """
@@ -102,7 +103,7 @@ def failures(table, order_margin):
 
 
 def _errors_on_grid(n):
-    """Yield (case, {quantity: error}) for every case (body and method) on the grid with n elements across L."""
+    """Yield (name of the case, {quantity: error}) for every body and method on the grid with n elements across L."""
     for name, body in BODIES.items():
         indenter = body.indenter(n)
         yield name, _indentation(indenter, body)
@@ -115,7 +116,7 @@ def _errors_on_grid(n):
 
 
 def _flat_punches(n):
-    """Yield (case, {quantity: error}) for the stiffness of a flat disc and of flat ellipses.
+    """Yield (name of the case, {quantity: error}) for the stiffness of a flat disc and of flat ellipses.
 
     The flat disc has the same elements as a rough disc with n elements across.
     """

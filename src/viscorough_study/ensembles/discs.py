@@ -1,4 +1,4 @@
-"""Generate the rough discs of an ensemble, and measure the rms height of each disc by several conventions."""
+"""Generate the rough discs of an ensemble, and compute the rms height of each disc by several definitions."""
 
 import numpy as np
 
@@ -18,9 +18,9 @@ def ensemble_disc(elements, surface, seed):
     seed : int or SeedSequence
 
     The disc is cut from a periodic square. The heights are scaled so that the rms height over the disc, or over the
-    square (`rms_over`), equals `rms`. The result contains the rms heights by three conventions: over the disc, over the
+    square (`rms_over`), equals `rms`. The result contains the rms heights by three definitions: over the disc, over the
     square, and over the ensemble. The rms height over the ensemble is the root mean square over all squares with the
-    same spectrum. By this convention, realizations are not normalised one by one.
+    same spectrum. By this definition, realizations are not normalised one by one.
     """
     shape = {name: value for name, value in surface.items() if name not in _LENGTHS}
     square = square_of_disc(**shape, elements_across=elements, normalised=False, seed=seed)

@@ -35,7 +35,7 @@ def pool_batches(batches, conventions, x):
 
     batches : iterable of (name of a group of ensembles, Content from ensembles.batches.batch_of_curves); only one batch
         at a time is in memory
-    conventions : rms conventions in the pool, keys of ensembles.batches.RMS
+    conventions : definitions of the rms height h in the pool, keys of ensembles.batches.RMS
     x : abscissae X, shape (abscissae,)
     """
     stiffness, count, realizations, settings = [], [], [], {}
@@ -77,8 +77,8 @@ def ensembles(pool, *names, rms_convention=None):
     """Split a pool into ensembles; return {value of a coordinate: ensemble of the realizations with this value}.
 
     names : names of coordinates; for several names, the keys of the result are tuples of their values
-    rms_convention : keep only the curves with this rms convention, and drop the dimension rms_convention. By default
-        all conventions of the pool are kept.
+    rms_convention : keep only the curves with this definition of the rms height h, and drop the dimension
+        rms_convention. By default all definitions of the pool are kept.
 
     The ensembles are in the order of the pool, and contain averages over their realizations (ensembles.averages). The
     coordinates hurst, elements, case and until_x become scalars if they are equal for all realizations.

@@ -7,7 +7,7 @@ from viscorough import reference
 from viscorough_study.figures import style
 from viscorough_study.fits.conventions import fits
 
-# Labels of the conventions that the paper leaves open, as {column of the table of fits: {value: label}}.
+# Labels of choices that the paper leaves open (conventions), as {column of the table of fits: {value: label}}.
 CONVENTION_LABELS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
     "rms_convention": {
@@ -29,9 +29,10 @@ CONVENTION_LABELS = {
 def plot_conventions(scaling, conventions):
     """Draw β − H/(1 + H) and ζ/(2 − H) of the discs for several conventions, each with its 95 % interval.
 
-    The conventions are choices that the paper leaves open. The first row of the figure has the usual conventions. Each
-    further row changes one convention, or shows another group of discs.
-    scaling : table of fitted power laws; conventions : the usual conventions, {column of this table: value}
+    The conventions are choices that the paper leaves open, such as the kind of mean. The first row of the figure has
+    the conventions of all other figures. Each further row changes one convention, or shows another group of discs.
+    scaling : table of fitted power laws
+    conventions : conventions of all other figures, {column of this table: value}
     """
     discs = scaling[scaling["source"] == "discs"]
     looks, changes = style.hurst_looks(discs["hurst"]), _changes(discs, conventions)
@@ -67,9 +68,10 @@ def plot_conventions(scaling, conventions):
 
 
 def _changes(discs, conventions):
-    """Return (label, {column of the table: value}) for each row of the figure.
+    """Return a label and the values {column of the table: value} that select the fits, for each row of the figure.
 
-    The first row has the usual conventions; each further row changes one convention, or the group of discs.
+    The first row has the conventions of all other figures. Each further row changes one convention, such as the kind of
+    mean, or the group of discs.
     """
     base = conventions | {"case_group": "base"}
     rows = [("as in other figures", base)]

@@ -12,7 +12,7 @@ def plot_exponent(scaling, conventions, hurst_range):
     """Draw β of MDR lines and of discs, with 95 % intervals, and β of Eq. 10, all against the Hurst exponent H.
 
     scaling : table of fitted power laws
-    conventions : {convention: value}, which select the fits that are drawn (fits.conventions)
+    conventions : {column of the table: value}, which select the fits that are drawn (fits.conventions)
     hurst_range : range of H in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
     """
     looks = style.hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])

@@ -32,10 +32,10 @@ NORM = LogNorm(FLOOR, 10)
 
 @style.figure
 def plot_failure_map(table):
-    """Draw the error (colour and number) and the verdict (letter) of every method (columns) in every case (rows).
+    """Draw a table of the error (colour, number) and verdict (letter) of each method (columns) in each test (rows).
 
-    A cell is blank if the difficulty of the case does not affect the method, unless the method refuses the case or
-    fails unnoticed.
+    The tests are the stress-test cases of robustness.stress_cases. A cell is blank if the difficulty of the case does
+    not affect the method, unless the method refuses the case or fails unnoticed.
     table : table of viscorough_study.robustness.failure_map
     """
     methods, rows = list(table["method"].unique()), list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
@@ -70,10 +70,10 @@ def plot_failure_map(table):
 
 
 def _concerns(cell):
-    """Return True if a cell is filled, False if it stays blank.
+    """Return True if a cell of the failure map is filled, False if it stays blank.
 
-    A cell is filled if the difficulty of the case affects the method. It is also filled if the method refuses the case
-    or fails unnoticed.
+    A cell is filled if the difficulty of the stress-test case affects the method. It is also filled if the method
+    refuses the case or fails unnoticed.
     cell : row of the table of the failure map
     """
     names = CONCERNED.get(cell.group)
@@ -81,9 +81,9 @@ def _concerns(cell):
 
 
 def _cell_text(cell):
-    """Return the text in a cell: the error (one digit) and the letter of the verdict.
+    """Return the text in a cell of the failure map: the error (one digit) and the letter of the verdict.
 
-    If the method refuses the case, the text is only the letter.
+    If the method refuses the stress-test case, the text is only the letter.
     """
     if cell.verdict == "refused":
         return LETTERS["refused"]

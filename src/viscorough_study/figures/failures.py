@@ -34,7 +34,7 @@ HURST = 0.4  # panel (e) shows discs with the Hurst exponent nearest to this val
 
 @style.figure
 def plot_failures(table, knobs):
-    """Draw the shares of all outcomes by method (a) and by kind of case (b), and errors against settings (c, d, e).
+    """Draw shares of outcomes by method (a) and by kind of stress test (b), and errors against settings (c, d, e).
 
     table : table of robustness.failure_map; knobs : table of robustness.knobs
     """
@@ -61,7 +61,7 @@ def plot_failures(table, knobs):
 
 
 def _draw_bars(axes, table):
-    """For every name, draw a bar with the shares of all outcomes, and write the number of silent failures.
+    """Draw a bar with the shares of all outcomes for every name, and write the number of silent failures at the bar.
 
     table : table of the failure map with a further column `name`, the name of the bar to which a row belongs
     """

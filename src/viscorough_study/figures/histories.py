@@ -8,10 +8,10 @@ SYMBOLS = 25  # approximate number of symbols on the curve of a motion
 
 @style.figure
 def plot_histories(table):
-    """Draw motions of one disc: as lines by the row of springs, as symbols by direct integration.
+    """Draw motions of one disc, computed by independent springs (lines) and by direct integration (symbols).
 
     The figure shows the disc with the median Hurst exponent.
-    table : table of viscorough_study.comparisons.histories, which explains the row of springs
+    table : table of viscorough_study.comparisons.histories, which explains the springs
     """
     exponents = sorted(table["hurst"].unique())
     hurst = exponents[len(exponents) // 2]

@@ -16,12 +16,15 @@ def examples(files):
 
 
 def ensembles(files):
-    """Read the base discs; return a list of ensembles, one for each Hurst exponent and combination of parameters."""
+    """Read the curves of the base discs; return a list of ensembles, one for each Hurst exponent and combination.
+
+    A combination is a choice of force, viscosity, diameter and rms height.
+    """
     return list(pool.ensembles(pool.select(read_dataset(files["ensembles"]), group="base"), "case").values())
 
 
 def discs(files):
-    """Read the base discs; return a list of ensembles, one for each Hurst exponent in ascending order."""
+    """Read the curves of the base discs; return a list of ensembles, one for each Hurst exponent in ascending order."""
     by_hurst = pool.ensembles(pool.select(read_dataset(files["discs"]), group="base"), "hurst")
     return [by_hurst[hurst] for hurst in sorted(by_hurst)]
 

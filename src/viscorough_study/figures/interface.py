@@ -21,11 +21,12 @@ LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an
 
 @style.figure
 def plot_interface(table, curves, literature, periodic):
-    """Draw g of discs and periodic surfaces (a), g of lines (b), g of the law relative to discs (c), and u₀/h (d).
+    """Draw g of discs and periodic surfaces (a), g of lines (b), g of the law divided by g of discs (c), and u₀/h (d).
 
-    g is the part of the interface in vt/h, and u₀/h is the value of g on its plateau. All means are arithmetic, because
-    compliances add. Panels (a) to (c) show each Hurst exponent only on the base grid, the usual grid of the study. The
-    law of the library is drawn in (a) and (c), but only for the grid and the Hurst exponents of its calibration.
+    g is the contribution of the rough interface to vt/h (fits.interface). u₀/h is the value of g on its plateau. All
+    means are arithmetic, because compliances add. Panels (a) to (c) show each Hurst exponent only on the base grid, the
+    usual grid of the study. The law of the library is drawn in (a) and (c), but only for the grid and the Hurst
+    exponents of its calibration.
 
     table : table "interface" of fits.interface; curves : table "interface_curves" of the same module
     literature : table of comparisons.literature, with published u₀/h for (d)

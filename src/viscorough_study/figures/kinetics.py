@@ -23,16 +23,16 @@ QUANTITIES = {
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
     """Draw vt/h against X (the paper's Figure 2), velocity against time in SI units, and a table of the parameters.
 
-    A case is a Hurst exponent with a combination of four parameters: force, viscosity, diameter and rms height.
+    Each ensemble has a Hurst exponent, and a combination of four parameters: force, viscosity, diameter and rms height.
 
-    ensembles : ensemble datasets, one for each case
-    combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
+    ensembles : ensemble datasets, one for each Hurst exponent and combination
+    combinations : {name of the ensemble: force [N], viscosity [Pa s], diameter [m], rms [m]}
     scaling : table of fitted power laws, with the ends of region (b); conventions : {column of this table: value}
     fraction_min : a mean is drawn if at least this fraction of the realizations has a value
 
     Region (a), with one element in contact, is grey; only its last decade is drawn. Bars at the bottom mark region (b)
-    of each Hurst exponent. Velocities in SI units are computed with the rms height of the case. They are exact if the
-    rms convention is the same as in the generation of the surfaces, where this rms height was set.
+    of each Hurst exponent. Velocities in SI units are computed with the rms height of the combination. They are exact
+    if the figure measures h in the same region of the surface as the generation of the surfaces, which set this height.
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in ensembles)
     figure = style.new_figure(112)
@@ -69,7 +69,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
 
 
 def _combination(case):
-    """Return the second part of the name of a case, <Hurst exponent>_<combination of parameters>."""
+    """Return the second part of the name <Hurst exponent>_<combination of parameters> of an ensemble."""
     return case.partition("_")[2]
 
 

@@ -1,4 +1,4 @@
-"""Select the mean velocity of an ensemble by the conventions of the figures: kind of mean, and definition of h."""
+"""Select the mean velocity of an ensemble that the figures show, by the kind of mean and the definition of h."""
 
 from types import SimpleNamespace
 
@@ -19,7 +19,8 @@ def mean_curve(ensemble, conventions, fraction_min):
     error : two standard errors of ln(vt/h)
     several : True if the mean is unbiased and several elements are in contact, that is, beyond region (a)
     """
-    available = ensemble["rms_convention"].values.tolist()  # lines have a single rms convention
+    # For lines, h is measured in only one way, so `rms_convention` has a single value.
+    available = ensemble["rms_convention"].values.tolist()
     mean = ensemble.sel(rms_convention=conventions["rms_convention"] if len(available) > 1 else available[0])
     defined = mean["fraction_defined"].values >= fraction_min
     return SimpleNamespace(

@@ -36,7 +36,7 @@ def plot_sizes(table, conventions):
 
 
 def _panel(axes, table, conventions, source, looks):
-    """Draw β of the discs or of the lines, as fitted in the window `conventions["window_rule"]`.
+    """Draw β of the discs or of the lines, as fitted in the range of X `conventions["window_rule"]`.
 
     source : "discs" or "lines"; looks : {H: line properties}
     """

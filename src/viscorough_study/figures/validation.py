@@ -38,7 +38,7 @@ def plot_validation(table):
 
 
 def _case_looks(cases):
-    """Return {name of a case: line properties}; the body determines the colour, and the method the marker.
+    """Return {name of a case: line properties}. The body of the case determines the colour, the method the marker.
 
     cases : names of cases, <body>_<method>
     """

@@ -1,7 +1,8 @@
-"""Select and convert fits by the conventions that the paper leaves open.
+"""Select fits of the power law by choices that the paper leaves open (conventions), and convert ζ between two laws.
 
-The paper does not state the region in which the rms height h is measured, the average over realizations, or the windows
-of its fits. These three conventions (`FITTED`) change the mean curve or the window, so each combination needs a fit.
+The paper does not state the region in which the rms height h is measured, the kind of average over realizations, or the
+windows (ranges of X) of its fits. These three conventions (`FITTED`) change the mean curve or the window, so each
+combination needs a fit.
 
 The paper also prints some laws with a factor 1/Γ(2 − α) and others without this factor (`GAMMA`). Without the factor
 the law is vt/h = X^β/ζ. With the factor (Eq. 9) the law is vt/h = X^β/(ζ Γ(1 + β)), where 1 + β = 2 − α. So ζ with the
@@ -76,7 +77,8 @@ def select(table, values):
 def fits(table, conventions, **values):
     """Return the rows of a table of fits that were made with the given conventions, sorted by ascending H.
 
-    conventions : {convention: value}; the convention "gamma" is "with" or "without" the factor 1/Γ(2 − α)
+    conventions : {convention: value}, such as {"average": "geometric"}. The value of "gamma" is "with" or "without",
+        for ζ of the law with or without the factor 1/Γ(2 − α)
     values : {column or convention: value} that rows must also have; they replace conventions of the same name
     Fits of ensembles without a region (b) have no exponent, and their rows are omitted.
     """
@@ -84,8 +86,9 @@ def fits(table, conventions, **values):
 
 
 def source_values(source):
-    """Return {column: value} by which `fits` selects a source, "discs" or "lines".
+    """Return {column: value} by which `fits` selects the fits of discs, or the fits of lines.
 
-    All fits of lines have the rms convention "line", so this value is required for lines.
+    source : "discs" or "lines". In all fits of lines, rms_convention (where h is measured) is "line", so this value is
+        required for lines.
     """
     return {"source": source} | ({"rms_convention": "line"} if source == "lines" else {})

@@ -1,8 +1,12 @@
-"""Compute the table of fits: β, ζ and λ of every ensemble, for all choices that the paper leaves open.
+"""Fit the power law vt/h = X^β/ζ to the mean curve of every ensemble of discs or lines, and make a table of the fits.
 
-Each row is a fit of one ensemble with one definition of the rms height, one kind of mean and one window (`FITTED` of
-fits.conventions). The table has ζ of the law without the factor 1/Γ(2 − α). The functions of fits.conventions select
-rows and convert ζ to the law with this factor.
+A line is a one-dimensional profile for the method of dimensionality reduction. The table also has the factor λ in the
+spectrum C1D = λ q C2D of a line (paper, Eq. 13). It is chosen so that lines have the velocity of the discs.
+
+The paper does not state where the rms height h is measured, which mean is taken over the realizations, and in which
+range of X (window) the law is fitted. Each row of the table is a fit of one ensemble with one choice of these three
+conventions (`FITTED` of fits.conventions). The table has ζ of the law without the factor 1/Γ(2 − α). The functions of
+fits.conventions select rows and convert ζ to the law with this factor.
 """
 
 import logging
@@ -39,10 +43,10 @@ SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a
 
 
 def scaling_table(discs, lines, *, seed, **fit):
-    """Fit power laws to every ensemble of discs and of lines; find λ from the lines and base discs of the same H.
+    """Fit power laws to the mean curve of every ensemble of discs and of lines, and find the factor λ (see the module).
 
-    An ensemble of discs has one Hurst exponent and one group (base, or a variant of the surfaces). An ensemble of lines
-    has one Hurst exponent.
+    An ensemble of discs has one Hurst exponent and one group: base, or a variant of the surfaces. An ensemble of lines
+    has one Hurst exponent. λ is found for each ensemble of the group base, from the lines with the same Hurst exponent.
 
     discs, lines : pools (viscorough_study.ensembles.pool)
     seed, fit : further arguments of `fit_rows`
@@ -81,16 +85,18 @@ def sizes_table(discs, lines, *, windows, **fit):
 
 
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
-    """Fit one ensemble for all choices that the paper leaves open; return a list of dicts with the keys of `COLUMNS`.
+    """Fit one ensemble with every definition of the rms height, kind of mean, and window (range of X) of the fit.
 
-    If an ensemble lacks a window, the values of the fit in this window are nan.
+    Return a list of rows of the table, each a dict with the keys of `COLUMNS`. If a window does not exist for the
+    ensemble, for example because it has no region (b), the values of the fit in this window are nan.
 
     ensemble : ensemble dataset (ensembles.averages)
     source, case_group : entries of the columns of these names
-    lines : ensemble dataset of lines with the same Hurst exponent and abscissae, for the computation of λ, or None.
-        λ is nan for `lines` = None, and if the lines do not reach the stiffness of the discs
+    lines : ensemble dataset of lines with the same Hurst exponent and abscissae, from which λ (see the module) is
+        found, or None. λ is nan for `lines` = None, and if the lines do not reach the stiffness that the discs have at
+        the centre of the window
     resamples, seed : number of resamples and seed of the bootstrap
-    limits : arguments of viscorough_study.fits.power_law.named_windows
+    limits : arguments of viscorough_study.fits.power_law.named_windows, which finds the windows
     Raises ValueError if a window has fewer than three abscissae.
     """
     rows = []
@@ -106,9 +112,9 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
 
 
 def _fit(ensemble, lines, window, **options):
-    """Fit an ensemble with a single definition of the rms height in one window; return {column: value}.
+    """Fit β and ζ of an ensemble with a single definition of the rms height in one window; return {column: value}.
 
-    lines : ensemble of lines for the computation of λ, or None
+    lines : ensemble of lines from which λ (see the module) is found, or None
     window : (X_low, X_high)
     options : average, resamples and seed of the fit
     """
@@ -125,12 +131,12 @@ def _fit(ensemble, lines, window, **options):
 
 
 def calibrated(scaling, sizes, *, conventions, across):
-    """Return the fits that calibrate the penetration law: a table with the columns of viscorough.law.calibrated_law.
+    """Select the fits that calibrate the penetration law: a table with the columns of viscorough.law.calibrated_law.
 
     scaling : table of `scaling_table`; its discs have `across` elements across
     sizes : table of `sizes_table`. Its discs with `across` elements across are used for those Hurst exponents that
         `scaling` lacks
-    conventions : {convention: value} of the selected fits
+    conventions : {convention: value} of the selected fits, for example {"average": "geometric"}
     """
     rows = [fits(scaling, conventions | source_values(source), case_group="base") for source in ("discs", "lines")]
     further = fits(sizes, conventions | source_values("discs"), case_group="sizes")

@@ -139,7 +139,7 @@ def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
 
     discs, lines : pools (viscorough_study.ensembles.pool) of realizations on grids from coarse to fine
     ranges : section `collapse` of the settings
-    conventions : average and rms_convention of the figures
+    conventions : {"average": kind of mean over the realizations, "rms_convention": where h is measured}
     tolerance : tolerance of exponents
     options : fraction_min and seed of scaling_collapse.grids
     """

@@ -106,7 +106,8 @@ def match_lambda(x, discs, lines, window, **options):
     """Return λ (see the module) at the geometric centre of a window of X, with its 95 % interval: (value, low, high).
 
     x, discs, lines, options : arguments of `match_lines`
-    Values are nan if the lines do not reach the stiffness of the discs at abscissae where all lines are defined.
+    λ is nan if the mean curve of the lines does not reach the stiffness of the discs. Only abscissae that all lines
+    reach are used.
     """
     match = match_lines(x, discs, lines, **options)
     return with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0], min(len(discs), len(lines)))

@@ -95,7 +95,7 @@ def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
 
 
 def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
-    """Return (passed, failed), the fractions of synthetic ensembles that pass and that fail the second test.
+    """Return (passed, failed), the fractions of synthetic ensembles that pass and fail the second test of the module.
 
     The test compares the 95 % interval of the number of decades (see `plateau`) with decades_min. An ensemble passes if
     the whole interval is at least decades_min, and fails if the whole interval is below decades_min.
@@ -114,15 +114,16 @@ def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
 
 
 def half_spread(ensemble, region, *, half_width, resamples, random):
-    """Apply the first test: return half the spread of the local slopes within region (b), with its 95 % interval.
+    """Return half the spread of the local slopes d ln(vt/h)/d ln X within region (b), with its 95 % interval.
 
-    The slopes are slopes of the geometric mean over the realizations.
+    The spread is the largest slope minus the smallest slope of the geometric mean over the realizations. This is the
+    first test of the module.
 
     ensemble : ensemble dataset (ensembles.averages) with a single definition of the rms height
     region : ends (X_low, X_high) of region (b), or None if there is no region (b)
     half_width : a local slope is fitted to the points within ± half_width in ln X
-    Returns a dict with the keys half_spread, half_spread_low, half_spread_high and region_decades. If `region` is None,
-    its only key is region_decades, with the value 0.
+    Returns a dict with the keys half_spread, half_spread_low, half_spread_high and region_decades (decades of X in
+    region (b)). If `region` is None, the dict contains only region_decades, which is 0.
     """
     if region is None:
         return {"region_decades": 0.0}
@@ -137,11 +138,11 @@ def half_spread(ensemble, region, *, half_width, resamples, random):
 
 
 def plateau_table(discs, *, control, rms_convention, region, seed, **options):
-    """Apply both tests of the module to the base discs and to the control at every Hurst exponent.
+    """Apply both tests of the module to the base discs (which all figures use) and to the control at every H.
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
 
-    discs : pool (viscorough_study.ensembles.pool) that contains the base discs and the control
+    discs : pool of loading curves (viscorough_study.ensembles.pool) that contains the base discs and the control
     control : name of the group of discs without a power law, or None
     rms_convention : name of the definition of the rms height h
     region : limits of region (b), arguments of viscorough_study.fits.power_law.find_region

@@ -79,7 +79,8 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
     """
     run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
     windows = dict.fromkeys(FITTED["window_rule"])
-    if region := find_region(mean, **run_limits, **limits):  # without region (b), tables state nan and 0 decades
+    # If the ensemble has no region (b), the three windows made from it stay None. Tables then state nan and 0 decades.
+    if region := find_region(mean, **run_limits, **limits):
         middle = np.sqrt(np.prod(region))
         windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)

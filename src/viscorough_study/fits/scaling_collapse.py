@@ -216,7 +216,7 @@ def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
 
 
 def p_value(curves, beta):
-    """Return the p-value of the collapse: a small value means that the curves of the grids have no common curve.
+    """Return the p-value of the collapse: if it is small, the curves of the grids do not lie on a common curve.
 
     The p-value is the fraction of bootstrap samples that spread at least as much as the curves. The samples are shifted
     so that all grids have the same mean curve (see the module).
@@ -232,7 +232,8 @@ def p_value(curves, beta):
     moved, weights = [], []
     for x, (grid, (_, log_y)) in zip(scaled, curves, strict=True):
         values = make_interp_spline(x, log_y, k=1, axis=1)(common_x) + power * np.log(grid.number)
-        values[1:] -= values[0]  # the resamples now scatter about the same curve, 0
+        # Subtract the curve of the ensemble from its resamples. Then the resamples of all grids scatter about 0.
+        values[1:] -= values[0]
         moved.append(values)
         inside = (common_x >= x[0] - ROUNDING * step) & (common_x < x[-1] - ROUNDING * step)
         weights.append(grid.realizations * inside)

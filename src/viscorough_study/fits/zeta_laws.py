@@ -1,17 +1,18 @@
-"""Measure how far the paper's laws of the prefactor ζ(H) are from the data, also up to a factor common to all H.
+"""Compare the paper's laws of the prefactor ζ(H) with the data: their deviation, and the part that is equal for all H.
 
-Each law is compared with two quantities. Each comparison gives the logarithm r of a ratio for each Hurst exponent. With
-the reduced force X = F/(4GhL), the ratios are
+The velocity follows vt/h = X^(H/(1+H))/ζ, with the reduced force X = F/(4GhL). Each law of ζ(H) is compared with
+two quantities. Each comparison gives the logarithm r of a ratio for each Hurst exponent. The ratios are
 
 - "zeta": the ratio of the measured ζ to ζ of the law. The measured ζ is fitted in region (b), together with β.
 - "curve": the ratio of the measured vt/h to X^(H/(1+H))/ζ with ζ of the law, at abscissae that lie in the regions (b)
   of all Hurst exponents. For Eq. 11, with the factor 1/Γ(2 − α), this is the ratio of both sides of Eq. 12, as in
   Fig. 3.
 
-Three measures are computed from r. The deviation is √⟨r²⟩. The common factor is exp⟨r⟩. The spread between Hurst
-exponents is √⟨(r − ⟨r⟩_H)²⟩, where ⟨r⟩_H is the mean over the Hurst exponents. For "zeta" the spread is the error of
-the shape of ζ(H). For "curve" the spread is 0 if all curves collapse onto one curve. Intervals are from bootstrap
-samples of the realizations. Scatter adds to deviation and spread, so both are biased to large values.
+Three numbers (measures) are computed from r. The deviation is √⟨r²⟩. The common factor is exp⟨r⟩. The spread between
+Hurst exponents is √⟨(r − ⟨r⟩_H)²⟩, where ⟨r⟩_H is the mean over the Hurst exponents. It is the deviation that remains
+if ζ of the law is multiplied by the factor that fits all H best. For "zeta" the spread is the error of the shape of
+ζ(H). For "curve" the spread is 0 if all curves collapse onto one curve. Intervals are from bootstrap samples of the
+realizations. Scatter of the surfaces increases the deviation and the spread, so both are on average too large.
 
 Eq. 4 is a law of the elastic contact, without the factor 1/Γ(2 − α). The paper compares it with Eq. 11, which has this
 factor.
@@ -46,10 +47,10 @@ COLUMNS = {
 
 
 def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
-    """Find region (b) of the base discs of a pool, and return the table that `zeta_laws` makes from them.
+    """Compare the paper's laws of ζ(H) with the base discs, which all figures use; return the table of `zeta_laws`.
 
-    discs : pool of discs (viscorough_study.ensembles.pool)
-    conventions : average and rms_convention of the figures
+    discs : pool of the loading curves of discs (viscorough_study.ensembles.pool)
+    conventions : {"average": kind of mean over the discs, "rms_convention": where h is measured}
     fit : arguments of fits.power_law.named_windows, whose default window is region (b)
     hurst_mins, resamples, seed : arguments of `zeta_laws`
     """
@@ -60,18 +61,21 @@ def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
 
 
 def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed):
-    """Compute the measures of every law, and their differences from Eq. 11; return a pandas.DataFrame.
+    """Compute deviation, common factor and spread (see the module) of every law of ζ(H), and compare laws with Eq. 11.
 
-    Its columns are `COLUMNS`.
+    Returns a pandas.DataFrame with the columns of `COLUMNS`. It also has the deviation and the spread of each law minus
+    the deviation and the spread of Eq. 11.
 
-    ensembles : {H: ensemble dataset (viscorough_study.ensembles.averages) with a single definition of the rms height}
+    ensembles : {H: ensemble dataset (viscorough_study.ensembles.averages)}, where the rms height h is measured in a
+        single region of the surface
     windows : {H: ends (X_low, X_high) of region (b), or None}
-    hurst_mins : list of lowest Hurst exponents; for each entry, only this and larger Hurst exponents are compared
+    hurst_mins : list of Hurst exponents; the laws are compared once for each entry, with the data of all H that are at
+        least this entry
     average : "arithmetic" or "geometric" mean over the realizations
     resamples, seed : number of resamples and seed of the bootstrap, which draws the realizations of each Hurst exponent
         independently
-    All values are nan if a compared Hurst exponent has no region (b). Values of the quantity "curve" are nan if the
-    regions (b) have no X in common.
+    All values are nan if a compared Hurst exponent has no region (b). The values of the comparison "curve" (see the
+    module) are nan if the regions (b) have no X in common.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, []
     for hurst_min in hurst_mins:
@@ -89,7 +93,9 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
 
 
 def measure_value(table, quantity, law, measure, hurst_min=0.0):
-    """Return a measure from the table of `zeta_laws` with its 95 % interval: (value, low, high).
+    """Look up a deviation, common factor or spread in the table of `zeta_laws`; return (value, low, high).
+
+    low and high are the ends of the 95 % interval.
 
     quantity, measure, hurst_min : entries of the columns of these names
     law : key of `LAWS`, or result of `difference`
@@ -100,7 +106,9 @@ def measure_value(table, quantity, law, measure, hurst_min=0.0):
 
 
 def difference(law):
-    """Return the name that the column "law" has for the difference of measures, `law` minus Eq. 11.
+    """Return the entry of the column "law" in rows whose value is the difference of two laws: `law` minus Eq. 11.
+
+    The difference is that of their deviations or of their spreads (see the module).
 
     A positive difference means that Eq. 11 is nearer to the data.
     """
@@ -108,7 +116,7 @@ def difference(law):
 
 
 def _measures(logarithms):
-    """Return {name of a measure: its values}, computed from the logarithms r of ratios (see the module).
+    """Compute deviation, common factor and spread from the logarithms r (see the module); return {name: values}.
 
     logarithms : r, shape (resamples + 1, Hurst exponents, X)
     Each array of values has the shape (resamples + 1,). The first value belongs to the ensemble.

@@ -53,7 +53,7 @@ def _automatic(problem, tolerance):
 
 
 def _at_levels(problem, tolerance):
-    """Solve the contact at the depths of the problem, so that no interpolation is needed."""
+    """Compute the velocities by contacts at the depths of the problem, so that no interpolation is needed."""
     curve = indent(problem.indenter, tolerance=tolerance, depths=problem.depth)
     return curve.force / curve.stiffness, curve.depth.size
 
@@ -62,13 +62,13 @@ def _at_levels(problem, tolerance):
 
 
 def _events(problem, fraction):
-    """Integrate the viscous problem from contact event to contact event, up to a contact fraction."""
+    """Compute the velocities by integration in time from contact event to contact event, up to a contact fraction."""
     events = march_events(problem.indenter, until_fraction=fraction)
     return problem.force / events.resistance[events.event_at(problem.force)], events.impulse.size
 
 
 def _steps(scheme, problem, number):
-    """Integrate the viscous problem in steps, and interpolate the velocity between the ends of the steps.
+    """Compute the velocities by integration of the viscous problem in time steps, and by interpolation between them.
 
     scheme : scheme of `march_steps`
     number : number of steps; the impulses ∫F dt/η at the ends of the steps are in equal ratios
@@ -82,7 +82,10 @@ def _steps(scheme, problem, number):
 
 
 def _implicit(problem, tolerance):
-    """Integrate the viscous problem by backward Euler steps, which end at the impulses ∫F dt/η of the reference."""
+    """Compute the velocities by backward Euler steps of the viscous problem.
+
+    The steps end at the impulses ∫F dt/η of the reference solution.
+    """
     steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
     return problem.force / steps.resistance, steps.impulse.size
 
@@ -91,7 +94,7 @@ def _implicit(problem, tolerance):
 
 
 def _reduction(problem, points):
-    """Compute the velocities by the MDR.
+    """Compute the velocities by the method of dimensionality reduction (MDR), from a line that represents the indenter.
 
     The line of a body of revolution is exactly equivalent to the body. The line of a rough disc is random, with the
     same h, L and H as the disc.
@@ -103,7 +106,7 @@ def _reduction(problem, points):
 
 
 def _law(problem, gamma):
-    """Evaluate the paper's law for the velocity, Eq. 12, in units of h = 1.
+    """Compute the velocities by the paper's law, Eq. 12, in units of h = 1.
 
     gamma : 1 with the factor 1/Γ(2−α), 0 without this factor
     """

@@ -1,7 +1,8 @@
-"""Measure error and cost of every model of one surface.
+"""Measure error and computing time of every method that predicts the contact of one rough surface.
 
-The models are boundary elements on several grids and with several tolerances, boundary elements with a requested error
-(`indent` then chooses the grid), the MDR, and the law of the library.
+A method is called a model here. The models are boundary elements on several grids and with several tolerances, boundary
+elements with a requested error (`indent` then chooses the grid), the method of dimensionality reduction (MDR), and the
+calibrated penetration law of the library.
 
 The error of a model is its deviation from the full map, the map of all points of the same surface. The error of the
 velocity v is the root mean square of ln(v/v_full) at X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several
@@ -62,7 +63,9 @@ LABELS = ["hurst", "quantity", "model", "across", "parameter", "value"]
 
 
 def measure_surfaces(*, hurst, elements, surfaces, seed):
-    """Measure cost and error of every model; return a pandas.DataFrame with the columns of `COLUMNS`.
+    """Measure computing time and error of every model (see the module) on several surfaces for each Hurst exponent.
+
+    Returns a pandas.DataFrame with the columns of `COLUMNS`, averaged over the surfaces.
 
     hurst : Hurst exponents; elements : number of elements across the full map
     surfaces : number of surfaces for each Hurst exponent; seed : root of the surfaces' seeds
@@ -82,7 +85,7 @@ def measure_surfaces(*, hurst, elements, surfaces, seed):
 
 
 def averaged(table):
-    """Average the rows of single surfaces.
+    """Average the rows of a table over the surfaces, and return the averaged table.
 
     Errors are averaged by the root mean square, times by the median, and stated errors by the arithmetic mean.
     """
@@ -97,9 +100,9 @@ def averaged(table):
 
 
 def surface_rows(hurst, elements, seed):
-    """Measure every model on one surface; return the table rows as dicts.
+    """Measure error and computing time of every model (see the module) on one random surface; return rows of the table.
 
-    The keys are the columns of `COLUMNS`, except for hurst and surfaces.
+    Each row is a dict, whose keys are the columns in `COLUMNS` except for hurst and surfaces.
     """
     own_seed, line_seed = seed.spawn(2)
     disc = self_affine_disc(hurst, elements, seed=own_seed)  # a disc with h = L = 1

@@ -42,9 +42,10 @@ def named_problem(name, elements, levels, *, root=None, hurst=None):
 
     elements : number of elements across the indenter; levels : number of depths
     root, hurst : root seed and Hurst exponent of a rough disc
-    For sphere and cone, the contact radii are 0.1 to 0.45 L, and the reference velocities are exact. The depths of a
-    rough disc are in equal ratios. They begin above the depth at which a second element touches, and end at FINAL_X or
-    FINAL_FRACTION, whichever the disc reaches first.
+    For sphere and cone, the contact radii are 0.1 to 0.45 L, and the reference velocities are exact. On a rough disc,
+    each depth is the same multiple of the previous depth. The smallest depth is 1.5 times the depth at which at least
+    two elements are in contact. At the largest depth, X = FINAL_X or the contact fraction FINAL_FRACTION is reached,
+    whichever is reached first.
     """
     if name == "rough disc":
         seed = realization_seed(root, *method_problem_key(hurst, elements))

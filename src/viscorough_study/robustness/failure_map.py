@@ -45,7 +45,7 @@ def map_failures(*, seed, across, grids, hurst_min):
 def failure_map(cases, methods=METHODS):
     """Apply every method to every stress-test case; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    methods : {name: (function, limit)}, see stress_solutions.METHODS
+    cases : iterable of StressCase; methods : {name: (function, limit)}, see stress_solutions.METHODS
     """
     rows, solutions = [], {}
     for case in cases:

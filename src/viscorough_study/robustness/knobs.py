@@ -39,7 +39,7 @@ COLUMNS = {
 
 
 def failure_knobs(discs, scaling, *, seed, across, conventions):
-    """Measure the error for several values of each of the three settings; return a pandas.DataFrame with `COLUMNS`.
+    """Measure the errors of three methods as functions of a setting (see the module); return a table with `COLUMNS`.
 
     discs : pool of discs (ensembles.pool); scaling : table of fitted power laws
     seed : root seed; across : number of elements across the disc of the explicit steps, and across the flat disc

@@ -48,11 +48,12 @@ def hurst_id(hurst):
 
 
 def disc_cases(settings):
-    """Return {name of a case: its description} for all cases of discs.
+    """Return {name: description} of all cases of discs.
 
     A case describes ensembles of discs for the jobs that compute their loading curves. Its description has the keys
     pool, group, realizations, batch, indentation and ensembles. Each ensemble has the keys name, spawn_key, elements,
-    surface (arguments of self_affine_disc) and realizations. In base cases an ensemble also has the key combination.
+    surface (arguments of self_affine_disc) and realizations. In the group "base" an ensemble also has the key
+    combination.
 
     The seed of a disc is the spawn key followed by the number of the realization (run.seeds). `realizations` of a case
     is the sum over its ensembles, or, if `side_by_side` is true, the number for each ensemble.
@@ -87,9 +88,10 @@ def _changes_of_variants(settings):
 
 
 def surfaces_left_open(settings):
-    """Return the names of the groups of discs whose surfaces differ only in conventions that the paper leaves open.
+    """Return the names of the groups of discs whose surfaces may be those of the paper, as far as the paper states.
 
-    Variants with other differences, such as a roll-off, are controls, and are omitted.
+    The surfaces of these groups differ only in `SURFACE_CONVENTIONS`, which the paper does not state. Groups with other
+    differences, such as a roll-off, are controls, and are omitted.
     """
     changes = {"base": {}} | _changes_of_variants(settings)
     return [group for group, changed in changes.items() if set(changed) <= SURFACE_CONVENTIONS]
@@ -97,7 +99,8 @@ def surfaces_left_open(settings):
 
 def _size_discs(settings):
     sizes = settings["sizes"]
-    # With these settings all curves end at the same dimensionless force X.
+    # The first `whole_curves` curves of an ensemble end at the dimensionless force X = `until_x`, all other curves at
+    # `short_until_x`. Here both values of X are equal, so `whole_curves` does not matter.
     ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}
     shared = {"pool": "size_discs", "indentation": settings["indentation"] | ends}
     surface, powers = settings["surface"] | UNIT_DISC, [{"hurst": hurst} for hurst in sizes["hurst"]]
@@ -115,7 +118,7 @@ def _size_discs(settings):
 
 
 def _ensemble(name, spawn_key, surface, grid):
-    """Return the description of an ensemble of a case.
+    """Return the description of an ensemble of surfaces, as it is stored in a case (see `disc_cases`).
 
     grid : settings that contain the number of realizations, and the number of elements across a disc or of points of a
         line
@@ -125,7 +128,7 @@ def _ensemble(name, spawn_key, surface, grid):
 
 
 def _joint_case(ensembles, batch, group, **shared):
-    """Return the description of a case whose batches run through its ensembles in sequence.
+    """Return the description of a case (see `disc_cases`) whose batches run through its ensembles in sequence.
 
     batch : number of realizations in a batch; shared : further keys of the description
     """
@@ -134,10 +137,11 @@ def _joint_case(ensembles, batch, group, **shared):
 
 
 def line_cases(settings):
-    """Return {name of a case: its description} for all cases of lines.
+    """Return {name: description} of all cases of lines.
 
-    Descriptions have the same keys as in `disc_cases`, with three exceptions. An ensemble has points instead of
-    elements. Its surface contains the arguments of self_affine_line. The case has until_x instead of indentation.
+    A case describes ensembles of lines for the jobs that compute their loading curves. Descriptions have the same keys
+    as in `disc_cases`, with three exceptions. An ensemble has points instead of elements. Its surface contains the
+    arguments of self_affine_line. The description has until_x instead of indentation.
     """
     lines, sizes, cases = settings["lines"], settings["sizes"], {}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
@@ -164,9 +168,9 @@ def method_problems(settings):
 
 
 def first_combination(settings):
-    """Return the names of the ensembles of the first combination in the settings, one for every Hurst exponent.
+    """Return the names of the ensembles with the first parameters in discs.combinations, one for every Hurst exponent.
 
-    A combination consists of force, viscosity, diameter and rms height.
+    The parameters are force, viscosity, diameter and rms height.
     """
     first = settings["discs"]["combinations"][0]["number"]
     return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
@@ -195,13 +199,13 @@ def example_discs(settings):
 
 
 def batches(case):
-    """Return the names of the batches of a case, such as 0008-0015 for realizations 8 to 15."""
+    """Return the names of the batches (jobs) of a case, such as 0008-0015 for realizations 8 to 15."""
     number, size = case["realizations"], case["batch"]
     return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
 
 
 def batch_ensembles(case, batch):
-    """Return the parts of the ensembles of a case that belong to one batch.
+    """Return the parts of the ensembles of a case that one job computes, which is a batch of realizations.
 
     A part is a dict with the keys name, spawn_key, surface, elements or points, and numbers. `numbers` is the range of
     realizations in this batch, [first, end]; end is not included.
@@ -222,7 +226,9 @@ def _in_batch(ensemble, numbers):
 
 
 def pool_batches(tables, pool):
-    """Return [(name of the case, batch)] for all batches of a pool of curves, in the order of the table.
+    """Return [(name of the case, name of the batch)] for all batches from which a pool of curves is made.
+
+    They are in the order of the table of descriptions.
 
     tables : {kind of surface: {name of a case: description}}
     """
@@ -231,7 +237,7 @@ def pool_batches(tables, pool):
 
 
 def pool_curves(tables, pool):
-    """Return the files of all loading curves of a pool.
+    """Return the names of the files with the loading curves of a pool.
 
     tables : {kind of surface: {name of a case: description}}
     """
@@ -239,7 +245,7 @@ def pool_curves(tables, pool):
 
 
 def pool_groups(tables, pool):
-    """Return a list with the group, such as "base", to which the case of each batch of a pool belongs.
+    """Return a list with the group, such as "base", of the surfaces in each batch of a pool of curves.
 
     tables : {kind of surface: {name of a case: description}}
     """
@@ -247,7 +253,7 @@ def pool_groups(tables, pool):
 
 
 def pool_jobs(tables):
-    """Return a list of {name of a Snakemake wildcard: its value}, with one entry for every batch of every pool.
+    """Return the Snakemake wildcards of every batch of every pool of curves, as a list of {name: value}.
 
     tables : {kind of surface: {name of a case: description}}
     """
@@ -261,7 +267,7 @@ def pool_jobs(tables):
 
 
 def combination_curves(discs):
-    """Return the files of the loading curves of the base discs, which all figures use.
+    """Return the names of the files with the loading curves of the base discs, which all figures use.
 
     These are the curves of all combinations of force, viscosity, diameter and rms height.
     discs : {name of a case: description}

@@ -1,4 +1,7 @@
-"""Make the cases of the measured surfaces: descriptions of the scans in the settings, for the jobs that indent them."""
+"""Describe the measured surfaces (scans) that the settings name, as input of the jobs that compute loading curves.
+
+The description of a scan is called a case.
+"""
 
 import hashlib
 import re
@@ -9,15 +12,15 @@ from viscorough_study.run.settings_model import ScanGroup
 
 
 def scans(entries, indentation):
-    """Return {name of a scan: description of its case} for all files that the setting `measured` names.
+    """Return {name of a scan: its description} for all files of measured heights that the setting `measured` names.
 
     entries : setting `measured`; its patterns of files are relative to the working directory
     indentation : section `indentation` of the settings
 
-    A case describes surfaces for a job (run.cases); here it is a single scan. Its description has the keys pool,
-    realizations, batch, indentation and group. It also has file, bytes (size of the file) and digest (of the content of
-    the file). The keys spacing, unit, preparation, forces, young_modulus and poisson_ratio are from the entry. The name
-    of a scan consists of the names of its group and its file.
+    Like all descriptions of surfaces for jobs (run.cases), the description of a scan has the keys pool, realizations,
+    batch, indentation and group. It also has file, bytes (size of the file) and digest (of the content of the file).
+    The keys spacing, unit, preparation, forces, young_modulus and poisson_ratio are from the entry of the setting. The
+    name of a scan consists of the names of its group and its file.
 
     Raises ValueError if a pattern matches no file, or if two scans have the same name.
     """

@@ -27,7 +27,7 @@ def realization_seed(root, *key):
 def disc_key(hurst, combination):
     """Return the spawn key of the discs of a combination of force, viscosity, diameter and rms height.
 
-    combination : number of the combination in the settings
+    combination : number of the combination, as in the setting discs.combinations
     To make the seed of a disc, append the number of the realization to the key.
     """
     return _key(1, _millionths(hurst), combination)
@@ -57,7 +57,7 @@ def solver_race_key(task, hurst):
 
 
 def failure_map_key():
-    """Return the spawn key of the indenters in the stress tests, from which the failure map is made."""
+    """Return the spawn key of the indenters in the stress tests of all methods (robustness.failure_map)."""
     return _key(6)
 
 
@@ -65,7 +65,7 @@ def failure_map_key():
 
 
 def size_disc_key(hurst, elements):
-    """Return the spawn key of the discs on which grids from coarse to fine are compared.
+    """Return the spawn key of the discs whose curves are compared on several grids, from coarse to fine.
 
     elements : number of elements across the disc
     """
@@ -73,7 +73,7 @@ def size_disc_key(hurst, elements):
 
 
 def size_line_key(hurst, points):
-    """Return the spawn key of the lines on which grids from coarse to fine are compared.
+    """Return the spawn key of the lines whose curves are compared on several grids, from coarse to fine.
 
     points : number of points of the line
     """
@@ -81,7 +81,7 @@ def size_line_key(hurst, points):
 
 
 def large_disc_key(elements):
-    """Return the spawn key of the disc in the benchmark of time and memory on grids up to the finest.
+    """Return the spawn key of the disc on which benchmarks/large_discs.py measures time and memory for a given grid.
 
     elements : elements across the disc
     """
@@ -94,7 +94,7 @@ def gamma_factor_key(hurst):
 
 
 def mdr_comparison_key(hurst, realization):
-    """Return the spawn key for comparing a disc with a line that has the same spectrum.
+    """Return the spawn key of a disc and of a line with the same spectrum, whose curves are compared.
 
     The seed with this key spawns two seeds, one seed for the disc and one for the line.
     """
@@ -118,7 +118,7 @@ def plateau_key(hurst, group):
 
 
 def periodic_key(hurst, realization):
-    """Return the spawn key of a periodic surface in the test of the model of two springs.
+    """Return the spawn key of a periodic surface on which the model of fits.interface is tested.
 
     The surfaces with and without a roll-off use the same key.
     """
@@ -126,7 +126,7 @@ def periodic_key(hurst, realization):
 
 
 def law_disc_key(hurst, elements, realization):
-    """Return the spawn key of a disc on which the penetration law is calibrated or tested, up to complete contact.
+    """Return the spawn key of a disc whose curve, up to complete contact, calibrates or tests the penetration law.
 
     elements : elements across the disc
     """

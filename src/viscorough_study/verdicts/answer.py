@@ -43,7 +43,7 @@ _LAST = (
 
 
 def _outcome(verdict):
-    """Return True if a claim holds, False if it fails in all its cases, and None otherwise."""
+    """Return True for the verdict on a claim that holds, False for "not reproduced", and None otherwise."""
     return True if verdict in HELD else False if verdict == "not reproduced" else None
 
 
@@ -103,7 +103,7 @@ def _exponents(table, claim, source):
 
 
 def _hurst(case):
-    """Return the Hurst exponent in the name of a case, such as "H = 0.4, discs"."""
+    """Return the Hurst exponent from an entry of the column `case` of the verdicts, such as "H = 0.4, discs"."""
     return float(case.removeprefix("H = ").split(",")[0])
 
 

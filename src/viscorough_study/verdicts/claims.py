@@ -1,4 +1,4 @@
-"""Judge the paper's claims: make a table of all cases, derive the verdict on each claim, and summarize in Markdown.
+"""Judge the paper's claims: make a table of verdicts, derive the verdict on each claim, and summarize in Markdown.
 
 A claim is tested in several cases, such as one case for each Hurst exponent. resources/paper/claims.yaml gives the
 statement, kind, criterion and tolerance of every claim, and the reason for the tolerance. The function that judges a
@@ -136,7 +136,7 @@ def overall(table):
 
 
 def _of_cases(verdicts):
-    """Return the verdict on a claim from the verdicts on its cases."""
+    """Return the verdict on a claim from the verdicts on its cases, such as Hurst exponents (see `overall`)."""
     if "not reproduced" in set(verdicts) and verdicts.isin(HELD).any():
         return "reproduced in part"
     return max(verdicts, key=VERDICTS.index)
@@ -156,9 +156,9 @@ def physics(table):
 def verdict_text(rows):
     """Return the verdict on a claim as text.
 
-    rows : the cases of the claim, from the table of verdicts
-    If the claim is reproduced in part and its cases are Hurst exponents, the text lists the Hurst exponents where it
-    holds.
+    rows : rows of the table of verdicts for this claim, one for each case, such as a Hurst exponent
+    If the claim is reproduced in part and its cases are Hurst exponents, the text lists the Hurst exponents for which
+    the claim holds.
     """
     (verdict,) = overall(rows).values()
     held = rows.loc[rows["verdict"].isin(HELD), "case"]
@@ -170,7 +170,8 @@ def verdict_text(rows):
 def case_counts(rows):
     """Return how many cases of a claim hold and how many are undecided, as text such as "2 of 4 cases, 1 undecided".
 
-    rows : the cases of one claim; the text is empty if all of them hold or all of them fail
+    rows : rows of the table of verdicts for one claim, one for each case, such as a Hurst exponent. The text is empty
+        if all cases hold or all cases fail
     """
     held, undecided = int(rows["verdict"].isin(HELD).sum()), int((rows["verdict"] == "undecided").sum())
     if held == len(rows) or held + undecided == 0:
@@ -199,12 +200,12 @@ def place(claim):
 
 
 def deciding_case(rows):
-    """Return the index of the case that decides the verdict on a claim.
+    """Return the index of the row that decides the verdict on a claim.
 
-    Among the cases with the worst verdict, the case farthest from the paper's value decides. If the paper states no
-    value for any of these cases, the first of them decides.
+    Among the rows with the worst verdict, the row whose value is farthest from the paper's value decides. If the paper
+    states no value for any of these rows, the first of them decides.
 
-    rows : the cases of one claim
+    rows : rows of the table of verdicts for one claim, one for each case, such as a Hurst exponent
     """
     rows = rows[rows["verdict"] == max(rows["verdict"], key=VERDICTS.index)]
     distance = (rows["value"] - rows["expected"]).abs()
@@ -237,9 +238,10 @@ def markdown(table, claims):
 
 
 def cases_shown(rows):
-    """Return the cases of a claim that a summary shows: all cases, or only three if there are too many.
+    """Return the rows of a claim that a summary shows: all rows, or three if there are more than `CASES_SHOWN_MAX`.
 
-    More than `CASES_SHOWN_MAX` cases are too many; `markdown` describes the choice of the three.
+    rows : rows of the table of verdicts for one claim, one for each case, such as a Hurst exponent
+    The docstring of `markdown` says which three rows are shown.
     """
     if len(rows) <= CASES_SHOWN_MAX:
         return rows
@@ -248,7 +250,7 @@ def cases_shown(rows):
 
 
 def _case_line(row):
-    """Return the Markdown row of one case."""
+    """Return a row of the table of verdicts as a row of a Markdown table."""
     said = _digits(row["expected"]) if np.isfinite(row["expected"]) else ""
     verdict = row["verdict"] + (f": {row['convention']}" if row["convention"] else "")
     if np.isfinite(row["conventions"]):
@@ -258,7 +260,7 @@ def _case_line(row):
 
 
 def value_text(row):
-    """Return the value of a case as text, with its interval in brackets, and its least and largest value."""
+    """Return the value in a row of the table of verdicts as text, with its interval and its least and largest value."""
     if not np.isfinite(row["value"]):
         return "–"
     text = _digits(row["value"])

@@ -47,7 +47,7 @@ class Evidence:
     tables : {name of a table: pandas.DataFrame}, all tables of the workflow that the criteria read
     numbers : content of resources/paper/numbers.yaml
     conventions : {convention: value}, the conventions of the figures
-    surfaces : names of the groups of discs whose surfaces differ only in conventions
+    surfaces : names of the groups of discs whose surfaces differ only in properties that the paper does not state
     across : number of elements across a disc
     limits : arguments of viscorough_study.fits.power_law.find_region
     rules : settings decades_min and end_decades of section `verdicts`
@@ -86,7 +86,7 @@ class Evidence:
     def combinations(self):
         """Return {H: list of ensembles}, with one ensemble for each combination of the physical parameters.
 
-        A combination consists of force, viscosity, diameter and rms height.
+        A combination is a choice of force, viscosity, diameter and rms height.
         """
         return {h: list(self._ensembles(pool.select(self.discs, hurst=h), "case").values()) for h in self.pooled}
 
@@ -131,7 +131,8 @@ class Evidence:
         """Return True if a quantity lies in the range from low to high, False if it lies outside, None if undecided.
 
         values : (value, low end, high end), with the 95 % interval of the quantity
-        realizations : number of realizations behind the value; cases : number of cases of the claim
+        realizations : number of surfaces from which the value was computed
+        cases : number of cases of the claim, such as the number of Hurst exponents for which it is tested
 
         A claim holds only if all its cases lie in the range. The 95 % interval of each single case is valid for this
         test (intersection-union test: Berger, Technometrics 24, 295 (1982)). A claim fails if a single case lies
@@ -150,21 +151,20 @@ class Evidence:
         return False if equivalence(widened(values, factor * together), low, high) is False else None
 
     def case(self, name, values, expected, allowed, *, extremes=NO_INTERVAL, **counted):
-        """Return a case of a claim: a dict with a quantity, and the verdict whether it lies in the allowed range.
+        """Judge whether a quantity lies in the allowed range; return the result for one case of a claim (see `judged`).
 
         name : name of the case; expected : value of the paper, or nan
-        values : value and 95 % interval; allowed : (low, high); extremes : (least, largest) value
+        values : value and 95 % interval of the quantity; allowed : (low, high); extremes : (least, largest) value
         counted : arguments `realizations` and `cases` of `within`
-        `judged` describes the dict.
         """
         return judged(name, values, expected, self.within(values, *allowed, **counted), extremes=extremes)
 
     def case_in_combinations(self, name, values, expected, allowed, combinations, **counted):
-        """Return the case of a quantity that was computed in several combinations of conventions.
+        """Judge a quantity that was computed in several combinations of conventions; return the result (see `judged`).
 
-        Conventions are choices that the paper leaves open.
-        values : value and 95 % interval in the conventions of the figures
-        combinations : `Combinations`, the quantity in all conventions
+        Conventions are choices that the paper leaves open, such as the kind of mean.
+        values : value and 95 % interval of the quantity in the conventions of the figures
+        combinations : `Combinations`, the values of the quantity in all conventions
         The other arguments are described in `case`. With few realizations the combinations are ignored, because the
         data do not show which combinations meet the criterion.
         """
@@ -178,15 +178,15 @@ class Evidence:
         return judged(name, values, expected, met, holds_in, counts=counts)
 
     def cases_in_conventions(self, own, every, column, law, *, names, compared=True):
-        """Yield one case for each Hurst exponent: a quantity that must follow a law, judged in all conventions.
+        """Judge whether a quantity follows a law, in all conventions; yield a result (see `judged`) for each H.
 
         own : table of the quantity in the conventions of the figures, indexed by H
         every : table of the quantity in every combination of conventions. It has the column `hurst` and the columns
             `names`.
         column : column of the quantity in both tables; law : `Law`
         names : columns of `every` that together name a combination
-        compared : mask of rows of `every`. A combination for which all cases of the claim hold is only sought in these
-            rows.
+        compared : mask of rows of `every`. Only these rows are searched for a combination in which the claim holds for
+            every H.
         """
         columns = [column, f"{column}_low", f"{column}_high"]
         deviation = every[columns[1:]].sub(law.value(every["hurst"]), axis=0).abs().max(axis=1, skipna=False)
@@ -207,11 +207,14 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Combinations:
-    """Values of a quantity in every combination of conventions, which are choices that the paper leaves open.
+    """Values of a quantity that a claim is about, in every combination of conventions.
+
+    Conventions are choices that the paper leaves open, such as the kind of mean. The claim is tested in several cases,
+    such as one case for each Hurst exponent. Each case has a `Combinations`.
 
     values : value and 95 % interval of the quantity, shape (combinations, 3)
-    holds_in : text that names a combination for which all cases of the claim hold; "" if there is none
-    own : text that names the combination of the case itself; "" for the conventions of the figures
+    holds_in : text that names a combination in which all cases of the claim hold; "" if there is none
+    own : text that names the combination in which the case is judged; "" if these are the conventions of the figures
     """
 
     values: np.ndarray | list
@@ -247,19 +250,22 @@ def widened(values, factor):
 
 
 def hurst_name(hurst):
-    """Return the name of the case for a Hurst exponent, such as "H = 0.4"."""
+    """Return the text for a Hurst exponent in names of cases, such as "H = 0.4"."""
     return f"H = {hurst:g}"
 
 
 def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, counts=(np.nan,) * 3):
-    """Return a case of a claim with its verdict: a dict with the keys `CASE`.
+    """Return the result for one case of a claim, with its verdict, as a dict with the keys `CASE`.
 
-    name : name of the case; values : (value, low, high); expected : value of the paper, or nan
+    A claim is tested in several cases, such as one case for each Hurst exponent.
+
+    name : name of the case; values : (value, low, high) of the tested quantity; expected : value of the paper, or nan
     met : True if the criterion is met, and no other choice of conventions contradicts it. False if the criterion is
         not met, or is met only in some conventions. None if the data do not decide (`Evidence.within`). If the value is
         nan, the case is always undecided.
     convention : text that names conventions that meet the criterion although `met` is not True; "" if there are none
-    extremes : (least, largest) value; counts : entries of the columns conventions, agreeing and contradicting
+    extremes : (least, largest) value of the tested quantity, for example of all grids
+    counts : entries of the columns conventions, agreeing and contradicting
     """
     if not np.isfinite(values[0]):
         met, convention = None, ""
@@ -270,10 +276,10 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, 
 
 
 def exact(name, value, expected, met, values):
-    """Return the case of a quantity without statistical scatter.
+    """Return the result of `judged` for a quantity without statistical scatter, which has no interval.
 
-    met : True if the criterion is met
-    values : samples of the quantity; the case contains the least and the largest sample
+    name, expected : see `judged`; value : tested value; met : True if the criterion is met
+    values : samples of the quantity; the result contains the least and the largest sample
     """
     extremes = min(values, default=np.nan), max(values, default=np.nan)
     return judged(name, (float(value), *NO_INTERVAL), expected, bool(met), extremes=extremes)

@@ -48,15 +48,18 @@ def _disc(evidence, hurst):
 
 
 def _case(name, deviations, tolerance):
-    """Return the case of several deviations that should be zero; the largest deviation decides the verdict."""
+    """Return a verdict: whether several deviations, which should be zero, are all within the tolerance.
+
+    name : name of the verdict, which says for what the deviations were computed
+    """
     return exact(name, max(deviations), 0.0, max(deviations) <= tolerance, deviations)
 
 
 def history(evidence, tolerance):
     """Test whether force histories of equal impulse end at equal depths with equal contact.
 
-    The first case is the number of elements whose contact differs between two histories. The second case is the
-    relative difference of the depths.
+    Two numbers are tested for each pair of histories: the number of elements that are in contact after only one of the
+    two histories, and the relative difference of the depths.
     """
     disc = _disc(evidence, min(evidence.pooled))
     histories = [(times, IMPULSE * np.array(forces)) for times, forces in HISTORIES.values()]
@@ -72,7 +75,8 @@ def history(evidence, tolerance):
 def depth_over_rms(evidence, tolerance):
     """Test whether the contact stays the same if the depth u and the rms height h are multiplied by the same factor.
 
-    There is one case for each Hurst exponent: the number of elements whose contact changes.
+    The claim is tested for each Hurst exponent. The tested value is the number of elements that are in contact only
+    before, or only after the multiplication.
     """
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
@@ -84,7 +88,7 @@ def depth_over_rms(evidence, tolerance):
 
 
 def one_surface(evidence, tolerance):
-    """Yield relative differences between results for one surface in different units, which should be zero.
+    """Test whether dimensionless results for one surface are the same for other sizes, forces and viscosities.
 
     For every Hurst exponent, the stiffness κ(X) is compared between surfaces with other heights and other diameters.
     For the smallest Hurst exponent, F/(ηvL) is also compared between direct integrations in time with other forces and

@@ -1,7 +1,8 @@
 """Judge claims that fitted exponents and curves follow a law of the paper.
 
-A claim may hold in some of the conventions that the paper leaves open, and fail in others. The verdict then states both
-facts and names the convention in which the claim holds, also if the figures use a different convention.
+The paper leaves some choices open, such as the kind of mean and the range of X of a fit. They are called conventions
+here. A claim may hold in some conventions and fail in others. The verdict then states both facts and names the
+convention in which the claim holds, also if the figures use a different convention.
 """
 
 import numpy as np
@@ -39,7 +40,7 @@ def beta_lines(evidence, tolerance):
 def exponent_small_hurst(evidence, tolerance):
     """Test whether the exponent β is H/(1 + H) also at the small Hurst exponents about which the paper claims nothing.
 
-    The value of a case is β − H/(1 + H), for discs or for lines.
+    The claim is tested for each of these Hurst exponents, for discs and for lines. The tested value is β − H/(1 + H).
     """
     disc_fits = evidence.fits("discs")
     small = disc_fits.index[disc_fits.index <= evidence.paper_value("agreement", "beta_hurst_min")]
@@ -54,9 +55,10 @@ def exponent_small_hurst(evidence, tolerance):
 
 
 def coincide(evidence, tolerance):
-    """Test whether the exponents β of lines and of discs are equal at equal Hurst exponents, in all conventions.
+    """Test whether the exponents β of MDR lines and of discs are equal at equal Hurst exponents.
 
-    The value of a case is β of the lines minus β of the discs.
+    The claim is tested for each Hurst exponent. The tested value is β of the lines minus β of the discs. It is computed
+    with every kind of mean, window of the fit, and definition of the rms height, which the paper leaves open.
     """
     discs, lines = (evidence.every_fit(source).query("case_group == 'base'") for source in ("discs", "lines"))
     both = discs.merge(lines, on=["hurst", "average", "window_rule"], how="left", suffixes=("", "_of_lines"))
@@ -85,9 +87,10 @@ def hurst_only(evidence, tolerance):
 def no_grid(evidence, tolerance):
     """Test whether the stiffness κ at a given depth u/h is independent of the grid.
 
-    The value of a case is the factor by which κ changes if the number of elements grows tenfold (fits.grid_dependence).
-    The extremes of a case are the least and the largest κ of the grids. The interval of the factor already includes the
-    effect of the number of realizations, so this number does not influence the verdict a second time.
+    The claim is tested for each Hurst exponent and each depth. The tested value is the factor by which κ changes if the
+    number of elements grows tenfold (fits.grid_dependence). The least and the largest κ of the grids are stated as
+    well. The interval of the factor already includes the effect of the number of realizations, so this number does not
+    influence the verdict a second time.
     """
     table, ends = evidence.tables["grid_dependence"], (1 / (1 + tolerance), 1 + tolerance)
     table = table[table["quantity"].str.startswith("κ at u/h") & (table["compared"] == 1)].dropna(subset="factor")
@@ -103,8 +106,9 @@ def no_grid(evidence, tolerance):
 def realizations(evidence, tolerance):
     """Test whether the paper has enough indentations in Fig. 4 to determine the exponent β.
 
-    The value of a case is half the width of the 95 % interval of β for this number of indentations. This half width has
-    a 95 % interval itself, by the χ² distribution of the standard deviation of normal samples.
+    The claim is tested for each Hurst exponent. The tested value is half the width of the 95 % interval of β for this
+    number of indentations. This half width has a 95 % interval itself, by the χ² distribution of the standard deviation
+    of normal samples.
     """
     number = evidence.paper_value("boundary_elements", "realizations_fig4")
 
@@ -116,11 +120,13 @@ def realizations(evidence, tolerance):
 
 
 def _cases_in_regions(evidence, evaluate, expected, allowed):
-    """Yield one case for each Hurst exponent: a quantity in region (b), where the curves follow a power law.
+    """Test a quantity in region (b), where the curves follow a power law; yield a verdict for each Hurst exponent.
 
-    evaluate : function of H, ensemble and window of X; returns (value, low, high) and the number of realizations
-    expected : value of the paper, or nan; allowed : (low, high)
-    The ensembles are taken from `Evidence.pooled`. If an ensemble has no region (b), its case is undecided.
+    evaluate : function of H, the ensemble and the ends (X_low, X_high) of region (b); returns the quantity as (value,
+        low, high), and the number of realizations
+    expected : value of the paper, or nan
+    allowed : range (low, high) in which the claim allows the quantity
+    The ensembles are taken from `Evidence.pooled`. If an ensemble has no region (b), the verdict is "undecided".
     """
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
@@ -143,7 +149,7 @@ def _slopes(ensemble, window):
 def alpha_limit(evidence, tolerance):
     """Test whether the exponent β is 1/2 at H = 1, where the paper calls the exponent exact.
 
-    There are two cases: lines, and discs on the paper's grid.
+    The claim is tested for MDR lines, and for discs on the paper's grid.
     """
     chosen = evidence.conventions | source_values("discs") | {"case_group": "sizes"}
     discs = select(evidence.tables["sizes"], chosen).set_index("hurst")
@@ -180,8 +186,8 @@ def depth(evidence, tolerance):
 def master_curve(evidence, tolerance):
     """Test whether vt/h follows Eq. 12 as printed, at the centre of region (b).
 
-    The value of a case is the ratio of vt/h to the right side of Eq. 12. There are cases for discs, and for lines at
-    the Hurst exponents of the discs.
+    The claim is tested for each Hurst exponent of the discs, for the discs and for MDR lines. The tested value is the
+    ratio of vt/h to the right side of Eq. 12.
     """
 
     def ratio(hurst, ensemble, betas, zetas, centre):
@@ -203,9 +209,9 @@ def master_curve(evidence, tolerance):
 
 
 def _cases_at_centre(evidence, tolerance, ratio):
-    """Return one case for each Hurst exponent: a ratio at the geometric centre of region (b), which should be 1.
+    """Test whether a ratio at the geometric centre of region (b) is 1; yield a verdict for each Hurst exponent.
 
-    If an ensemble has no region (b), its case is undecided.
+    If an ensemble has no region (b), the verdict is "undecided".
     ratio : function of H, ensemble, β, ζ, and X at the centre. β and ζ are arrays with the value of the fit and the
         values of bootstrap resamples. The function returns the ratio as an array of the same form.
     """

@@ -17,7 +17,8 @@ EQUAL_WINDOWS = ("same X", "same κ")
 def lambda_constant(evidence, tolerance):
     """Test whether λ, the factor in the spectrum of a line (Eq. 13), is constant in region (b).
 
-    The value of a case is the ratio of λ at the upper end of region (b) to λ at its lower end, for one Hurst exponent.
+    The claim is tested for each Hurst exponent. The tested value is the ratio of λ at the upper end of region (b) to λ
+    at its lower end.
     """
     return _cases(evidence, evidence.tables["mdr_summary"], "drift", 1.0, (1 / (1 + tolerance), 1 + tolerance))
 
@@ -25,8 +26,8 @@ def lambda_constant(evidence, tolerance):
 def exact_correspondence(evidence, tolerance):
     """Test whether lines have the same vt/h as discs in region (b), with a single factor λ for each H (Eq. 13).
 
-    The value of a case is the error of ln(vt/h) at the upper end of region (b), with the λ that is best in this region.
-    λ is a factor in the spectrum of the line.
+    λ is a factor in the spectrum of the line. The claim is tested for each Hurst exponent. The tested value is the
+    error of ln(vt/h) at the upper end of region (b), with the λ that is best in this region.
     """
     return _cases(evidence, evidence.tables["mdr_summary"], "error_trend", 0.0, (-tolerance, tolerance))
 
@@ -34,16 +35,20 @@ def exact_correspondence(evidence, tolerance):
 def whole_curve(evidence, tolerance):
     """Test whether lines have the same vt/h as discs up to complete contact, with a single λ for each H (Eq. 13).
 
-    The value of a case is the largest error of ln(vt/h) from the start of region (b) to the end of the curve, with the
-    λ that is best in region (b). λ is a factor in the spectrum of the line.
+    λ is a factor in the spectrum of the line. The claim is tested for each Hurst exponent. The tested value is the
+    largest error of ln(vt/h) from the start of region (b) to the end of the curve, with the λ that is best in region
+    (b).
     """
     return _cases(evidence, evidence.tables["mdr_summary"], "error_whole", 0.0, (-tolerance, tolerance))
 
 
 def _cases(evidence, table, column, expected, allowed):
-    """Yield one case for each row of a table; the quantity of the case is the value in `column`.
+    """Test whether the values in a column of a table are in the allowed range; yield a verdict for each row.
 
-    The name of a case is the Hurst exponent, followed by the window if the table has the column `window`.
+    The verdict is named after the Hurst exponent, and after the range of X of the fit if the table has the column
+    `window`.
+
+    expected : value of the paper; allowed : (low, high)
     """
     for row in table.to_dict("records"):
         name = hurst_name(row["hurst"]) + (f", {row['window']}" if "window" in row else "")
@@ -54,7 +59,8 @@ def _cases(evidence, table, column, expected, allowed):
 def coincide_equal_windows(evidence, tolerance):
     """Test whether the exponents β of lines and discs are equal if both are fitted in the same range of X, or of κ.
 
-    The value of a case is β of the lines minus β of the discs.
+    The claim is tested for each Hurst exponent and both ranges. The tested value is β of the lines minus β of the
+    discs.
     """
     table = evidence.tables["mdr_exponents"]
     return _cases(evidence, table[table["window"].isin(EQUAL_WINDOWS)], "difference", 0.0, (-tolerance, tolerance))
@@ -63,7 +69,8 @@ def coincide_equal_windows(evidence, tolerance):
 def line_area(evidence, tolerance):
     """Test whether lines have the same contact fraction as the discs that they represent.
 
-    The value of a case is the ratio of the contact fraction of lines to the contact fraction of discs.
+    The claim is tested for each Hurst exponent at the centre of region (b). The tested value is the mean contact
+    fraction of the lines, divided by the mean contact fraction of the discs.
     """
     return _at_centres(evidence, "area_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
@@ -71,7 +78,8 @@ def line_area(evidence, tolerance):
 def line_gap(evidence, tolerance):
     """Test whether lines have the same mean gap as the discs that they represent.
 
-    The value of a case is the ratio of the mean gap of lines to the mean gap of discs.
+    The claim is tested for each Hurst exponent at the centre of region (b). The tested value is the mean gap of the
+    lines, divided by the mean gap of the discs.
     """
     return _at_centres(evidence, "gap_ratio", (1 / (1 + tolerance), 1 + tolerance))
 
@@ -90,11 +98,12 @@ def single_surface(evidence, tolerance):
 
 
 def own_line(evidence, tolerance):
-    """Test whether a row of independent springs with the loading curve of a surface moves like this surface.
+    """Test whether independent viscoelastic springs with the loading curve of a rough surface move like this surface.
 
-    The motion of the surface is computed by direct integration in time. The value of a case is the deviation between
-    both motions. It must be within the tolerance, and must fall to less than half with twice as many time steps. The
-    extremes of a case are the deviations with both numbers of steps.
+    The motion of the surface is computed by direct integration in time. The claim is tested for each Hurst exponent.
+    The tested value is the largest deviation between the motion of the springs and the motion of the surface. It must
+    be within the tolerance, and must fall to less than half if the number of time steps is doubled. The deviations with
+    both numbers of steps are stated as well.
     """
     for hurst, rows in evidence.tables["histories"].groupby("hurst"):
         fine, coarse = (rows[name].abs().max() for name in ("deviation", "deviation_coarse"))
@@ -102,12 +111,13 @@ def own_line(evidence, tolerance):
 
 
 def _at_centres(evidence, column, allowed, values=interval):
-    """Yield one case for each Hurst exponent: a comparison of lines with their discs at the centre of region (b).
+    """Test a quantity that compares lines with their discs at the centre of region (b); yield a verdict for each H.
 
-    column : column of the table `reduction`. Rows of the table without a value in this column are omitted.
-    allowed : (low, high)
-    values : function of a row of the table and the column; returns (value, low, high)
-    The extremes of a case are the least and the largest value in region (b).
+    column : column of the table `reduction` with the quantity. Rows of the table without a value in this column are
+        omitted.
+    allowed : range (low, high) in which the claim allows the quantity
+    values : function of a row of the table and the column; returns the quantity as (value, low, high)
+    The least and the largest value of the quantity in region (b) are stated as well.
     """
     table = evidence.tables["reduction"].dropna(subset=column)
     for hurst, window in evidence.regions.items():

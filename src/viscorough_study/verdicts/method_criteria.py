@@ -19,7 +19,7 @@ EXPLICIT = "explicit, logarithmic steps"
 def gamma(evidence, tolerance):
     """Test whether the viscous depth, by direct integration in time, is the elastic depth times the factor in Eq. 8.
 
-    There is one case for each indenter. Its value is the median of the ratio of viscous to elastic depth.
+    The claim is tested for each indenter. The tested value is the median of the ratio of viscous to elastic depth.
     """
     for name, rows in evidence.tables["direct"].groupby("case", sort=False):
         ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
@@ -29,9 +29,9 @@ def gamma(evidence, tolerance):
 def line_spectrum(evidence, tolerance):
     """Test whether the factor λ in the spectrum of a line (Eq. 13) depends on the Hurst exponent H.
 
-    The value is the ratio of λ at the largest H to λ at the smallest. If the ratio differs from 1 by more than the
-    tolerance, λ is not constant, and so not π. The two λ are independent, so the half-widths of the intervals of their
-    logarithms add in quadrature. The extremes of the case are the smallest and the largest λ/π of all Hurst exponents.
+    The tested value is the ratio of λ at the largest H to λ at the smallest. If the ratio differs from 1 by more than
+    the tolerance, λ is not constant, and so not π. The two λ are independent, so the half-widths of the intervals of
+    their logarithms add in quadrature. The smallest and the largest λ/π of all Hurst exponents are stated as well.
     """
     fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high", "realizations"]].dropna()
     if len(fits) < 2:
@@ -50,8 +50,8 @@ def line_spectrum(evidence, tolerance):
 def bodies_of_revolution(evidence, tolerance):
     """Test whether the method of dimensionality reduction is exact for bodies of revolution.
 
-    The value of a case is the error of the method on the finest grid. The extremes are the least and the largest error
-    of all grids.
+    The claim is tested for each body and each quantity, such as the force. The tested value is the error of the method
+    on the finest grid. The least and the largest error of all grids are stated as well.
     """
     validation = evidence.tables["validation"]
     rows = validation[validation["case"].str.endswith("_reduction")]
@@ -64,7 +64,7 @@ def bodies_of_revolution(evidence, tolerance):
 def elements(evidence, tolerance):
     """Test whether a disc with the paper's number of elements across has as many elements in total as the paper states.
 
-    The extremes of the case are the total numbers without and with the elements whose centres lie exactly on the rim.
+    The total numbers without and with the elements whose centres lie exactly on the rim are stated as well.
     """
     across, paper_count = (evidence.paper_value("boundary_elements", name) for name in ("elements_across", "elements"))
     count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
@@ -75,14 +75,16 @@ def elements(evidence, tolerance):
 
 
 def contact_problems(evidence, tolerance):
-    """Yield the number of contact problems that one indentation takes, counted in two ways.
+    """Test whether the indentation of one disc takes some hundreds of contact problems, which are counted in two ways.
 
-    The first case counts the changes of the contact: every element that comes into contact is a change. The second case
-    counts the steps of explicit integration in time, which solves a contact problem in every step. Each rough disc
-    counts with the smallest number of steps that gives the velocity with an error of at most `SMALL_ERROR`. Discs that
-    do not reach this error are omitted.
+    1. A new contact problem is needed whenever an element comes into contact. Their number is the largest number of
+       elements in contact.
+    2. Explicit integration in time solves a contact problem in every step. For each rough disc, their number is the
+       smallest number of steps with which the error of the velocity is at most `SMALL_ERROR`. Discs for which no
+       integration is so accurate are omitted.
 
-    The value of a case is the median over the discs. The extremes are the least and the largest number.
+    Yields a verdict for each way. The tested value is the median over the discs. The least and the largest number are
+    stated as well.
     """
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
     methods = evidence.tables["methods"]

@@ -49,13 +49,16 @@ def collapse(evidence, tolerance):
 
 
 def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
-    """Return the case of the standard deviation of a quantity between combinations, pooled over all Hurst exponents.
+    """Judge how much a quantity depends on force, viscosity, diameter and rms height; return one verdict for all H.
 
-    Only combinations (of force, viscosity, diameter and rms height) with the same Hurst exponent are compared.
+    The tested value is the standard deviation of the quantity between combinations of these four parameters. Only
+    combinations with the same Hurst exponent are compared, and the variances of all Hurst exponents are pooled.
+
     sets : for every Hurst exponent, a list with the samples of each combination (see `excess_variance`)
+    expected : value of the paper, or nan; tolerance : largest standard deviation allowed
     unit : divisor of the standard deviation
-    The extremes of the case are the least and the largest result for a single Hurst exponent. They are poorly
-    determined, because a single Hurst exponent has few combinations.
+    The least and the largest result for a single Hurst exponent are stated as well. They are poorly determined, because
+    a single Hurst exponent has few combinations.
     """
     *values, _ = np.sqrt(excess_variance(sets)) / unit
     single = [np.sqrt(excess_variance([groups])[0]) / unit for groups in sets]
@@ -100,8 +103,8 @@ def excess_variance(sets):
 def first_region(evidence, tolerance):
     """Test whether the stiffness κ in region (a), with a single element in contact, is π/(K₀₀ n).
 
-    The value of a case is the ratio of κ to this law. n is the number of elements across;
-    `reference.one_element_stiffness` defines K₀₀.
+    n is the number of elements across; `reference.one_element_stiffness` defines K₀₀. The claim is tested for each
+    Hurst exponent. The tested value is the median of κ, divided by π/(K₀₀ n).
     """
     for hurst, ensemble in evidence.pooled.items():
         alone = ensemble["contact_count"].values <= ONE_ELEMENT
@@ -111,10 +114,10 @@ def first_region(evidence, tolerance):
 
 
 def last_region(evidence, tolerance):
-    """Test whether the curves end on the line vt/h = X in region (c); yield two cases for each Hurst exponent.
+    """Test whether the curves end on the line vt/h = X in region (c); yield two verdicts for each Hurst exponent.
 
-    Both cases are means at the end of the curves. The first case is κ, which is Xh/(vt). The second case is the slope
-    of ln(vt/h) along ln X.
+    Two means over the curves are tested: κ = Xh/(vt) at the largest X of the curves, and the slope of ln(vt/h) along
+    ln X in the last part of the curves.
     """
     paper_slope = evidence.paper_value("regions", "slope_last")
     for hurst, ensemble in evidence.whole.items():
@@ -130,9 +133,10 @@ def last_region(evidence, tolerance):
 
 
 def _mean_case(evidence, name, samples, expected, allowed, **counts):
-    """Return the case of the mean of a quantity over the realizations of an ensemble.
+    """Return a verdict: whether the mean of a quantity over the realizations of an ensemble is in the allowed range.
 
-    samples : quantity for each realization; the extremes of the case are the least and the largest sample
+    name : name of the verdict, which contains the Hurst exponent; expected : value of the paper, or nan
+    samples : quantity for each realization. The least and the largest sample are stated as well
     allowed : (low, high); counts : argument `cases` of `Evidence.case`
     """
     counts |= {"realizations": samples.size, "extremes": (samples.min(), samples.max())}
@@ -140,9 +144,10 @@ def _mean_case(evidence, name, samples, expected, allowed, **counts):
 
 
 def power_law(evidence, tolerance):
-    """Test whether the slope of ln(vt/h) along ln X is constant in region (b), for each Hurst exponent of base discs.
+    """Test whether the slope of ln(vt/h) along ln X is constant in region (b), for the discs that all figures use.
 
-    The value of a case is half the difference of the largest and the smallest slope (viscorough_study.fits.plateau).
+    The claim is tested for each Hurst exponent. The tested value is half the difference of the largest and the smallest
+    slope (viscorough_study.fits.plateau).
     """
     plateaus = evidence.tables["plateaus"].query("case_group == 'base'")
     for row in plateaus.to_dict("records"):
@@ -153,7 +158,10 @@ def power_law(evidence, tolerance):
 
 
 def power_law_decades(evidence, tolerance):
-    """Yield the number of decades of X where the local slope is constant within the tolerance (see fits.plateau).
+    """Test whether the slope of ln(vt/h) along ln X is constant over enough decades of X (see fits.plateau).
+
+    The claim is tested for each Hurst exponent. The tested value is the number of decades of X in which the slope is
+    constant within a tolerance. It must be at least `decades_min` of the settings.
 
     Scatter of the curves shortens the range of constant slope. A curve therefore fails only if synthetic power laws
     with the same scatter pass; otherwise it is undecided.
@@ -170,8 +178,8 @@ def power_law_decades(evidence, tolerance):
 def power_law_control(evidence, tolerance):
     """Test whether the criterion of `power_law` rejects discs without long waves, whose curves follow no power law.
 
-    The value of a case is half the spread of the local slope in region (b). These control discs are rejected if the
-    value is above the tolerance of `power_law`.
+    The claim is tested for each Hurst exponent. The tested value is half the difference of the largest and the smallest
+    slope in region (b). The discs are rejected if it is above the tolerance of `power_law`.
     """
     plateaus = evidence.tables["plateaus"].query("case_group != 'base'")
     if plateaus.empty:
@@ -185,9 +193,10 @@ def power_law_control(evidence, tolerance):
 def separation(evidence, tolerance):
     """Test whether curves of larger Hurst exponents leave region (a) at smaller X (dimensionless force).
 
-    The value of a case is the ratio of the X where region (a) ends for one Hurst exponent to this X for the next larger
-    exponent. It is above 1 if the curve of the larger exponent leaves region (a) first. Region (a) ends where the
-    geometric mean of κ reaches `LEFT_REGION` times κ of a single element.
+    The claim is tested for each pair of neighbouring Hurst exponents. The tested value is the X at which region (a)
+    ends for the smaller exponent, divided by the X at which it ends for the larger exponent. It is above 1 if the curve
+    of the larger exponent leaves region (a) first. Region (a) ends where the geometric mean of κ reaches `LEFT_REGION`
+    times κ of a single element.
     """
     ends, level = {}, np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
     for i, (hurst, ensemble) in enumerate(evidence.pooled.items()):
@@ -233,9 +242,9 @@ def complete_contact_end(evidence, tolerance):
 
 
 def _contact_case(evidence, name, ensemble, abscissa, tolerance):
-    """Return the case of the mean contact fraction, which should be 1, at one X of an ensemble.
+    """Return a verdict: whether the mean contact fraction of an ensemble at one X is 1 within the tolerance.
 
-    abscissa : index of this X
+    name : name of the verdict, which contains the Hurst exponent; abscissa : index of the X
     """
     fractions = ensemble["contact_count"].values[:, abscissa] / ensemble["elements"].item()
     return _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=len(evidence.pooled))

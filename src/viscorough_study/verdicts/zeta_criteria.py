@@ -1,8 +1,9 @@
 """Judge claims on the prefactor ζ: its value, its dependence on H up to a common factor, and which law fits better.
 
-The criteria use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). The paper leaves some
-conventions open, also for the surfaces. A claim on the value of ζ may fail in the conventions of the figures but hold
-in others. The verdict then names the conventions with the smallest deviation.
+The criteria use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). The paper leaves some choices
+(conventions) open, such as the kind of mean, and also some properties of the surfaces. A claim on the value of ζ may
+fail in the conventions of the figures but hold in others. The verdict then names the conventions with the smallest
+deviation.
 """
 
 import numpy as np
@@ -12,8 +13,8 @@ from viscorough_study.fits.conventions import VALUES, in_reading
 from viscorough_study.fits.zeta_laws import difference, measure_value
 from viscorough_study.verdicts.evidence import Combinations, Law
 
-# Pairs (quantity, measure) of fits.zeta_laws that show which law fits better. The criterion uses the first pair; the
-# other pairs are further measures that the paper may have meant.
+# Pairs (quantity, measure) of fits.zeta_laws that show which law fits better, for example the deviation of the curves.
+# The criterion uses the first pair. The paper does not state a pair, so it may have meant one of the other pairs.
 MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), ("zeta", "spread"))
 
 
@@ -28,7 +29,7 @@ def zeta_viscous(evidence, tolerance):
 
 
 def _absolute(evidence, tolerance, law, gamma):
-    """Test whether the prefactor ζ follows a law; return one case for each Hurst exponent.
+    """Test whether the prefactor ζ follows a law; yield a verdict for each Hurst exponent.
 
     law : ζ as a function of H
     gamma : "with" or "without", whether ζ is fitted with the factor 1/Γ(2 − α)
@@ -41,7 +42,7 @@ def _absolute(evidence, tolerance, law, gamma):
 def zeta_elastic_shape(evidence, tolerance):
     """Test whether the prefactor ζ, without the factor 1/Γ(2 − α), follows Eq. 4 up to a factor common to all H.
 
-    The value of a case is the spread of the ratio of ζ to Eq. 4 between Hurst exponents.
+    The tested value is the spread of ln(ζ/ζ of Eq. 4) between Hurst exponents (fits.zeta_laws).
     """
     return _spreads(evidence, tolerance, "zeta", "Eq. 4, without Γ")
 
@@ -49,7 +50,7 @@ def zeta_elastic_shape(evidence, tolerance):
 def zeta_viscous_shape(evidence, tolerance):
     """Test whether the prefactor ζ, with the factor 1/Γ(2 − α), follows Eq. 11 up to a factor common to all H.
 
-    The value of a case is the spread of the ratio of ζ to Eq. 11 between Hurst exponents.
+    The tested value is the spread of ln(ζ/ζ of Eq. 11) between Hurst exponents (fits.zeta_laws).
     """
     return _spreads(evidence, tolerance, "zeta", "Eq. 11, with Γ")
 
@@ -57,15 +58,15 @@ def zeta_viscous_shape(evidence, tolerance):
 def master_curve_shape(evidence, tolerance):
     """Test whether vt/h at equal X follows Eq. 12 up to a factor common to all H.
 
-    The value of a case is the spread of the ratio of vt/h to Eq. 12 between Hurst exponents.
+    The tested value is the spread of ln(vt/h divided by Eq. 12) between Hurst exponents (fits.zeta_laws).
     """
     return _spreads(evidence, tolerance, "curve", "Eq. 11, with Γ")
 
 
 def _spreads(evidence, tolerance, quantity, law):
-    """Yield two cases of the spread between Hurst exponents, which is 0 if a law holds up to a factor common to all H.
+    """Test whether a law holds up to a factor common to all H: the spread between Hurst exponents is then 0.
 
-    The first case includes all Hurst exponents, the second case Hurst exponents from 0.4 on.
+    Yields one verdict for all Hurst exponents, and one verdict for Hurst exponents from 0.4 on.
     quantity, law : entries in the columns `quantity` and `law` of the table `zeta_laws`
     """
     table = evidence.tables["zeta_laws"]
@@ -79,12 +80,14 @@ def _spreads(evidence, tolerance, quantity, law):
 def zeta_better(evidence, tolerance):
     """Test whether Eq. 11 fits vt/h better than Eq. 4.
 
-    The value of a case is the deviation of vt/h from Eq. 4 minus its deviation from Eq. 11, which is positive if Eq. 11
-    fits better. Both laws have the exponent H/(1 + H). In the first case both laws have the factor 1/Γ(2 − α), as the
-    paper compares them. In the second case Eq. 4 has no such factor, as the paper prints it.
+    The tested value is the deviation of vt/h from Eq. 4 minus its deviation from Eq. 11 (fits.zeta_laws). It is
+    positive if Eq. 11 fits better. Both laws have the exponent H/(1 + H). There are two verdicts. For the first
+    verdict, both laws have the factor 1/Γ(2 − α), as the paper compares them. For the second verdict, Eq. 4 has no such
+    factor, as the paper prints it.
 
-    The paper does not say by which measure Eq. 11 fits better. Other measures than the deviation of the curves are the
-    spread of the curves over H, and the deviation and the spread of the fitted ζ.
+    The paper does not say in which sense Eq. 11 fits better. Besides the deviation of the curves, the verdict therefore
+    also takes into account the spread of the curves between Hurst exponents, and the deviation and the spread of the
+    fitted ζ.
     """
     table = evidence.tables["zeta_laws"]
     readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}

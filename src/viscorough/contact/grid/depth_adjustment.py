@@ -18,8 +18,8 @@ _LARGEST_RATIO = 2.0
 # A given force counts as met if the depth is wrong by at most this share of the largest allowed residual. The remaining
 # error is corrected along the tangent.
 _ACCURACY = 0.2
-# Stiffness Σq of a contact of a single square element. This smallest possible value is used until `prepare` computes an
-# estimate for the contact set.
+# Reduced stiffness, the sum of q = dP/du, of a single square element in contact. This smallest possible value is used
+# until `prepare` computes an estimate for the contact set.
 _LEAST_STIFFNESS = 0.28
 
 
@@ -37,9 +37,9 @@ class DepthAdjustment:
         self._stiffness = _LEAST_STIFFNESS
 
     def prepare(self, search: ConjugateGradients, places: Integers) -> None:
-        """Estimate the tangent q and the stiffness Σq for a new contact set, with the preconditioner.
+        """Estimate the tangents q = dP/du and the stiffness Σq for a new contact set, with the preconditioner M.
 
-        search : ConjugateGradients on the new contact set
+        search : ConjugateGradients with M, on the new contact set
         places : indices of the elements of the contact set in flat fields
         """
         self._places, self._response = places, search.uniform_response(self._ones)
@@ -65,7 +65,7 @@ class DepthAdjustment:
 
         residual : PreconditionedResidual, which is changed in place for the new depth
         pressure : P, flat field
-        change : BoundedField of e − g, which is changed in place for the new depth
+        change : change e − g of every gap since first contact, changed in place for the new depth
         depth : reduced depth u before the change
         """
         largest_depth = self._target.largest_depth

@@ -163,7 +163,7 @@ def update_gap(length, deflection, gap):
 
     length : length of a step along the search direction d
     deflection : K d, in rows and columns
-    gap : e − g or e_q, flat field
+    gap : gap change e − g, or tangent gap e_q = de/du, flat field
     """
     rows, columns = deflection.shape
     for i in range(rows):

@@ -135,7 +135,7 @@ class GridLoops:
 
         length : length of a step along the search direction d
         deflection : K d, in rows and columns
-        gap : e − g or e_q, flat field
+        gap : gap change e − g, or tangent gap e_q = de/du, flat field
         """
         rows, columns = deflection.shape
         width = gap.size // (rows + 2 * BORDER)

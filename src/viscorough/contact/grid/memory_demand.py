@@ -36,7 +36,8 @@ _SPECTRA = 2
 _NUMBERS_PER_ROW = 2 * 152
 # Number of columns in a block of columns (module column_fft).
 _COLUMNS_PER_BLOCK = 64
-# Number of bytes that are needed for a map of any size: for tables, and for dense solutions of hundreds of elements.
+# Number of bytes that are needed for a map of any size: for tables, and for the dense matrices of contacts of up to
+# hundreds of elements.
 _CONSTANT = 6e6
 
 
@@ -49,9 +50,10 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
     exact : True if gaps are also computed in double precision
     threads : number of threads; each has its own buffers
 
-    The estimate is proportional to the number of points of the padded grid around all elements, including its border,
-    because the arrays of the contact have this size. A narrow strip has several times fewer elements than such points.
-    The estimate is up to twice as large as the memory that is used (tests/viscorough/basics/test_memory.py).
+    The estimate is proportional to the number of points of the grid, which is the rectangle around all elements with a
+    border of a few points, because the arrays of the contact have this size. For an indenter that is a narrow strip,
+    the grid has several times as many points as the indenter has elements. The estimate is up to twice as large as the
+    memory that is used (tests/viscorough/basics/test_memory.py).
     """
     inside = np.isfinite(heights)
     rows, columns = (int(np.ptp(np.flatnonzero(inside.any(axis=axis)))) + 1 for axis in (1, 0))

@@ -57,7 +57,7 @@ class TrialContact:
     """First guess of a contact, which PressureIteration changes in place until it is the solution.
 
     pressure : P, flat field
-    change : BoundedField of e − g
+    change : change e − g of every gap since first contact, with a bound on its rounding error
     inside : True for places in contact, flat field
     depth : reduced depth u, which changes only if a force is given
     """
@@ -128,7 +128,7 @@ class PressureIteration:
         self._close_enough = max(self._limit - trial.change.rounding, trial.change.rounding)
 
     def _largest_residual(self) -> float:
-        """Return the limit for |e| in contact, and for the overlap of indenter and surface elsewhere."""
+        """Return the largest allowed gap |e| of an element in contact, and overlap of an element out of contact."""
         tolerance, share = self._grid.tolerance, min(self._contact_set.places.size / _FEW, 1.0)
         return _SEARCH_SHARE * max(share * tolerance, min(tolerance, _LEAST_RESIDUAL)) * self._trial.depth
 

@@ -211,7 +211,9 @@ class GridSolver:
         return replace(settled, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)
 
     def solve_flat_punch(self, inside: Mask, tangent: Array, tangent_gap: Array) -> float:
-        """Solve K q = 1 on a contact set by iteration, starting from a given q; return Σq.
+        """Solve K q = 1 on a contact set by iteration, starting from a given q; return the sum Σq.
+
+        q is the tangent dP/du, or the pressure of a flat punch with the shape of the contact set at the depth 1.
 
         inside : True for elements in the set, flat field
         tangent : q, flat field; zero outside the set, changed in place to the solution
@@ -227,7 +229,7 @@ class GridSolver:
         return self._loops.total(tangent, places) - self._loops.inner_product(tangent, tangent_gap, places)
 
     def _contact(self, depth: float, fields: GridFields, contact_set: ContactSet) -> GridContact:
-        """Build a GridContact from solved fields at a reduced depth, with the sums ΣP and Σq and the residual."""
+        """Build a GridContact from solved fields at a reduced depth; compute its residual, and the sums of P and q."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
         inner, residual = self._workspace.inner, self._workspace.residual
         largest = self._loops.largest_gap(change.values, self.initial_gap, residual, places)

@@ -8,22 +8,24 @@ from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE
 from viscorough.contact.state import BoundedField, ContactSet
 
-# Largest relative error of the tangent q in the energy norm. The square of this error is the relative error of the
-# stiffness.
+# Largest relative error of the tangent q in the energy norm, where q = dP/du solves K q = 1 on the contact set. The
+# square of this error is the relative error of the stiffness.
 _TANGENT_TOLERANCE = 1e-2
-# Largest accepted rounding error of e_q = K q − 1, as a multiple of the tolerance of the contact. The error of the
-# stiffness nevertheless stays within the tolerance, because it depends on the mean of e_q over the contact set, not on
-# the largest e_q (tests/viscorough/contact/test_loading_path.py).
+# Largest accepted rounding error of the residual e_q = K q − 1, as a multiple of the tolerance of the contact. The
+# error of the stiffness nevertheless stays within the tolerance, because it depends on the mean of e_q over the contact
+# set, not on the largest e_q (tests/viscorough/contact/test_loading_path.py).
 _TANGENT_ROUNDING = 5.0
 
 
 def solve_tangent(grid: GridWorkspace, contact_set: ContactSet, tangent: Array, tangent_gap: BoundedField) -> None:
-    """Solve K q = 1 on a contact set, starting from a given q; change q and e_q = K q − 1 in place.
+    """Solve K q = 1 for the elements in contact, starting from a given q; change q and e_q = K q − 1 in place.
+
+    K is the matrix of influence coefficients, q = dP/du the tangent of the pressures P, and e_q the residual.
 
     grid : GridWorkspace; no other iteration may use it at the same time
     contact_set : ContactSet
     tangent : q, flat field
-    tangent_gap : BoundedField of e_q, whose bound on the rounding error is updated
+    tangent_gap : values of e_q, and a bound on their rounding error, which is updated
 
     Raises ConvergenceError if the iteration takes more than max_iterations steps.
     """
@@ -34,7 +36,8 @@ def solve_tangent(grid: GridWorkspace, contact_set: ContactSet, tangent: Array, 
         fields = tangent_gap.values, grid.residual
         largest = max(grid.loops.each(kernels.gather_on_set, fields, contact_set.places))
         residual = search.precondition(grid.residual)
-        # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
+        # If q solves K q = 1 only up to the residual e_q = K q − 1, the corrected sum Σq − qᵀ e_q has the error
+        # e_qᵀ K⁻¹ e_q. With the preconditioner M ≈ K⁻¹, this is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
         total = grid.loops.total(tangent, contact_set.places)
         error = np.sqrt(residual.energy() / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
         if error <= tolerance:

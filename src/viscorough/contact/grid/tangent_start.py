@@ -22,7 +22,9 @@ _DEPENDENT = 1e-10
 def initial_tangent(
     trial: TrialContact, last: GridContact | None, contact_set: ContactSet, inner: slice, loops: GridLoops
 ) -> tuple[Array, BoundedField]:
-    """Return a first guess of the tangent q of a new contact, and e_q = K q − 1 on the whole grid as a BoundedField.
+    """Return a first guess of the tangent q of a new contact, and its residual e_q = K q − 1 on the whole grid.
+
+    e_q is a BoundedField: values with a bound on their rounding error.
 
     trial : the new contact, whose pressure is solved
     last : GridContact before the step; None if the new contact was solved from loads only

@@ -124,9 +124,10 @@ class GridWorkspace:
         return field.reshape(-1, self.width)[BORDER:-BORDER, BORDER:-BORDER]
 
     def gap_change(self, pressure: Array, depth: float) -> BoundedField:
-        """Return e − g = K P − u for a pressure P and a depth u, as a BoundedField.
+        """Return the change e − g = K P − u of all gaps since first contact, for a pressure P and a depth u.
 
-        For a tangent q and the depth 1, the result is e_q = K q − 1.
+        The result is a BoundedField: values with a bound on their rounding error. For a tangent q = dP/du instead of P,
+        and the depth 1, the result is e_q = K q − 1.
         """
         change = BoundedField(self.zeros(), self.field_rounding * depth)
         if pressure.any():
@@ -138,7 +139,8 @@ class GridWorkspace:
     def recompute_gap(self, pressure: Array, depth: float, change: BoundedField) -> None:
         """Recompute e − g = K P − u from a pressure P and a depth u, in double precision if the tolerance needs it.
 
-        change : BoundedField of e − g; its values are changed in place, except in the border, and its bound is renewed
+        change : result e − g; the values are changed in place, except in the border, and the bound on their rounding
+            error is renewed
         """
         load = self._exact.load[:, : self.width - 2 * BORDER]
         self.loops.shifted(self.interior(pressure), 0, load)
@@ -149,7 +151,7 @@ class GridWorkspace:
     def add_penetrating_elements(self, change: BoundedField, inside: Mask, limit: float) -> int:
         """Add elements that overlap the surface by more than `limit` to a contact set; return how many were added.
 
-        change : BoundedField of e − g
+        change : change e − g of every gap since first contact
         inside : True for elements in the set, flat field, changed in place
         """
         fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))

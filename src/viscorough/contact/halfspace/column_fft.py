@@ -247,16 +247,17 @@ def _convolve(start, stop, data, edges, spectra, frequency, stages, factors, pad
     data : complex numbers, shape (rows, columns)
     edges : first column of every block, followed by the total number of columns
     spectra : spectra of the kernels, by block, frequency and column
-    frequency : frequency in every row of a block after the last stage
+    frequency : frequency that each row of a block holds after the last stage of the first transform, as an index into
+        `spectra`, shape (rows of a block,)
     stages : three numbers for every stage: its radix, the product of the radices of all earlier stages, and the index
         in `factors` of the first row for the stage
     factors : twiddle factors, a row for every group of rows with the same factors. A stage has m groups, where m is n
         divided by the product of all radices up to the radix of the stage
-    padded : rows of a block that the first stage of the first transform reads: the rows with data, and for all further
-        rows the row of zeros that follows the data
-    place : row of a block that contains each frequency after the last stage, in the order of frequencies; the first
-        stage of the second transform reads these rows
-    same : 0, 1, 2, …, the rows that all other stages read
+    padded, place, same : numbers of the rows of a block, in the order in which a stage reads them. The first stage of
+        the first transform reads the rows `padded`: 0, 1, 2, … for the rows with data, and then again and again the
+        number of the row of zeros that follows the data. The first stage of the second transform reads the rows
+        `place`: the row that holds the frequency 0, the row that holds the frequency 1, and so on. All other stages
+        read the rows `same`: 0, 1, 2, …
     x, y : two blocks; a stage reads from one block and writes to the other
     """
     last = stages.shape[0] - 1

@@ -1,9 +1,10 @@
 """Update the Cholesky factor L of the influence matrix of a contact set that grows element by element.
 
-Two methods use this module, because both add one element after another to the contact: the dense elastic solver
-(contact.dense), and the direct integration of the viscous problem (viscous.integration.events). The integration serves
-as a check of the elastic solver. The two methods share only the influence coefficients and this linear algebra, which
-is tested against a full factorisation. The functions have many arguments because compiled code takes plain arrays only.
+Two methods use this module, because both add one element after another to the contact: the elastic solver for contacts
+of few elements (contact.dense), and the direct integration of the viscous problem (viscous.integration.events). The
+integration serves as a check of the elastic solver. The two methods share only the influence coefficients and this
+linear algebra, which is tested against a full factorisation. The functions have many arguments because compiled code
+takes plain arrays only.
 """
 
 import numpy as np

@@ -29,7 +29,7 @@ def influence_coefficient(row: Array | Integers, column: Array | Integers, aspec
     row, column : distances from the centre of the element, in rows and in columns; their shapes are broadcast
     aspect : dy/dx
 
-    Returns K [1] of the broadcast shape, taken from a table of all different distances.
+    Returns K (dimensionless) of the broadcast shape, taken from a table of all different distances.
     """
     rows, row_at = np.unique(abs(row), return_inverse=True)
     columns, column_at = np.unique(abs(column), return_inverse=True)
@@ -42,7 +42,7 @@ def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
     row, column : distances from the centre of an element, arrays of shapes (m,) and (n,)
     aspect : dy/dx
 
-    Returns K [1] of shape (m, n), see `influence_coefficient`.
+    Returns K (dimensionless) of shape (m, n), see `influence_coefficient`.
     """
     height, width = np.sqrt(aspect), np.sqrt(1 / aspect)
     # At large distances, the deflection by a long element is computed as a sum over parts of the element, which are at

@@ -136,7 +136,8 @@ def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
     The sum for a block contains the rows of G that belong to the elements of the block.
 
     first_row, last_row : first row of blocks, and the row of blocks after the last
-    factor, unit : entries of G as stored numbers, which must be multiplied by `unit`
+    factor, unit : stored numbers (in single precision, whole numbers), and the factor that converts them to the entries
+        of G
     height : rows of the grid without border
     sides : rows and columns of elements in a block
     squares : the results are stored here, by rows and columns of blocks
@@ -170,9 +171,10 @@ def _add_up(values, side, sums, first, last):
 def _multiply_row(factor, unit, residual, row, first, values):
     """Compute values = G r for consecutive elements in a row of the grid, with the sparse factor G.
 
-    factor, unit : entries of G as stored numbers, which must be multiplied by `unit`
+    factor, unit : stored numbers (in single precision, whole numbers), and the factor that converts them to the entries
+        of G
     residual : r, flat field
-    row, first : row of the grid, and column of the first element, counted with the border
+    row, first : row and column of the first element in the grid with its border, where (0, 0) is a corner of the border
     """
     width = factor.shape[2]
     at, rows = row * width + first, factor[row]

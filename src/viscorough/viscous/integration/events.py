@@ -150,9 +150,10 @@ def _respond(influence, row, column, members, count, first, second, element):
 
 @njit
 def _march(influence, row, column, initial_gap, most):
-    """Return impulse/(4π d), depth and Σq at every event, and the index of an element under tension.
+    """Return impulse/(4π d), depth and Σq at every contact event, and the index of an element under tension.
 
-    The index is a position in the contact set; −1 if no element is under tension.
+    d is the side of an element, and q solves K q = 1 on the contact set (see the module). The index is a position in
+    the contact set; −1 if no element is under tension.
 
     initial_gap : initial gaps, in increasing order
     most : number of elements in contact at which the computation stops

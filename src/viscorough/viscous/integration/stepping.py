@@ -53,7 +53,7 @@ class Steps(ReadOnlyArrays):
     contact_count : array
         Number of elements in contact.
     overlap : array
-        Largest overlap of indenter and surface, relative to the depth [1].
+        Largest overlap of indenter and surface, divided by the depth.
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
     """
@@ -163,7 +163,7 @@ class _Explicit:
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
         elements = elements_of_map(indenter, "time steps")
         # Pass the square of the tolerance, so that q is accurate to `tolerance`. GridSolver applies its tolerance to
-        # Σq, whose relative error is about the square of the relative error of q.
+        # Σq, and the relative error of Σq is about the square of the relative error of q.
         self._grid = GridSolver((0, 0, *elements.shape), elements, tolerance**2, DEFAULT)
         self._tolerance = tolerance
         # The gap stays infinite at grid points without an element.
@@ -204,9 +204,9 @@ class _Explicit:
             )
 
     def _solve_flat_punch(self) -> None:
-        """Compute q, K q − 1 and Σq, where K q = 1 on the contact set, and store them.
+        """Solve K q = 1 on the contact set; store q, K q − 1 on the whole grid, and the sum Σq.
 
-        q is the pressure of a flat punch of the shape of the contact set. Raises ConvergenceError if q is negative at
+        q is the pressure of a flat punch with the shape of the contact set. Raises ConvergenceError if q is negative at
         an element, which is impossible for the exact q.
         """
         self.resistance = self._grid.solve_flat_punch(self._inside, self._tangent, self._tangent_gap)

@@ -28,7 +28,8 @@ from viscorough.surfaces.spectrum import seed_sequence
 _BINS_PER_OCTAVE = 64
 # Number of octaves (factors of 2) below the largest gap that are divided into bins. All smaller gaps share one bin.
 _OCTAVES = 128
-# Number of waves, the longest of a map, whose powers are changed by the window function in `line_of_map`.
+# The window function in `line_of_map` changes the powers of the longest waves of a map. This is the number of these
+# waves.
 _SPOILED = 3
 # Number of counters per bin. Neighbouring points often fall into the same bin. With several counters, the processor
 # does not wait for the update by the previous point.

@@ -1,4 +1,7 @@
-"""Model rough discs as an interface in series with a flat punch; fit the interface's part of vt/h and its plateau."""
+"""Fit the model of a disc as two springs in series: a flat punch, and the rough interface between disc and half-space.
+
+The fit gives the part of vt/h that the interface contributes, and the plateau of this part (see fits.interface).
+"""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fits.interface import COLUMNS, CURVES, interface_tables
@@ -13,10 +16,10 @@ TABLES = {
 
 
 def main(discs, lines, size_discs, size_lines, csv, nc, **settings):
-    """Fit the interface of every ensemble, and write the tables.
+    """Fit the model of punch and interface to every ensemble of discs and of lines, and write the tables.
 
-    discs, lines : files of the pools (datasets of all realizations) of the base ensembles
-    size_discs, size_lines : files of the pools of ensembles on grids from coarse to fine
+    discs, lines : files with all realizations of the discs and of the lines that all figures use (base ensembles)
+    size_discs, size_lines : files with all realizations of discs and of lines on grids from coarse to fine
     csv, nc : lists of the CSV and NetCDF files to write, one for each table
     settings : further arguments of `interface_tables`
     """

@@ -1,4 +1,7 @@
-"""Fit the power laws of region (b): exponent β and prefactor ζ of every ensemble, and λ of lines matched to discs."""
+"""Fit the power law vt/h = X^β/ζ of region (b) to every ensemble of discs and of lines.
+
+Also find the factor λ in the spectrum C1D = λ q C2D of a line (Eq. 13) with which lines have the velocity of the discs.
+"""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fits.fit_table import COLUMNS, scaling_table

@@ -268,8 +268,8 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
     values = real_numbers(name, values)
     if values.ndim == 1 and values.size and np.isfinite(values).all():
         rises = np.diff(values)
-        # These differences must be above 0: from each value to the next value, or, if steps are allowed, to the second
-        # next value, so that no time is given three times.
+        # Differences that must be above 0. Without steps they are the differences v[i + 1] − v[i] of the values v. With
+        # steps they are v[i + 2] − v[i], so that a time can be given twice, but not three times.
         apart = rises if steps is None else rises[1:] + rises[:-1]
         if (rises >= 0).all() and (apart > 0).all() and (values[0] > 0 or not above_zero):
             return values
@@ -331,7 +331,7 @@ def _holds_truth_value(values: Any) -> bool:
 
 
 def _are_equal(one: Any, other: Any) -> bool:
-    """Return True if two values of a field are equal; nan equals nan."""
+    """Return True if the values that two objects have in the same field are equal; nan equals nan."""
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         return np.array_equal(one, other, equal_nan=one.dtype.kind == other.dtype.kind == "f")
     if isinstance(one, float) and isinstance(other, float):

@@ -60,9 +60,8 @@ def with_unit(value: Any) -> Any:
 
     Raises the errors of `quantity`.
     """
-    from viscorough.basics.arrays import (
-        real_number,  # imported here, so that the command line can read its options before the slow import of numpy
-    )
+    # The module `arrays` imports numpy, which takes long. The command line reads its options before this import.
+    from viscorough.basics.arrays import real_number
 
     if hasattr(value, "magnitude") and hasattr(value, "units"):
         return Quantity(real_number(str(value.units), value.magnitude), str(value.units))

@@ -153,8 +153,8 @@ def follow_events(
     within rounding, are one event. The module viscous.integration.events integrates the viscous problem in time by the
     same recursion.
 
-    most : largest number of elements in contact
-    pressure_sum : largest reduced ΣP
+    most : the computation stops when this number of elements is in contact
+    pressure_sum : the computation stops when the sum ΣP of reduced pressures exceeds this value
 
     Returns the ContactEvents after the given contact, the DenseContact at the last of these events, and True if ΣP
     reaches `pressure_sum` before another element touches.
@@ -214,13 +214,15 @@ def _exact_contact(units: Units, depth: float, members: Integers, pressure: Arra
 def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
     """Compute the contact events after a given contact (see `follow_events`) in compiled code, from plain arrays.
 
+    The rank of an element is its place in the order of increasing initial gap.
+
     depth : reduced depth of the given contact
     start, pressure : ranks and pressures P of the elements in contact at this depth
-    most : largest number of elements in contact
-    force : largest reduced ΣP
+    most : the computation stops when this number of elements is in contact
+    force : the computation stops when the sum ΣP of reduced pressures exceeds this value
 
-    Returns depth, ΣP and Σq of every event; ranks of all elements in contact, in the order of touch; and the Cholesky
-    factor of their influence matrix. The first event is the given contact.
+    Returns five arrays: the depth, ΣP and Σq of every event; the ranks of all elements in contact, in the order in
+    which they touch; and the Cholesky factor of their influence matrix. The first event is the given contact.
     """
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
@@ -263,6 +265,8 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
 @njit(inner=True, fastmath=True)
 def _next_touch(influence, row, column, initial_gap, depth, members, load, tangent, earliest, guess):
     """Find the element that touches next.
+
+    Elements are given by their ranks, their places in the order of increasing initial gap.
 
     depth : reduced depth of the contact
     members, load, tangent : ranks of the elements in contact, their pressures P and their tangents q

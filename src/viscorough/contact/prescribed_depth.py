@@ -267,10 +267,12 @@ class ContactSolver:
     def _start(
         self, grid: GridSolver, contact: ContactState, depth: float, guess: MemberLoads | None
     ) -> GridContact | MemberLoads:
-        """Return the start of the iteration for a larger depth: either a contact that is stored on `grid`, or loads.
+        """Return what the iteration at a larger depth starts from: a GridContact on `grid`, or loads (MemberLoads).
+
+        If `contact` is already on `grid`, or if its depth is not much smaller than `depth`, the result is this contact
+        on `grid`. Otherwise the result is `guess`, or MemberLoads without loads if `guess` is None.
 
         contact : contact solved last, on any grid or with a dense matrix
-        guess : loads to start from if the depth of `contact` is much smaller; None for a start without loads
         """
         if isinstance(contact, GridContact) and _is_on(grid, contact):
             return contact

@@ -298,10 +298,13 @@ class ForceSearch:
         return replace(below, reduced_depth=depth, pressure_sum=target, loads=loads._replace(pressure=pressure))
 
     def _guess(self, target: float, attempt: int) -> _Guess:
-        """Guess the contact at a force from the contacts solved before.
+        """Guess the depth at a force from the contacts solved before, and how the contact is to be solved next.
 
-        If contacts below and above the force have been solved, the next contact is solved at exactly the guessed depth.
-        Otherwise the depth is adjusted to the force while the contact is solved.
+        If contacts with smaller and with larger forces have been solved, the next contact is solved at exactly the
+        guessed depth. Otherwise the depth is adjusted to the force while the contact is solved.
+
+        target : the force as the sum ΣP of reduced pressures
+        attempt : number of depths that were already solved in the search for this force
         """
         depth = self._next_depth(target, attempt)
         if self._above:
@@ -314,6 +317,9 @@ class ForceSearch:
         """Return the depth to solve next, between the nearest solved contacts below and above the force.
 
         If no contact above the force has been solved, the depth is extrapolated from the contact below the force.
+
+        target : the force as the sum ΣP of reduced pressures
+        attempt : number of depths that were already solved in the search for this force
         """
         below = Level.of(self._below)
         by_tangent = below.depth + (target - below.pressure_sum) / below.tangent_sum

@@ -22,8 +22,9 @@ from viscorough.results.loading_curve import interpolate_between
 FINEST_ACCURACY = 1e-5
 # Largest ratio of the depths of successive levels.
 _MAX_DEPTH_RATIO = 2.0
-# Depth after the first long step divided by the depth before it, if there are too few levels at contact events (depths
-# where an element touches) to estimate this ratio.
+# At small depths, the levels of a curve are contact events (depths where an element touches). Longer steps of the depth
+# follow. If there are too few contact events to choose the length of the first longer step, it multiplies the depth by
+# this ratio.
 _INITIAL_DEPTH_RATIO = 1.15
 # If n elements are in contact, the stiffness jumps by about the share 1/n when the next element touches. Every such
 # contact event is a level of the curve as long as n is at most this number divided by the allowed error.
@@ -31,8 +32,8 @@ _EVENTS_PER_ACCURACY = 0.4
 # Up to this number of elements in contact, every contact event is a level, whatever the allowed error is. Computing
 # these events takes less time than a single longer step.
 _FEWEST_EVENTS = 40
-# Beyond this number of elements in contact, levels are no longer placed at contact events, however small the allowed
-# error is.
+# With more than this number of elements in contact, contact events are not used as levels, even if the allowed error is
+# very small.
 _MAX_EVENTS = 400
 # The next step in depth is chosen so that its expected error bound is this share of the allowed bound.
 _AIM = 0.8

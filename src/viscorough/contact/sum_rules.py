@@ -439,8 +439,8 @@ def audit(
         try:
             curve = _merged(curve, _curve(indenter, depths=depths, **how))
         except ValueError:
-            # The forces do not increase with the depth, because the levels are too inaccurate. Keep the last curve and
-            # its estimated error.
+            # With the new levels the forces would not increase with the depth, because the levels are too inaccurate.
+            # Leave out the new levels: keep the curve before this round and its estimated error.
             break
         rules = integrals(curve, complete)
     between = curve.force > plain.force[0]
@@ -459,11 +459,12 @@ def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
 
 
 def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Array:
-    """Return the fewest depths of new levels that reduce the error of the integrals to the allowed error.
+    """Return depths of new levels that reduce the error of the integrals to the allowed error, with few new levels.
 
-    Intervals between levels are divided into equal parts. With n parts, the error of an interval is n times smaller. If
-    the errors e of the intervals are independent, the total number of parts is smallest for n ∝ e^(2/3). Errors of
-    equal sign add up to more than √Σe². Each n is therefore multiplied by the estimated error divided by √Σe².
+    Each interval between two levels is divided into n equal parts, which makes its error e about n times smaller. If
+    the errors of the intervals are independent, the total error is √Σe², and the total number of parts is smallest for
+    n ∝ e^(2/3). If errors have equal signs, the estimated error E of the integrals (SumRules.error) can exceed √Σe².
+    Every n is then multiplied by E/√Σe².
 
     rules : both integrals of the curve, with the errors of its intervals
     allowed : allowed relative error of both integrals

@@ -217,7 +217,10 @@ def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
 
 
 def lines_of_files(results: Iterable[LoadRows]) -> list[dict[str, Any]]:
-    """Return the lines of a table, each as {column: value}: one for each load, and one for each file without rows."""
+    """Return all rows of a table, each as a dict {column: value}, from the results of several files of heights.
+
+    A file has one row for each load. A file that could not be evaluated has one row, with the error instead of numbers.
+    """
     return [row | {name: getattr(result, name) for name in _TEXTS} for result in results for row in result.rows or [{}]]
 
 

@@ -36,7 +36,8 @@ _COMPLIANCE: dict[str, tuple[str, int | str]] = {
     "time": ("time since a step of the force", "s"),
     "compliance": ("creep compliance J", "1/Pa"),
 }
-# All columns of the table of an identified medium: {measured quantity, depth or force: {name: (meaning, unit)}}.
+# All columns of the table of an identified medium, {name: (meaning, unit)}. They depend on which quantity was measured,
+# the depth or the force; the keys "depth" and "force" name this quantity.
 _TABLES: dict[str, Quantities] = {
     "depth": _COMPLIANCE
     | {

@@ -83,7 +83,10 @@ def _page(pages: list[Any], channel: str | None) -> Any:
 
 
 def _heights(page: Any) -> NDArray[Any]:
-    """Return the numbers of a page. Raises ValueError if the package that can decompress them is not installed."""
+    """Return the values of all pixels of a page of the file, which are the heights of the map.
+
+    Raises ValueError if the page is compressed and the package that can decompress it is not installed.
+    """
     try:
         return page.asarray()
     except (ImportError, ValueError) as error:

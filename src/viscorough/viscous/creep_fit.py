@@ -152,13 +152,16 @@ def first_lag(load: Load, lags: Array) -> float:
 def knots_of(load: Load, lags: Array) -> Array:
     """Return the knots, the times between which the fitted J is straight, measured from the start of the load.
 
-    The knots are the times of at most _KNOTS measurements. If the force starts with a ramp, they are _KNOTS times with
-    equal ratios instead, and the first of them lies before the first measurement.
+    If the force starts with a step, each knot is the time of a measurement, and there are at most _KNOTS knots. If the
+    force starts with a ramp, there are _KNOTS knots. The ratio of successive knots is then constant, the first knot
+    lies before the first measurement, and the last knot is the time of the last measurement.
 
     lags : times of the measurements, counted from the start of the load
     """
     knots = lags[lags > 0]
-    if load.values[0] == 0:  # after a ramp, the first measurement depends on J at earlier times, too
+    # If the force starts with a ramp from 0, the depth at the first measurement depends on J at all times before it. So
+    # these times need knots, too.
+    if load.values[0] == 0:
         return np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
     if knots.size > _KNOTS:  # keep times with about equal ratios
         spread = np.geomspace(knots[0], knots[-1], _KNOTS)

@@ -282,7 +282,7 @@ def _checked_record(curve: LoadingCurve, times: ArrayLike, values: ArrayLike, un
 
 
 def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
-    """Raise ValueError if a depth lies beyond the end of the loading curve."""
+    """Raise ValueError if a depth of the record lies beyond the end of the loading curve."""
     if depth.max() > curve.depth[-1]:
         where = int(np.argmax(depth > curve.depth[-1]))
         raise ValueError(
@@ -293,9 +293,10 @@ def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
 
 
 def _check_first_level(curve: LoadingCurve, times: Array, depth: Array) -> None:
-    """Raise ValueError if a depth lies before the first computed point of a curve that is not straight there.
+    """Raise ValueError if a depth of the record lies where the loading curve is not known, before its first point.
 
-    The curve is taken to be straight there if the depth of the point is a tiny share of the largest depth.
+    Between depth zero and its first computed point (level), a curve is known only if it is straight. It is also taken
+    to be straight if the depth of the first point is a tiny share of the largest depth in the record.
     """
     undetermined = np.isnan(curve.at_force(curve.force[0] / 2)[0]) and curve.depth[0] > _FIRST_LEVEL * depth.max()
     if undetermined and (before := (depth < curve.depth[0]) & (depth != 0)).any():

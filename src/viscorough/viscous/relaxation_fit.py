@@ -220,11 +220,12 @@ def _inside(record: "_ForceRecord", fits: list["_Fit"], scatter: float | None, r
 
 
 def _unknowns_of_region(fit: "_Fit") -> int:
-    """Return the number of unknowns of the joint confidence region that gives the intervals if the offset is fitted.
+    """Return the number of fitted unknowns, the argument `unknowns` of `distance_of` for a fit with an offset.
 
-    The drift, and branches that relax before the first measurements, can replace a part of the offset. The true values
-    may then lie at the edge of all values that fit the record, and the confidence region of a single unknown would be
-    too narrow. So all unknowns count: the offset, the drift, and the moduli above 0.
+    The unknowns are the offset, the drift, and the moduli above 0. The drift, and branches that relax before the first
+    measurements, have almost the same effect as a part of the offset. The true values of the unknowns may then lie at
+    the edge of the range of values that fit the record, and an interval for a single unknown would be too narrow.
+    Therefore the intervals follow from a joint confidence region of all unknowns.
     """
     return 1 + fit.drift.size + int(np.count_nonzero(fit.amounts))
 

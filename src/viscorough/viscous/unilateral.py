@@ -64,13 +64,13 @@ _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
 # Limit for the number of events at one time, divided by the number of springs. Only rounding errors can lead to more
 # events, since at one time a spring can be released once and touch once.
 _MOST_AT_ONCE = 4
-# If events at one time do not end, the springs move for a short time without events (a pause). The n-th pause between
-# two samples, n ≤ _MOST_PAUSES, has the length _PAUSE · 2^n times the time of the second sample. So pauses last from
-# the rounding error of a time to 1e-9 of the time.
+# If springs touch and are released at the same time without end, all springs move for a short time without touching or
+# being released (a pause). The n-th pause between two samples, n ≤ _MOST_PAUSES, has the length _PAUSE · 2^n times the
+# time of the second sample. So pauses last from the rounding error of a time to 1e-9 of the time.
 _PAUSE, _MOST_PAUSES = 5e-16, 21
 
 # Ways in which a motion ends: at the last sample (SETTLED), when the depth reaches its limit (BEYOND), at a step that
-# needs an infinite force (INFINITE), or because events at one time do not end (RESTLESS).
+# needs an infinite force (INFINITE), or when springs touch and are released at the same time without end (RESTLESS).
 SETTLED, BEYOND, INFINITE, RESTLESS = 0, 1, 2, 3
 
 
@@ -199,8 +199,8 @@ def move_row(
     by_depth : whether `load` is a depth instead of a force
 
     A motion up to the last time is SETTLED. The motion ends early with BEYOND if the depth reaches the limit, and with
-    INFINITE if a step of the depth presses on a parallel dashpot. It ends with RESTLESS if events at one time do not
-    end, which should not happen.
+    INFINITE if a step of the depth presses on a parallel dashpot. It ends with RESTLESS if springs touch and are
+    released at the same time without end, which should not happen.
     """
     with uninterrupted():
         *motion, ended, until = _march(gaps, weights, limit, law, times - times[0], load, by_depth)
@@ -227,10 +227,11 @@ def _second_mean(x):
 
 @njit(inner=True)
 def _evaluate(s, value, slope, bend, first, second, rates):
-    """Return f(s), f'(s), and upper bounds of f'' and −f'' that hold at all later times.
+    """Return f(s), f'(s), and upper bounds of f'' and −f'' that hold at all times after s.
 
-    f(s) = value + slope s + bend s² + Σ_k ∫x_k ds, integrated from 0 to s. Each x_k has x_k(0) = first_k and
-    x_k' = second_k − rates_k x_k.
+    f is the tension of a spring, or the overlap of the indenter with a spring, after the time s:
+
+        f(s) = value + slope s + bend s² + Σ_k ∫₀ˢ x_k(r) dr,    x_k(0) = first_k,    x_k' = second_k − rates_k x_k
     """
     f, rate = value + s * (slope + s * bend), slope + 2 * bend * s
     up, down = max(2 * bend, 0.0), max(-2 * bend, 0.0)
@@ -254,6 +255,7 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
 
     rounding : rounding error of f. If a smaller f counted as an event, a spring that was just released would touch
         again at once
+    value, slope, bend, first, second, rates : coefficients of f, see `_evaluate`
     """
     value -= rounding
     if value > 0:
@@ -298,11 +300,12 @@ def _first_crossing(end, rounding, value, slope, bend, first, second, rates):
 
 @njit(inner=True)
 def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
-    """Return a zero between a and b of the function f of `_evaluate`, found by Newton's method.
+    """Return a time s between a and b with f(s) = 0, found by Newton's method; `_evaluate` defines the function f.
 
     f increases from a to b and is positive at b.
 
     close : the search ends when |f| is at most this
+    value, slope, bend, first, second, rates : coefficients of f, see `_evaluate`
     """
     s = a
     for _ in range(_NEWTON_STEPS):

@@ -3,10 +3,12 @@
 The periodic surfaces have the same spectra as the discs. If p is the mean pressure and ū the mean separation, the
 compliance of the interface is g_per = −dū/(h d ln p); there is no compliance of a punch to subtract. For a disc, g is
 the contribution of the interface to vt/h. If g is a property of the interface alone, g and g_per are equal at the same
-mean pressure, p/E* = (4/π) X h/L. If g_per is constant, the pressure is exponential in the separation, as in Persson's
-theory, with u₀/h = g_per. For extended surfaces, the value u₀/h = 0.4 is quoted from Pastewka et al. (Phys. Rev. E 87,
-062809 (2013)). If the spectrum has a roll-off, the maximum of g_per is at a larger X. Therefore the maxima of g_per are
-compared, not the values at the same X.
+mean pressure, p/E* = (4/π) X h/L, where X = F/(4GhL) is the reduced force on the disc.
+
+If g_per is constant, the pressure decreases exponentially with the separation, p ∝ exp(−ū/u₀), as in Persson's theory,
+and u₀/h = g_per. For extended surfaces, the value u₀/h = 0.4 is quoted from Pastewka et al. (Phys. Rev. E 87, 062809
+(2013)). For surfaces whose spectrum has a roll-off, the maximum of g_per is at a larger X than for surfaces without a
+roll-off. Therefore the maxima of g_per are compared, not the values at the same X.
 
 The contact problem is solved by conjugate gradients, projected on pressures that are nowhere negative and have the mean
 p (Polonsky & Keer, Wear 231, 206 (1999)). In Fourier space the displacement is the pressure times 2/(E*|q|), and 0 at

@@ -19,8 +19,8 @@ from viscorough_study.fits.intervals import UNDEFINED, described, three_columns
 
 DEPTHS = (0.5, 1.0, 2.0)  # values of u/h at which κ is compared
 FORCES = (0.01, 0.1, 1.0)  # values of the reduced force X at which vt/h and u/h are compared
-# Lower bound of the standard deviation of a logarithm between discs. Without this bound, identical discs would have an
-# infinite weight in the fit.
+# Lower bound of the standard deviation of ln κ, ln(vt/h) or ln(u/h) among discs on the same grid. If all discs are
+# equal, the standard deviation is 0, and without this bound their mean would have an infinite weight in the fit.
 ROUNDING = 1e-12
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),

@@ -161,6 +161,7 @@ def log_means(velocity, average, resamples, generator):
     weights = np.vstack([np.ones(n), weights])
     defined = np.isfinite(velocity)
     values = np.where(defined, np.log(velocity) if average == "geometric" else velocity, 0)
-    with np.errstate(invalid="ignore", divide="ignore"):  # the mean is nan if no drawn curve reaches an abscissa
+    # At an abscissa that none of the curves in a resample reaches, the mean of this resample is nan.
+    with np.errstate(invalid="ignore", divide="ignore"):
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)

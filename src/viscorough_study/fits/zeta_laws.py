@@ -61,10 +61,15 @@ def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
 
 
 def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed):
-    """Compute deviation, common factor and spread (see the module) of every law of ζ(H), and compare laws with Eq. 11.
+    """Compute how well each of the paper's laws of ζ(H) agrees with the data, by three measures.
 
-    Returns a pandas.DataFrame with the columns of `COLUMNS`. It also has the deviation and the spread of each law minus
-    the deviation and the spread of Eq. 11.
+    The data are the measured ζ ("zeta"), and the curves of vt/h as functions of X ("curve"). Let r be the logarithm of
+    the ratio of the data to the law. The measures are the deviation √⟨r²⟩, the common factor exp⟨r⟩, and the spread of
+    r between Hurst exponents (see the module).
+
+    Returns a pandas.DataFrame with the columns of `COLUMNS`. It has the measures of every law. For every law except
+    Eq. 11 of the paper it also has two differences: the deviation minus the deviation of Eq. 11, and the spread minus
+    the spread of Eq. 11.
 
     ensembles : {H: ensemble dataset (viscorough_study.ensembles.averages)}, where the rms height h is measured in a
         single region of the surface
@@ -74,8 +79,8 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
     average : "arithmetic" or "geometric" mean over the realizations
     resamples, seed : number of resamples and seed of the bootstrap, which draws the realizations of each Hurst exponent
         independently
-    All values are nan if a compared Hurst exponent has no region (b). The values of the comparison "curve" (see the
-    module) are nan if the regions (b) have no X in common.
+    All values are nan if one of the compared Hurst exponents has no region (b). The values for "curve" are nan if the
+    regions (b) of the Hurst exponents have no X in common.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, []
     for hurst_min in hurst_mins:

@@ -1,4 +1,7 @@
-"""Make the article, results/article.pdf: fill its Typst template with the numbers of the page and further tables."""
+"""Make the article, results/article.pdf, from a Typst template.
+
+The template is filled with the numbers that the page results/index.html shows, and with further tables.
+"""
 
 import json
 import re

@@ -1,10 +1,15 @@
-"""Compare three placements of the levels of a loading curve on the same scenes: by `indent`, by hand, and naively.
+"""Compare three ways to place the levels of a loading curve, the depths at which contacts are computed.
 
-The levels of a curve are the depths of its computed contacts. A scene is an indenter and a range of force; the depth at
-any force in the range is required to several accuracies. Levels by hand are in equal ratios of depth. They cover
-exactly the range, which must be known beforehand. Naive levels are in equal steps of depth. For both kinds of levels,
-the smallest sufficient number of levels is found by trials, whose time does not count. The tolerance of every level is
-the required accuracy.
+The three ways (placements) are tested with several indenters. An indenter and a range of force are called a scene here.
+The depth at any force in the range is required, with several accuracies. The placements are:
+
+- automatic: `indent` chooses the levels.
+- by hand: the ratio of successive depths is constant. The levels cover exactly the range, which must be known
+  beforehand.
+- naive: the levels are in equal steps of depth from zero to the end of the range.
+
+For levels by hand and naive levels, the smallest sufficient number of levels is found by trials, whose time does not
+count. The tolerance of every contact is the required accuracy.
 """
 
 import logging
@@ -42,7 +47,8 @@ COLUMNS = {
 def scenes(elements, hurst, seed):
     """Return three scenes: a sphere, a rough disc in region (b), and the same disc up to a contact fraction of 0.9.
 
-    A scene is a tuple: name, indenter, and the contact fractions at the lower and the upper end of the range of force.
+    A scene is an indenter with a range of force. It is given as a tuple: name, indenter, and the contact fractions at
+    the lower and the upper end of the range.
     """
     asperity = reference.sphere(1.0).indenter(elements)
     disc = self_affine_disc(hurst, elements, seed=seed)

@@ -90,7 +90,8 @@ def averaged(table):
     Errors are averaged by the root mean square, times by the median, and stated errors by the arithmetic mean.
     """
     table = table.assign(square=table["error"] ** 2)
-    # Average rows with a requested error across grids, because each surface then gets its own grid.
+    # If an error is requested, `indent` chooses a grid for each surface, so the grids of several surfaces may differ.
+    # Rows with the same requested error are averaged nevertheless.
     grids = table["across"].where(table["model"] != REQUEST)
     means = {"processor_s": "median", "square": "mean", "stated": "mean", "across": "median", "surface": "nunique"}
     labels = [name for name in LABELS if name != "across"]

@@ -139,9 +139,12 @@ def _joint_case(ensembles, batch, group, **shared):
 def line_cases(settings):
     """Return {name: description} of all cases of lines.
 
-    A case describes ensembles of lines for the jobs that compute their loading curves. Descriptions have the same keys
-    as in `disc_cases`, with three exceptions. An ensemble has points instead of elements. Its surface contains the
-    arguments of self_affine_line. The description has until_x instead of indentation.
+    A case describes ensembles of lines for the jobs that compute their loading curves. Descriptions are dicts with the
+    same keys as in `disc_cases`, with these exceptions:
+
+    - The key `until_x` replaces the key `indentation`.
+    - In an ensemble, the key `points` replaces the key `elements`, and there is no key `combination`.
+    - In an ensemble, the value of the key `surface` contains arguments of self_affine_line.
     """
     lines, sizes, cases = settings["lines"], settings["sizes"], {}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")

@@ -4,7 +4,8 @@ A type is an annotation of pydantic. It checks values strictly: 33.0 is no whole
 becomes a part of the JSON schema, with keywords that the JSON Schema standard does not have:
 
 - `unit` of a number, "1" for a number without a unit,
-- `decimals`, the largest number of decimals, so that different Hurst exponents have different file names,
+- `decimals`, the largest number of decimals of a number; a Hurst exponent has at most as many decimals as file names
+  can hold, so different exponents have different file names,
 - `eachOnce` of a list: true if its items must differ, or, for a list of mappings, a key whose values must differ,
 - `allowed`, a description in words of the pattern of a text,
 - `also`, a requirement in addition to the limits, such as an order of two settings.

@@ -18,7 +18,7 @@ from viscorough_study.verdicts.region_criteria import combinations_case
 SHARE_OF_SQUARE = 0.75
 
 
-# ---- claims on exponents
+# ---- claims about fitted exponents
 
 
 def beta(evidence, tolerance, source="discs"):
@@ -161,7 +161,7 @@ def alpha_limit(evidence, tolerance):
         yield evidence.case(f"H = 1, {source}", values, 0.5, ends, realizations=number, cases=2)
 
 
-# ---- claims on curves
+# ---- claims about the depth u/h and the velocity vt/h as functions of X
 
 
 def depth(evidence, tolerance):

@@ -77,14 +77,14 @@ def elements(evidence, tolerance):
 def contact_problems(evidence, tolerance):
     """Test whether the indentation of one disc takes some hundreds of contact problems, which are counted in two ways.
 
-    1. A new contact problem is needed whenever an element comes into contact. Their number is the largest number of
-       elements in contact.
-    2. Explicit integration in time solves a contact problem in every step. For each rough disc, their number is the
-       smallest number of steps with which the error of the velocity is at most `SMALL_ERROR`. Discs for which no
-       integration is so accurate are omitted.
+    1. A new contact problem is needed whenever an element comes into contact. So the number of contact problems is the
+       largest number of elements in contact.
+    2. Explicit integration in time solves a contact problem in every step. So the number of contact problems is the
+       number of steps. For each rough disc, this is the smallest number with which the relative error of the velocity
+       is at most `SMALL_ERROR`. A disc is omitted if all integrations have larger errors.
 
-    Yields a verdict for each way. The tested value is the median over the discs. The least and the largest number are
-    stated as well.
+    Yields a verdict for each way. The tested value is the median of the numbers for all discs. The smallest and the
+    largest of these numbers are stated as well.
     """
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
     methods = evidence.tables["methods"]

@@ -49,7 +49,11 @@ class PreconditionedResidual:
         return self._loops.total(self.preconditioned, self.contact_set.places)
 
     def energy(self) -> float:
-        """Return zᵀe = eᵀ M e, which estimates the squared error of the pressure in the energy norm, eᵀ K⁻¹ e."""
+        """Return zᵀe = eᵀ M e, from the gap e and the preconditioned residual z = M e on the contact set.
+
+        The pressure P has the error K⁻¹ e, with the influence matrix K ≈ M⁻¹. The square of this error in the energy
+        norm is eᵀ K⁻¹ e, so the result is an estimate of this square. For the tangent, replace e by e_q and P by q.
+        """
         return self._loops.inner_product(self.preconditioned, self.gap, self.contact_set.places)
 
     def shift(self, depth_step: float, response: Array) -> None:

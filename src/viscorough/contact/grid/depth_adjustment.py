@@ -15,8 +15,8 @@ from viscorough.contact.state import BoundedField, TargetForce
 
 # Largest factor by which the depth grows or shrinks in one iteration.
 _LARGEST_RATIO = 2.0
-# A given force counts as met if the depth is wrong by at most this share of the largest allowed residual. The remaining
-# error is corrected along the tangent.
+# The target force counts as met if the depth is wrong by at most this share of the largest gap |e| that is allowed at
+# elements in contact. The remaining error is corrected along the tangent.
 _ACCURACY = 0.2
 # Reduced stiffness, the sum of q = dP/du, of a single square element in contact. This smallest possible value is used
 # until `prepare` computes an estimate for the contact set.
@@ -46,12 +46,13 @@ class DepthAdjustment:
         self._stiffness = float(self._response.sum(dtype=float))
 
     def is_met(self, pressure: Array, places: Integers, depth: float, limit: float) -> bool:
-        """Return True if the given force is met, or if it is not reached even at the largest allowed depth.
+        """Return True if the pressures sum to the target force, or to less at the largest allowed depth.
 
         pressure : P, flat field
         places : indices of the elements in contact in flat fields
         depth : reduced depth u
-        limit : largest allowed residual
+        limit : largest gap |e| that is allowed at elements in contact. The force counts as met if a change of the
+            depth by at most _ACCURACY · limit would correct the sum
         """
         missing = self._target.pressure_sum - self._loops.total(pressure, places)
         return abs(missing) <= _ACCURACY * limit * self._stiffness or (

@@ -211,13 +211,13 @@ def _interpolation_weights() -> Array:
 def _short_range(
     sides: tuple[float, float], sigma: float, precision: DTypeLike
 ) -> tuple[tuple[int, ...], tuple[int, ...], Array]:
-    """Prepare the convolution with the short-range part K − S in a tile.
+    """Prepare the convolution of the loads around a tile with the short-range part K − S (see the module).
 
     sides : dy/d and dx/d of the elements, with d = √(dx dy)
-    sigma : σ/d
+    sigma : σ/d, with the width σ of the Gaussian in S
 
-    Returns the range of K − S in rows and columns, the lengths of the Fourier transform for a tile along the columns
-    and along the rows, and the Fourier transform of K − S.
+    Returns three results: the range of K − S, as a number of rows and a number of columns; the numbers of rows and
+    columns of the array that is Fourier transformed for a tile; and the Fourier transform of K − S.
     """
     reach = tuple(int(np.ceil(_RANGE * sigma / side)) for side in sides)
     lengths = tuple(2 * ducc0.fft.good_size(-(-(SIDE + 2 * n) // 2), True) for n in reach)

@@ -70,12 +70,14 @@ _OWN = 1.0
 
 @njit(inner=True)
 def _rows(field, place, width):
-    """Return three views of a flat field, for access to the neighbours of the element with index `place`.
+    """Return three views of a flat field, for access to an element and its neighbours, which come before the element.
 
-    The views begin two rows before the element, one row before the element, and in the row of the element. Each view
-    begins at the leftmost neighbour in its row.
+    The neighbours lie in the row of the element and in the two rows before this row. The first view begins two rows
+    before the element, the second one row before, and the third in the row of the element. In its row, each view
+    begins at the leftmost neighbour.
 
-    width : length of a row of flat fields
+    place : index of the element in the flat field
+    width : length of a row of the flat field
     """
     return field[place - 2 * width - BORDER :], field[place - width - BORDER :], field[place - BORDER :]
 

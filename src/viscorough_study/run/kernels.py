@@ -20,7 +20,7 @@ _STAMP = ".snakemake/kernels"
 def compile_kernels():
     """Compile the numba functions of the loading path, of the lines and of the direct integration, by calling them.
 
-    The disc of the loading path is large enough for the preconditioner to use coarse grids.
+    The disc of the loading path is large enough for all kernels of the solver to be called.
     """
     from viscorough.contact.loading_path import indent
     from viscorough.mdr import reduce_heights

@@ -54,7 +54,7 @@ DISC, STRIP = np.hypot(ROW - 60, COLUMN - 60) < 60, np.ones((1, 30_000), bool)
 
 @pytest.fixture(scope="module")
 def compiled():
-    """Load kernels of both precisions once in the process; smaller maps need no kernels of coarse grids."""
+    """Load kernels of both precisions once in the process; smaller maps do not call all kernels."""
     for tolerance in (1e-3, 1e-5):
         indent(Indenter(np.random.default_rng(2).random((151, 151)), 1.0), tolerance=tolerance, until_fraction=0.6)
 

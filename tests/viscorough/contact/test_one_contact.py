@@ -50,7 +50,7 @@ def test_maps_solve_the_contact_problem(indenter, given, tolerance, options):
 
 
 def test_long_strip_meets_complementarity():
-    """The curve starts with contact events and goes on to contacts that need the preconditioner's third level."""
+    """The curve starts with contact events; its last contacts are so large that all of the preconditioner is used."""
     strip = Indenter(np.random.default_rng(1).random((1, 6000)), 1.0)
     curve = indent(strip, until_fraction=0.5)
     assert curve.contact_fraction[-1] >= 0.5

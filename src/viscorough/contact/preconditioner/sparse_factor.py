@@ -338,8 +338,8 @@ class SparseFactor:
         """Return Wᵀ G r by rows and columns of blocks, and keep G r for `prolong`.
 
         G is the sparse factor. W is a matrix with a column for each block of elements. A column contains the row sums
-        of G for the elements of the block, and zeros for all other elements. Unlike the columns of W in the module
-        multilevel, the columns are not normalised.
+        of G for the elements of the block, and zeros for all other elements. Unlike the columns of W in the
+        formula for M, these columns are not normalised.
 
         residual : r, flat field
         """

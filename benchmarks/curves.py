@@ -37,6 +37,17 @@ PARTS_OF_CURVE = {
     "viscorough.contact.grid.solver.GridSolver.__init__": "setup",
     "viscorough.contact.prescribed_depth.ContactSolver.__init__": "setup",
 }
+# {function: name of the step of the solution that it does}; the steps do not contain each other.
+STEPS_OF_CURVE = {
+    "viscorough.contact.halfspace.operator.Convolution.apply": "operator",
+    "viscorough.contact.preconditioner.Preconditioner.prepare": "preparation of the preconditioner",
+    "viscorough.contact.preconditioner.Preconditioner.apply": "preconditioner",
+    "viscorough.contact.grid.workspace.GridWorkspace.contact_set": "indices of the contact set",
+    "viscorough.contact.grid.workspace.GridWorkspace.add_penetrating_elements": "growth of the contact set",
+    "viscorough.contact.grid.loops.GridLoops.update_gap": "update of the gap",
+    "viscorough.contact.grid.solver.initial_tangent": "start of the tangent",
+    "viscorough.contact.step_control.StepControl.excess": "error of the interpolation",
+}
 
 
 def whole_curve(disc):
@@ -137,22 +148,56 @@ def parts():
 
 def shares(compute):
     """Return the processor seconds of a function, and the share of each part."""
-    seconds = dict.fromkeys(PARTS_OF_CURVE.values(), 0.0)
+    whole, calls = timed_calls(compute, PARTS_OF_CURVE)
+    shares_of_parts = {part: round(spent / whole, 3) for part, (_, spent) in calls.items()}
+    return {"processor_s": round(whole, 4), **shares_of_parts, "rest": round(1 - sum(shares_of_parts.values()), 3)}
+
+
+def over_operator(hursts, repeats, elements=ELEMENTS):
+    """Return the cost of the steps of a curve relative to its half-space operator, for each Hurst exponent.
+
+    `whole` is the processor time of the curve, relative to that of all applications of the operator. A step has the
+    number of its calls, and the processor time of a call relative to that of an application. Values are medians.
+    """
+    result = {}
+    for hurst in hursts:
+        compute = whole_curve(self_affine_disc(hurst, elements, seed=1))
+        compute()
+        wholes, costs = [], []
+        for _ in range(repeats):
+            whole, calls = timed_calls(compute, STEPS_OF_CURVE)
+            applications, operator = calls["operator"]
+            wholes.append(whole / operator)
+            costs.append({step: spent / number * applications / operator for step, (number, spent) in calls.items()})
+        steps = {
+            step: {"calls": calls[step][0], "cost": round(cost, 2)}
+            for step, cost in pd.DataFrame(costs).median().items()
+        }
+        result[hurst] = {"whole": round(float(np.median(wholes)), 2), **steps}
+    return result
+
+
+def timed_calls(compute, names):
+    """Call a function; return its processor seconds, and {part: (number of calls, processor seconds in all)}.
+
+    names : {dotted name of a function that is counted: name of its part}
+    """
+    calls = dict.fromkeys(names.values(), (0, 0.0))
 
     def measured(part, function):
         def call(*arguments, **options):
             result, _, processor = timing.timed(partial(function, *arguments, **options))
-            seconds[part] += processor
+            number, seconds = calls[part]
+            calls[part] = number + 1, seconds + processor
             return result
 
         return call
 
     with contextlib.ExitStack() as patches:
-        for name, part in PARTS_OF_CURVE.items():
+        for name, part in names.items():
             patches.enter_context(patch(name, measured(part, pkgutil.resolve_name(name))))
         _, _, whole = timing.timed(compute)
-    shares_of_parts = {part: round(spent / whole, 3) for part, spent in seconds.items()}
-    return {"processor_s": round(whole, 4), **shares_of_parts, "rest": round(1 - sum(shares_of_parts.values()), 3)}
+    return whole, calls
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -161,6 +206,7 @@ def shares(compute):
 def main(repeats, output):
     content = {
         "parts": parts(),
+        "over_operator": over_operator((0.1, 0.4, 0.6, 0.9), 3 * repeats),
         "columns": columns((17, 33, 65, 129, 257, 513, 1025), 3 * repeats),
         "line": lines((0.1, 0.6, 0.9), 3 * repeats),
         "rectangles": rectangles((1.0, 2.0, 0.5, 5.0, 0.2), repeats),

@@ -15,6 +15,13 @@ def test_every_part_takes_time():
     assert sum(share for part, share in shares.items() if part != "processor_s") == pytest.approx(1)
 
 
+def test_a_curve_takes_longer_than_its_operator():
+    (steps,) = curves.over_operator([0.6], 2, elements=65).values()
+    assert steps.pop("whole") > 1
+    assert steps["operator"] == {"calls": steps["operator"]["calls"], "cost": 1.0}
+    assert all(step["calls"] > 0 and step["cost"] > 0 for step in steps.values())
+
+
 def test_costs_are_compared_on_the_same_problem():
     (line,) = curves.lines([0.6], 1, points=2000)
     assert line["over_transform"] > 0

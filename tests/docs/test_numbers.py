@@ -305,6 +305,9 @@ QUOTED = {
         "takes {:.0f} s, and the contact at one force {:.1f} s": lambda: [
             BENCHMARKS["large_map"][question]["wall_s"] for question in ("curve", "contact")
         ],
+        "takes {} to {} times as long as its applications": lambda: ends(
+            [steps["whole"] for steps in BENCHMARKS["over_operator"].values()], 1
+        ),
         "to the power {:.2f} from 129 to 4097": lambda: growth_of_large(slice(129, 4097)),
         "(power {:.2f}; `make large`)": lambda: growth_of_large(slice(4097, 8193)),
         "up to {:.1f} times the time of the best levels by hand there": lambda: placed(

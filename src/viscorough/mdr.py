@@ -311,19 +311,20 @@ def _binned_gaps(heights: Array) -> tuple[Array, Integers, Array]:
     top = int((highest - lowest).view(np.uint64) >> shift)
     base = max(0, top - _OCTAVES * _BINS_PER_OCTAVE)
     table = np.zeros((top - base + 1, _LANES, 2))
-    _bin_gaps(heights, highest, shift, np.uint64(base), table)
+    _bin_gaps(heights, highest, shift, np.uint64(base), table, np.empty(_BLOCK), np.empty(_BLOCK, np.uint32))
     edges = (np.arange(base, top + 2, dtype=np.uint64) << shift).view(np.float64)
     counts, sums = table.sum(axis=1).T
     return edges, counts.astype(np.int64), sums
 
 
 @njit
-def _bin_gaps(heights, highest, shift, base, table):
+def _bin_gaps(heights, highest, shift, base, table, gaps, bins):
     """Add the number and the sum of the gaps in every bin to table[bin, lane, :]; see `_binned_gaps`.
 
     Point i uses lane i % _LANES, so that neighbouring points update different counters of a bin.
+
+    gaps, bins : scratch arrays for the gaps and the bins of a block of points, shape (_BLOCK,)
     """
-    gaps, bins = np.empty(_BLOCK), np.empty(_BLOCK, np.uint32)
     for start in range(0, heights.size, _BLOCK):
         block = heights[start : start + _BLOCK]
         for i in range(block.size):  # separate from the next loop, so that the compiler can vectorize this loop

@@ -64,22 +64,32 @@ def _influence_matrix(influence, row, column, members):
 
 
 @njit(fastmath=True)
-def _deflections(influence, row, column, members, pressure, tangent, targets):
-    """Return the deflections Σ_j K_ij P_j and their increase with depth Σ_j K_ij q_j at the elements i of `targets`.
+def _sum_deflections(influence, row, column, target_row, target_column, pressure, tangent, deflections):
+    """Compute Σ_j K_ij P_j and Σ_j K_ij q_j at the target elements i; see `_deflections`.
 
-    The sums are over the elements j in contact (`members`), with pressures P_j and tangents q_j.
+    row, column : positions of the elements j in contact
+    target_row, target_column : positions of the target elements i
+    deflections : the two sums are stored here, shape (2, targets)
     """
-    deflections, rates = np.empty(targets.size), np.empty(targets.size)
-    member_row, member_column = row[members], column[members]
-    for i in range(targets.size):
-        r, c = row[targets[i]], column[targets[i]]
+    for i in range(target_row.size):
         by_pressure, by_tangent = 0.0, 0.0
-        for j in range(members.size):
-            value = influence[abs(member_row[j] - r), abs(member_column[j] - c)]
+        for j in range(row.size):
+            value = influence[abs(row[j] - target_row[i]), abs(column[j] - target_column[i])]
             by_pressure += value * pressure[j]
             by_tangent += value * tangent[j]
-        deflections[i], rates[i] = by_pressure, by_tangent
-    return deflections, rates
+        deflections[0, i], deflections[1, i] = by_pressure, by_tangent
+
+
+def _deflections(elements: Elements, loads: MemberLoads, targets: Integers) -> Array:
+    """Return the deflections Σ_j K_ij P_j and their increase with depth Σ_j K_ij q_j at the elements i of `targets`.
+
+    The sums are over the elements j in contact, with pressures P_j and tangents q_j. Shape (2, targets).
+    """
+    deflections, (members, pressure, tangent) = np.empty((2, targets.size)), loads
+    position, target = ((elements.row[ranks], elements.column[ranks]) for ranks in (members, targets))
+    loads_ = np.ascontiguousarray(pressure), np.ascontiguousarray(tangent)
+    _sum_deflections(elements.influence, *position, *target, *loads_, deflections)
+    return deflections
 
 
 def solve_highest_element(elements: Elements, depth: float) -> DenseContact:
@@ -117,8 +127,7 @@ def solve(
         return None
     loads, depth_step = contact.loads, depth - contact.reduced_depth
     others = _without(np.arange(candidates), loads.members)
-    table = elements.influence, elements.row, elements.column
-    deflection, rate = _deflections(*table, *loads, others)
+    deflection, rate = _deflections(elements, loads, others)
     gap = deflection - contact.reduced_depth + elements.initial_gap[others]
     # An element in contact stays in contact if its pressure is zero within rounding. An element outside the contact
     # stays outside if its gap is zero within rounding.
@@ -131,7 +140,7 @@ def solve(
             return None
         pressure, tangent = _pressure_and_tangent(elements, members, depth)
         others = _without(possible, members)
-        deflection, _ = _deflections(*table, members, pressure, tangent, others)
+        deflection, _ = _deflections(elements, MemberLoads(members, pressure, tangent), others)
         joining = others[deflection - depth + elements.initial_gap[others] < overlap]
         staying = members[pressure >= -ROUNDING * pressure.max()]
         if joining.size == 0 and staying.size == members.size:
@@ -160,11 +169,15 @@ def follow_events(
     reaches `pressure_sum` before another element touches.
     """
     loads = contact.loads
+    most = min(most, elements.initial_gap.size)
+    factor, members, path = np.empty((most, most)), np.empty(most, int), np.empty((3, most))
     with uninterrupted():
-        depth, total, stiffness, members, factor = _follow(
+        levels, touched = _follow(
             elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
-            loads.members, loads.pressure, min(most, elements.initial_gap.size), pressure_sum,
+            loads.members, loads.pressure, pressure_sum, factor, members, path,
+            *np.zeros((3, most)), elements.initial_gap.copy(), *np.empty((2, most), elements.row.dtype),
         )  # fmt: skip
+    (depth, total, stiffness), members = path[:, :levels], members[:touched]
     count = np.arange(contact.count, contact.count + depth.size)
     # An event is complete if no further element touches at the same depth. The last event is certain to be complete
     # only if all elements are in contact. The first entry is the given contact, which is no event.
@@ -211,65 +224,72 @@ def _exact_contact(units: Units, depth: float, members: Integers, pressure: Arra
 
 
 @njit(fastmath=True)
-def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
+def _follow(
+    influence, row, column, initial_gap, depth, start, pressure, force, factor, members, path,
+    forward, tangent, load, earliest, member_row, member_column,
+):  # fmt: skip
     """Compute the contact events after a given contact (see `follow_events`) in compiled code, from plain arrays.
 
     The rank of an element is its place in the order of increasing initial gap.
 
     depth : reduced depth of the given contact
     start, pressure : ranks and pressures P of the elements in contact at this depth
-    most : the computation stops when this number of elements is in contact
     force : the computation stops when the sum ΣP of reduced pressures exceeds this value
+    factor : the Cholesky factor of the influence matrix is stored here, shape (most, most); the computation stops when
+        `most` elements are in contact
+    members : ranks of the elements in contact are stored here, in the order in which they touch; shape (most,)
+    path : depth, ΣP and Σq of every event are stored here, shape (3, most); the first event is the given contact
+    forward, tangent, load : scratch arrays, zero on entry, shape (most,)
+    earliest : lower bound of the depth at which each element touches; _NEVER for elements in contact. On entry the
+        bound is the initial gap, because a gap closes at most as fast as the depth grows. Later bounds follow from the
+        tangent of the gap, which is a convex function of the depth
+    member_row, member_column : scratch arrays for the positions of the elements in contact, shape (most,)
 
-    Returns five arrays: the depth, ΣP and Σq of every event; the ranks of all elements in contact, in the order in
-    which they touch; and the Cholesky factor of their influence matrix. The first event is the given contact.
+    Returns the number of events, and the number of elements in contact.
     """
-    factor, members = np.empty((most, most)), np.empty(most, np.int64)
-    forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
-    depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
-    # Lower bound of the depth at which each element touches; _NEVER for elements in contact. The first bound is the
-    # initial gap, because a gap closes at most as fast as the depth grows. Later bounds follow from the tangent of the
-    # gap, which is a convex function of the depth.
-    earliest = initial_gap.copy()
-    count, total, following = 0, 0.0, 0
-    for t in range(start.size - 1):
-        append_element(factor, influence, row, column, members, count, start[t], forward)
-        earliest[start[t]] = _NEVER
-        count += 1
+    count, total, following, events = 0, 0.0, 0, 0
     for t in range(start.size):
         load[t] = pressure[t]
         total += pressure[t]
-    element, events = start[start.size - 1], 0
+    element = start[0]
     while True:
         append_element(factor, influence, row, column, members, count, element, forward)
         earliest[element] = _NEVER
+        member_row[count], member_column[count] = row[element], column[element]
         count += 1
+        if count < start.size:  # the given contact is not complete yet
+            element = start[count]
+            continue
         stiffness = solve_flat_punch(factor, count, forward, tangent)
-        depths[events], totals[events], stiffnesses[events] = depth, total, stiffness
+        path[0, events], path[1, events], path[2, events] = depth, total, stiffness
         events += 1
         lowest = 0.0
         for t in range(count):
             lowest = min(lowest, tangent[t])
-        if count == most or total > force or lowest < 0:
+        if count == members.size or total > force or lowest < 0:
             break
         depth_step, element, following = _next_touch(
-            influence, row, column, initial_gap, depth, members[:count], load, tangent, earliest, following
-        )
+            influence, row, column, initial_gap, depth, count, member_row, member_column, load, tangent, earliest,
+            following,
+        )  # fmt: skip
         depth += depth_step
         total += depth_step * stiffness
         for t in range(count):
             load[t] += depth_step * tangent[t]
-    return depths[:events], totals[:events], stiffnesses[:events], members[:count], factor
+    return events, count
 
 
 @njit(inner=True, fastmath=True)
-def _next_touch(influence, row, column, initial_gap, depth, members, load, tangent, earliest, guess):
+def _next_touch(
+    influence, row, column, initial_gap, depth, count, member_row, member_column, load, tangent, earliest, guess
+):  # fmt: skip
     """Find the element that touches next.
 
     Elements are given by their ranks, their places in the order of increasing initial gap.
 
     depth : reduced depth of the contact
-    members, load, tangent : ranks of the elements in contact, their pressures P and their tangents q
+    count : number of elements in contact
+    member_row, member_column, load, tangent : positions, pressures P and tangents q of the elements in contact
     earliest : lower bound of the depth at which each element touches, _NEVER for elements in contact; raised in place
         for every element whose gap is computed
     guess : element whose gap is computed first; if it touches soon, few other gaps have to be computed
@@ -278,7 +298,6 @@ def _next_touch(influence, row, column, initial_gap, depth, members, load, tange
     element with the smallest lower bound among all other elements.
     """
     depth_step, element, following, first_later = _NEVER, -1, 0, _NEVER
-    member_row, member_column = row[members], column[members]
     for position in range(-1, initial_gap.size):
         i = guess if position < 0 else position
         # An element touches only at depths of at least its initial gap. The initial gap increases with the rank, so no
@@ -287,7 +306,7 @@ def _next_touch(influence, row, column, initial_gap, depth, members, load, tange
             break
         if earliest[i] - depth < depth_step:
             deflection, deflection_per_depth = 0.0, 0.0
-            for t in range(members.size):
+            for t in range(count):
                 value = influence[abs(member_row[t] - row[i]), abs(member_column[t] - column[i])]
                 deflection += value * load[t]
                 deflection_per_depth += value * tangent[t]

@@ -231,10 +231,16 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
         return np.inf
     fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
     share, width = _POINTS[1::2], after.reduced_depth - before.reduced_depth
-    loads = (load[place_after].astype(float) for load in (after.fields.pressure, after.fields.tangent))
+    pressure, tangent = (load[place_after].astype(float) for load in (after.fields.pressure, after.fields.tangent))
+
     # Each joining element touches after a share t of the interval (0 to 1), and has the weight w = e_q². The computed
     # sums are Σw, then Σw (1 − t), then Σw max(s − t, 0) for every share s of the interval in `share`.
-    sums = sum(loops.each(kernels.touch_sums, (*fields, width, share), place, *loads))
+    def touch_sums(i: int, j: int) -> Array:
+        part = np.zeros(2 + share.size)
+        kernels.touch_sums(*fields, width, share, part, place[i:j], pressure[i:j], tangent[i:j])
+        return part
+
+    sums = sum(loops.over(place, touch_sums))
     added = (after.tangent_sum - before.tangent_sum) / sums[0]
     rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum
     predicted_rise = added * sums[1]

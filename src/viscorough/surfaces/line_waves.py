@@ -119,7 +119,7 @@ def fill_packed_spectrum(spectrum: Complex, key: Integers, amplitude: Array, *, 
     half = len(spectrum)
     shortest = shortest_wave(2 * half, key, amplitude[half], fixed=fixed)
     spectrum[0] = shortest * (1 - 1j)
-    square = _fill_pairs(spectrum, key, amplitude, fixed)
+    square = _fill_pairs(spectrum, key, amplitude, fixed, *_scratch_of_blocks())
     if half % 2 == 0:
         middle = waves(half // 2, key, amplitude[half // 2 : half // 2 + 1], fixed=fixed)[0]
         spectrum[half // 2] = 2 * np.conj(middle)
@@ -127,42 +127,51 @@ def fill_packed_spectrum(spectrum: Complex, key: Integers, amplitude: Array, *, 
     return 2 * square + shortest**2
 
 
+def _scratch_of_blocks() -> tuple[Array, ...]:
+    """Return the scratch arrays of `_fill_pairs`."""
+    numbers = np.empty((3, 2, _BLOCK), np.float32)
+    return *numbers, *np.empty((2, _BLOCK), np.uint32), np.empty(_BLOCK, np.float32)
+
+
 @njit
-def _fill_pairs(spectrum, key, amplitude, fixed):
+def _fill_pairs(spectrum, key, amplitude, fixed, longer, shorter, rotation, direction, size, modulus):
     """Fill Z_k and Z_(m-k) for 0 < k < m/2, block by block; return the sum of |X_k|² of these waves.
 
     See `fill_packed_spectrum` for Z, X, m and the arguments.
+
+    longer, shorter, rotation : scratch arrays for complex numbers; the first index is 0 for real and 1 for imaginary
+        parts, shape (2, _BLOCK)
+    direction, size, modulus : scratch arrays of `_draw`
     """
     half, square = spectrum.size, 0.0
     # The angle π/m, where m is `half`, as a whole number; 2^64 is a full turn.
     turn = _U64(2.0**63 / half)
-    longer, shorter = np.empty((2, _BLOCK), np.float32), np.empty((2, _BLOCK), np.float32)
-    rotation = np.empty((2, _BLOCK), np.float32)
     for start in range(1, (half + 1) // 2, _BLOCK):
-        size = min(_BLOCK, (half + 1) // 2 - start)
+        count = min(_BLOCK, (half + 1) // 2 - start)
         # The block contains the waves k = start, start + 1, ...; `mirrored` is the smallest of the numbers m - k.
-        mirrored = half - start - size + 1
-        square += _draw(start, key, amplitude[start : start + size], fixed, longer)
-        square += _draw(mirrored, key, amplitude[mirrored : mirrored + size], fixed, shorter)
+        mirrored = half - start - count + 1
+        random = direction, size, modulus[:count]
+        square += _draw(start, key, amplitude[start : start + count], fixed, longer, *random)
+        square += _draw(mirrored, key, amplitude[mirrored : mirrored + count], fixed, shorter, *random)
         _unit_vectors(start, turn, rotation)
-        _pack(longer, shorter, rotation, size)
-        _store(longer, spectrum[start : start + size])
-        _store(shorter, spectrum[mirrored : mirrored + size])
+        _pack(longer, shorter, rotation, count)
+        _store(longer, spectrum[start : start + count])
+        _store(shorter, spectrum[mirrored : mirrored + count])
     return square
 
 
 @njit(inner=True)
-def _draw(first, key, amplitude, fixed, parts):
+def _draw(first, key, amplitude, fixed, parts, direction, size, modulus):
     """Compute the coefficients X_k of the waves k = first, first + 1, ...; return the sum of |X_k|².
 
     first, key, amplitude, fixed : arguments of `waves`
     parts : array for the real parts, parts[0], and the imaginary parts, parts[1]
+    direction, size : scratch arrays for random numbers, of equal shape, at least as long as `amplitude`
+    modulus : scratch array in the shape of `amplitude`
     """
-    direction, size = np.empty(amplitude.size, np.uint32), np.empty(amplitude.size, np.uint32)
     random_words(first, key, direction, size)
     if fixed:
         return _polar(direction, amplitude, parts)
-    modulus = np.empty(amplitude.size, np.float32)
     _moduli(size, amplitude, modulus)
     return _polar(direction, modulus, parts)
 
@@ -171,10 +180,11 @@ def _draw(first, key, amplitude, fixed, parts):
 def _moduli(size, amplitude, modulus):
     """Compute random moduli A √(-2 ln U), with U = (size + 1/2) / 2^32 from 32-bit random numbers `size`.
 
+    size : at least as long as `amplitude`
     amplitude : amplitudes A
     modulus : array for the results
     """
-    for i in range(size.size):
+    for i in range(modulus.size):
         modulus[i] = amplitude[i] * np.sqrt(_TWO * _minus_log(size[i]))
 
 
@@ -182,11 +192,11 @@ def _moduli(size, amplitude, modulus):
 def _polar(direction, modulus, parts):
     """Compute complex numbers from their moduli and directions; return the sum of the squared moduli.
 
-    direction : angles as 32-bit whole numbers; 2^32 is a full turn
+    direction : angles as 32-bit whole numbers; 2^32 is a full turn; at least as long as `modulus`
     parts : array for the real parts, parts[0], and the imaginary parts, parts[1]
     """
     square = _F32(0)
-    for i in range(direction.size):
+    for i in range(modulus.size):
         cosine, sine = _cos_sin(direction[i])
         parts[0, i], parts[1, i] = modulus[i] * cosine, modulus[i] * sine
         square += modulus[i] * modulus[i]
@@ -231,16 +241,16 @@ def _store(parts, numbers):
 
 
 @njit
-def twiddle(spectrum, factor):
+def twiddle(spectrum, factor, rotation):
     """Multiply the complex number in row j and column k of a spectrum by factor · exp(2πi jk/m), in place.
 
     m is the number of all complex numbers in the spectrum.
 
     spectrum : alternating real and imaginary parts along each row, single precision, shape (rows, 2 · columns)
     factor : real number
+    rotation : scratch array in single precision, shape (2, columns)
     """
     rows, columns = spectrum.shape[0], spectrum.shape[1] // 2
-    rotation = np.empty((2, columns), np.float32)
     for j in range(rows):
         _unit_vectors(0, _U64(2.0**64 / (rows * columns) * j), rotation)
         _rotate(spectrum[j], rotation, factor)

@@ -99,7 +99,8 @@ class SelfAffineLines:
         packed = self._packed
         mean_square = line_waves.fill_packed_spectrum(packed.reshape(-1), key, self._amplitude, fixed=self._fixed)
         fft.c2c(packed, axes=[0], forward=False, out=packed)
-        line_waves.twiddle(packed.view(np.float32), np.float32(spectrum.scale_factor(self._rms, mean_square)))
+        factor = np.float32(spectrum.scale_factor(self._rms, mean_square))
+        line_waves.twiddle(packed.view(np.float32), factor, np.empty((2, packed.shape[1]), np.float32))
         fft.c2c(packed, axes=[1], forward=False, out=packed)
         heights = packed.reshape(-1).view(np.float32)
         heights.flags.writeable = False

@@ -12,7 +12,7 @@ Symbols are defined in contact.state. The formulas of this module are for the pr
 replace P by q and e by e_q.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
@@ -130,7 +130,14 @@ class Direction:
 
         The indices refer to flat fields.
         """
-        return joined(self._over_set(kernels.unloaded_under_tension, self._values, pressure))
+        _, places, slots = self._residual.contact_set
+
+        def find(i: int, j: int) -> Integers:
+            found = np.empty(j - i, places.dtype)
+            count = kernels.unloaded_under_tension(self._values, pressure, places[i:j], slots[i:j], found)
+            return found[:count]
+
+        return joined(self._loops.over(places, find))
 
     def causes_tension(self, length: float, pressure: Array) -> bool:
         """Return True if a step of the given length along d would put any element under tension."""
@@ -151,7 +158,9 @@ class Direction:
         neighbours = self._stencil, width, self._halfspace.load.shape[1]
 
         def step(i: int, j: int) -> Integers:
-            return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
+            found, members = np.empty(j - i, np.int64), (places[i:j], slots[i:j])
+            count = kernels.step_and_find_tension(length, direction, pressure, inside, *members, i, found)
+            return found[:count]
 
         released = joined(self._loops.over(places, step))
         # An element that leaves changes the loads of its neighbours, so two threads must not release elements close to
@@ -182,11 +191,12 @@ class Direction:
         self._deflection = deflection.ravel()
         return deflection[:, : self._halfspace.shape[1]]
 
-    def _sums(self, residual: PreconditionedResidual) -> Array:
+    def _sums(self, residual: PreconditionedResidual) -> Iterator[float]:
         """Return the inner products z·Kd, d·e and d·Kd over the contact set; `residual` contains e and z."""
         fields = self._values, self._deflection, residual.preconditioned, residual.gap
         members = residual.contact_set
-        return sum(self._loops.each(kernels.direction_sums, fields, members.places, members.slots))
+        parts = self._loops.each(kernels.direction_sums, fields, members.places, members.slots)
+        return map(sum, zip(*parts, strict=True))
 
     def _over_set(self, kernel: Callable[..., Any], *fixed: Any) -> Any:
         """Call kernel(*fixed, places, slots) for every block of the contact set (see `GridLoops.each`).

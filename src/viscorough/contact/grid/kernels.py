@@ -94,7 +94,8 @@ def energies(
     pressure, gap_change : P and e − g, flat fields
     last_pressure, last_gap_change, last_tangent, last_tangent_gap : P', e' − g, q' and e_q', flat fields
 
-    Returns the products of load i and deflection j, shape (3, 3), and the sums of the loads, shape (3,).
+    Returns twelve numbers: the products of load i and deflection j in the order 11, 12, 13, 21, ..., 33, and the sums
+    of the three loads.
     """
     a = b = c = aa = ab = ac = ba = bb = bc = ca = cb = cc = 0.0
     for t in range(places.size):
@@ -106,7 +107,7 @@ def energies(
         aa, ab, ac = aa + load * by_load, ab + load * by_last, ac + load * by_tangent
         ba, bb, bc = ba + last * by_load, bb + last * by_last, bc + last * by_tangent
         ca, cb, cc = ca + tangent * by_load, cb + tangent * by_last, cc + tangent * by_tangent
-    return np.array([[aa, ab, ac], [ba, bb, bc], [ca, cb, cc]]), np.array([a, b, c])
+    return aa, ab, ac, ba, bb, bc, ca, cb, cc, a, b, c
 
 
 @njit
@@ -212,22 +213,24 @@ def direction_sums(direction, deflection, preconditioned, gap, places, slots):
         by_preconditioned += preconditioned[places[t]] * by_change
         by_gap += change * gap[places[t]]
         by_direction += change * by_change
-    return np.array([by_preconditioned, by_gap, by_direction])
+    return by_preconditioned, by_gap, by_direction
 
 
 @njit
-def unloaded_under_tension(direction, pressure, places, slots):
-    """Return the indices of elements without pressure that any step along the direction would put under tension.
+def unloaded_under_tension(direction, pressure, places, slots, found):
+    """Find the elements without pressure that any step along the direction would put under tension.
 
-    The indices refer to flat fields.
+    found : the indices of these elements in flat fields are stored at the beginning of this array
+
+    Returns the number of these elements.
     """
-    found, count = np.empty(places.size, places.dtype), 0
+    count = 0
     for t in range(places.size):
         # Write every place to the array, but count it only if the step puts the element under tension. The next place
         # overwrites a place that is not counted. This is faster than an if statement.
         found[count] = places[t]
         count += (pressure[places[t]] == 0) & (direction[slots[t]] < 0)
-    return found[:count]
+    return count
 
 
 @njit
@@ -241,7 +244,7 @@ def step_causes_tension(length, direction, pressure, places, slots):
 
 
 @njit
-def step_and_find_tension(length, direction, pressure, inside, places, slots, first):
+def step_and_find_tension(length, direction, pressure, inside, places, slots, first, released):
     """Add length · direction to the pressure, and mark elements under tension as outside the contact set, in place.
 
     The array `direction` is overwritten with the change of pressure, length · direction.
@@ -249,10 +252,11 @@ def step_and_find_tension(length, direction, pressure, inside, places, slots, fi
     inside : True for elements in contact, flat field; set to False for elements under tension
     places, slots : indices of some elements of the contact set
     first : position of the first of these elements in the list of all elements of the contact set
+    released : the positions of the elements under tension in this list are stored at the beginning of this array
 
-    Returns the positions of the elements under tension in the list of all elements of the contact set.
+    Returns the number of elements under tension.
     """
-    released, count = np.empty(places.size, np.int64), 0
+    count = 0
     for t in range(places.size):
         i, change = places[t], direction[slots[t]] * length
         direction[slots[t]] = change
@@ -262,7 +266,7 @@ def step_and_find_tension(length, direction, pressure, inside, places, slots, fi
         # a position that is not counted. This is faster than an if statement.
         released[count] = first + t
         count += not inside[i]
-    return released[:count]
+    return count
 
 
 @njit
@@ -320,8 +324,8 @@ def has_open_gap(limit, gap_change, initial_gap, places):
 
 
 @njit
-def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, pressure, tangent):
-    """Return weighted sums over the elements that join the contact while the depth grows by Δu.
+def touch_sums(gap_change, initial_gap, tangent_gap, width, share, sums, places, pressure, tangent):
+    """Compute weighted sums over the elements that join the contact while the depth grows by Δu.
 
     For each element, let t be the share of the step Δu after which the element touches the surface. The estimate is
     t = max(−e/e_q, Δu − P/q)/Δu, clipped to the range from 0 to 1. Here e and e_q = de/du are the gap and the tangent
@@ -330,12 +334,10 @@ def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, press
     gap_change, initial_gap, tangent_gap : e − g, g and e_q before the step, flat fields
     width : Δu
     share : shares s of the step, from 0 to 1, shape (n,)
+    sums : Σe_q², Σe_q² (1 − t) and, for every s, Σe_q² max(s − t, 0) are added to these numbers, shape (2 + n,)
     places : indices in the flat fields of the elements that join the contact
     pressure, tangent : P and q of the same elements after the step
-
-    Returns Σe_q², Σe_q² (1 − t) and, for every s, Σe_q² max(s − t, 0); shape (2 + n,).
     """
-    sums = np.zeros(2 + share.size)
     for n in range(places.size):
         i = places[n]
         slope = min(np.float64(tangent_gap[i]), -_TINY)
@@ -346,4 +348,3 @@ def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, press
         sums[1] += slope * slope * (1.0 - touch)
         for k in range(share.size):
             sums[2 + k] += slope * slope * max(share[k] - touch, 0.0)
-    return sums

@@ -45,8 +45,8 @@ def initial_tangent(
     only_now = last is None or loops.difference(last.fields.inside, contact_set.inside).size > 0
     combined = slice(1) if only_now else slice(3)
     parts = loops.each(kernels.energies, ((depth, last_depth), *computed), contact_set.places)
-    energy, sums = (sum(part) for part in zip(*parts, strict=True))
-    energy, sums = energy[combined, combined], sums[combined]
+    products, sums = np.split(np.sum(parts, axis=0), [9])
+    energy, sums = products.reshape(3, 3)[combined, combined], sums[combined]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
     # Compute a least-squares solution, since the three fields may be linearly dependent.
     eigenvalues, vectors = np.linalg.eigh(scale[:, None] * energy * scale)

@@ -48,21 +48,23 @@ def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
     # At large distances, the deflection by a long element is computed as a sum over parts of the element, which are at
     # most twice as long as wide.
     parts = np.ceil(max(aspect / 2, 1.0)), np.ceil(max(1 / aspect / 2, 1.0))
-    return _fill_table(abs(row) * height, abs(column) * width, height / parts[0], width / parts[1], *parts)
+    table = np.zeros((row.size, column.size))
+    _fill_table(table, abs(row) * height, abs(column) * width, height / parts[0], width / parts[1], *parts)
+    return table
 
 
 @njit
-def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
-    """Return ∫∫ dA/r over a rectangle of area 1, for all pairs of distances x ≥ 0 and y ≥ 0 from its centre.
+def _fill_table(table, x, y, part_length, part_width, parts_x, parts_y):
+    """Compute ∫∫ dA/r over a rectangle of area 1, for all pairs of distances x ≥ 0 and y ≥ 0 from its centre.
 
     Here r is the distance between a point of the rectangle and the point (x, y). First the series is computed for all
     pairs. Then values near the rectangle are replaced by the closed form. The inner loop of the series contains no
     condition, so the compiler can process several numbers at once.
 
+    table : the results are stored here; zero on entry
     part_length, part_width : sides along x and y of the equal parts into which the rectangle is divided for the series
     parts_x, parts_y : number of parts along x and y
     """
-    table = np.zeros((x.size, y.size))
     far = _FAR * max(part_length, part_width)
     for k in range(x.size):
         row = table[k]
@@ -75,7 +77,6 @@ def _fill_table(x, y, part_length, part_width, parts_x, parts_y):
             row[m] /= parts_x * parts_y
             if max(x[k], y[m]) <= far:
                 row[m] = _closed_form(x[k], y[m], parts_x * part_length, parts_y * part_width)
-    return table
 
 
 @njit(inner=True)

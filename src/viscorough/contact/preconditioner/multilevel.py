@@ -83,7 +83,7 @@ def _rows(field, place, width):
 
 
 @njit
-def _factorise(amplitude, places, before, slots, kernel, rows, weights):
+def _factorise(amplitude, places, before, slots, kernel, rows, weights, matrix, present, near):
     """Compute the sparse factor G of the matrix 1 + a K a on a coarse grid level, for some of its blocks.
 
     K contains the influence coefficients between blocks, and a is a diagonal matrix (see the module's docstring).
@@ -95,9 +95,10 @@ def _factorise(amplitude, places, before, slots, kernel, rows, weights):
     kernel : matrix K of the neighbours and of the block itself, which comes last
     rows : the rows of G are stored here; zero on entry
     weights : the row sums of G a are stored here
+    matrix, present, near : scratch arrays for the block and its neighbours: an array in the shape of `kernel`, an array
+        of indices and an array of numbers
     """
     own = before.size
-    matrix, present, near = np.empty((own + 1, own + 1)), np.empty(own + 1, np.int64), np.empty(own + 1)
     for t in range(places.size):
         count = 0  # number of neighbours with elements in contact, plus one for the block itself
         for s in range(own + 1):
@@ -269,7 +270,9 @@ class _ManyBlocks:
         amplitude = np.sqrt(self.squares)
 
         def factorise(i: int, j: int) -> None:
-            _factorise(amplitude, places[i:j], self._before, self._slots, self._kernel, rows[i:j], weights[i:j])
+            kernel, results, size = self._kernel, (rows[i:j], weights[i:j]), len(self._kernel)
+            scratch = np.empty_like(kernel), np.empty(size, np.int64), np.empty(size)
+            _factorise(amplitude, places[i:j], self._before, self._slots, kernel, *results, *scratch)
 
         run_blocks(factorise, places.size, self._threads, _FACTORISED_AT_ONCE)
         _normalise(weights, blocks, self._coarser.squares)

@@ -38,7 +38,7 @@ _RENEWED = 1 << NEIGHBOURS
 
 
 @njit
-def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, factor):
+def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, factor, rows):
     """Renew the rows of the sparse factor G that depend on elements which joined or left the contact set.
 
     Only rows of G for elements with indices from `start` to before `stop` in flat fields are renewed.
@@ -50,8 +50,9 @@ def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, fac
         field, renewed in place
     rows_of_pattern : all possible rows of G, by pattern and neighbour
     factor : entries of G (see the module's docstring), renewed in place
+    rows : scratch array of indices, shape (changed.size · offsets.size,)
     """
-    rows, count = np.empty(changed.size * offsets.size, changed.dtype), 0
+    count = 0
     for t in range(changed.size):
         k = changed[t]
         for s in range(offsets.size):
@@ -101,36 +102,31 @@ def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
 
 
 @njit(inner=True)
-def _any_active(active, first):
-    """Return True if any of the next _TOGETHER blocks, from block `first` on, has elements in contact.
-
-    active : an entry for each block of a row of blocks, positive if the block has elements in contact
-    """
-    total = 0.0
-    for block in range(first, min(first + _TOGETHER, active.size)):
-        total += active[block]
-    return total > 0
-
-
-@njit(inner=True)
 def _next_run(active, first):
     """Find the next run of consecutive blocks to process in a row of blocks, from block `first` on.
+
+    The blocks are taken in groups of _TOGETHER. A group is processed if any of its blocks has elements in contact.
 
     active : an entry for each block of the row, positive if the block has elements in contact
 
     Returns the index of the first block of the run, and the index after its last block. If no block is left to
     process, both indices equal the number of blocks.
     """
-    while first < active.size and not _any_active(active, first):
-        first += _TOGETHER
     last = first
-    while last < active.size and _any_active(active, last):
+    while last < active.size:
+        total = 0.0
+        for block in range(last, min(last + _TOGETHER, active.size)):
+            total += active[block]
         last += _TOGETHER
+        if total == 0:
+            if last > first + _TOGETHER:  # the run ends before this group
+                return first, last - _TOGETHER
+            first = last
     return min(first, active.size), min(last, active.size)
 
 
 @njit(fastmath=True)
-def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
+def _sum_squares(first_row, last_row, factor, unit, height, sides, squares, total):
     """Compute Σ s² for every block in some rows of blocks, where s are the row sums of the sparse factor G.
 
     The sum for a block contains the rows of G that belong to the elements of the block.
@@ -141,15 +137,16 @@ def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
     height : rows of the grid without border
     sides : rows and columns of elements in a block
     squares : the results are stored here, by rows and columns of blocks
+    total : scratch array for a row of the grid without border
     """
     for block_row in range(first_row, last_row):
-        total = np.full(factor.shape[2], unit - unit)  # zeros in the precision of the unit
+        total[:] = 0
         for row in range(block_row * sides[0], min((block_row + 1) * sides[0], height)):
-            sums = factor[row + BORDER, -1]
-            for j in range(sums.size):
+            sums = factor[row + BORDER, -1][BORDER:]
+            for j in range(total.size):
                 value = unit * sums[j]
                 total[j] += value * value
-        _add_up(total[BORDER:-BORDER], sides[1], squares[block_row], 0, squares.shape[1])
+        _add_up(total, sides[1], squares[block_row], 0, squares.shape[1])
 
 
 @njit(inner=True, fastmath=True)
@@ -167,46 +164,8 @@ def _add_up(values, side, sums, first, last):
         sums[block] = total
 
 
-@njit(inner=True, fastmath=True)
-def _multiply_row(factor, unit, residual, row, first, values):
-    """Compute values = G r for consecutive elements in a row of the grid, with the sparse factor G.
-
-    factor, unit : stored numbers (in single precision, whole numbers), and the factor that converts them to the entries
-        of G
-    residual : r, flat field
-    row, first : row and column of the first element in the grid with its border, where (0, 0) is a corner of the border
-    """
-    width = factor.shape[2]
-    at, rows = row * width + first, factor[row]
-    a, b, c, d, e = rows[0][first:], rows[1][first:], rows[2][first:], rows[3][first:], rows[4][first:]
-    f, g, h, k, m = rows[5][first:], rows[6][first:], rows[7][first:], rows[8][first:], rows[9][first:]
-    n, p, own = rows[10][first:], rows[11][first:], rows[12][first:]
-    x, y, z = residual[at - 2 * width - BORDER :], residual[at - width - BORDER :], residual[at - BORDER :]
-    for j in range(values.size):
-        value = a[j] * x[j] + b[j] * x[j + 1] + c[j] * x[j + 2] + d[j] * x[j + 3] + e[j] * x[j + 4]
-        value += f[j] * y[j] + g[j] * y[j + 1] + h[j] * y[j + 2] + k[j] * y[j + 3] + m[j] * y[j + 4]
-        value += n[j] * z[j] + p[j] * z[j + 1] + own[j] * z[j + 2]
-        values[j] = unit * value
-
-
-@njit(inner=True, fastmath=True)
-def _multiply_row_transposed(factor, unit, residual, row, first, values):
-    """Compute values = Gᵀ r for consecutive elements in a row of the grid; see `_multiply_row` for the arguments."""
-    width, left = factor.shape[2], first - BORDER
-    at, two, one, rows = row * width + first, factor[row + 2], factor[row + 1], factor[row]
-    a, b, c, d, e = two[4][left:], two[3][left:], two[2][left:], two[1][left:], two[0][left:]
-    f, g, h, k, m = one[9][left:], one[8][left:], one[7][left:], one[6][left:], one[5][left:]
-    own, n, p = rows[12][first:], rows[11][first:], rows[10][first:]
-    x, y, z = residual[at + 2 * width - BORDER :], residual[at + width - BORDER :], residual[at:]
-    for j in range(values.size):
-        value = a[j] * x[j] + b[j + 1] * x[j + 1] + c[j + 2] * x[j + 2] + d[j + 3] * x[j + 3] + e[j + 4] * x[j + 4]
-        value += f[j] * y[j] + g[j + 1] * y[j + 1] + h[j + 2] * y[j + 2] + k[j + 3] * y[j + 3] + m[j + 4] * y[j + 4]
-        value += own[j] * z[j] + n[j + 1] * z[j + 1] + p[j + 2] * z[j + 2]
-        values[j] = unit * value
-
-
 @njit(fastmath=True)
-def _restrict(first_row, last_row, factor, unit, residual, height, sides, active, values, loads):
+def _restrict(first_row, last_row, factor, unit, residual, height, sides, active, values, loads, total):
     """Compute values = G r and loads = Wᵀ G r for some rows of blocks; see `SparseFactor.restrict` for G and W.
 
     The other arguments are explained at `_sum_squares`.
@@ -215,17 +174,27 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
     active : positive for blocks with elements in contact, by rows and columns of blocks
     values : G r is stored here, flat field
     loads : Wᵀ G r is stored here, by rows and columns of blocks
+    total : scratch array for a row of the grid without border
     """
     width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
     for block_row in range(first_row, last_row):
-        total = np.zeros(columns, values.dtype)
         first, last = _next_run(active[block_row], 0)
         while first < last:
             start, stop = first * sides[1], min(last * sides[1], columns)
-            part = total[start:stop]
+            part, left = total[start:stop], BORDER + start
+            part[:] = 0
             for row in range(BORDER + block_row * sides[0], BORDER + min((block_row + 1) * sides[0], height)):
-                out, sums = values[row * width + BORDER + start :][: stop - start], factor[row, -1][BORDER + start :]
-                _multiply_row(factor, unit, residual, row, BORDER + start, out)
+                at, rows = row * width + left, factor[row]
+                a, b, c, d, e = rows[0][left:], rows[1][left:], rows[2][left:], rows[3][left:], rows[4][left:]
+                f, g, h, k, m = rows[5][left:], rows[6][left:], rows[7][left:], rows[8][left:], rows[9][left:]
+                n, p, own, sums = rows[10][left:], rows[11][left:], rows[12][left:], rows[13][left:]
+                x, y, z = residual[at - 2 * width - BORDER :], residual[at - width - BORDER :], residual[at - BORDER :]
+                out = values[at:]
+                for j in range(part.size):
+                    value = a[j] * x[j] + b[j] * x[j + 1] + c[j] * x[j + 2] + d[j] * x[j + 3] + e[j] * x[j + 4]
+                    value += f[j] * y[j] + g[j] * y[j + 1] + h[j] * y[j + 2] + k[j] * y[j + 3] + m[j] * y[j + 4]
+                    value += n[j] * z[j] + p[j] * z[j + 1] + own[j] * z[j + 2]
+                    out[j] = unit * value
                 for j in range(part.size):
                     part[j] += unit * sums[j] * out[j]
             _add_up(total, sides[1], loads[block_row], first, last)
@@ -233,19 +202,22 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
 
 
 @njit(fastmath=True)
-def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values):
-    """Subtract the product W loads from `values` for some rows of blocks; see `_restrict` for W and the arguments."""
+def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values, spread):
+    """Subtract the product W loads from `values` for some rows of blocks; see `_restrict` for W and the arguments.
+
+    spread : scratch array for a row of the grid without border
+    """
     width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
-    spread = np.empty(columns, values.dtype)
     for block_row in range(first_row, last_row):
         first, last = _next_run(active[block_row], 0)
         while first < last:
             start, stop = first * sides[1], min(last * sides[1], columns)
             for block in range(first, last):
-                spread[block * sides[1] : (block + 1) * sides[1]] = loads[block_row, block]
-            part = spread[start:stop]
+                for j in range(block * sides[1], min((block + 1) * sides[1], columns)):
+                    spread[j] = loads[block_row, block]
+            part, left = spread[start:stop], BORDER + start
             for row in range(BORDER + block_row * sides[0], BORDER + min((block_row + 1) * sides[0], height)):
-                out, sums = values[row * width + BORDER + start :][: stop - start], factor[row, -1][BORDER + start :]
+                out, sums = values[row * width + left :], factor[row, -1][left:]
                 for j in range(part.size):
                     out[j] -= unit * sums[j] * part[j]
             first, last = _next_run(active[block_row], last)
@@ -254,14 +226,25 @@ def _correct(first_row, last_row, factor, unit, loads, height, sides, active, va
 @njit(fastmath=True)
 def _prolong(first_row, last_row, factor, unit, values, height, sides, active, result):
     """Compute result = Gᵀ values for some rows of blocks; see `_restrict` for G and the arguments."""
-    width = factor.shape[2]
+    width, columns = factor.shape[2], factor.shape[2] - 2 * BORDER
     for block_row in range(first_row, last_row):
         first, last = _next_run(active[block_row], 0)
         while first < last:
-            start, stop = first * sides[1], min(last * sides[1], width - 2 * BORDER)
+            start, stop = first * sides[1], min(last * sides[1], columns)
             for row in range(BORDER + block_row * sides[0], BORDER + min((block_row + 1) * sides[0], height)):
-                out = result[row * width + BORDER + start :][: stop - start]
-                _multiply_row_transposed(factor, unit, values, row, BORDER + start, out)
+                at = row * width + BORDER + start
+                two, one, rows = factor[row + 2], factor[row + 1], factor[row]
+                a, b, c = two[4][start:], two[3][start + 1 :], two[2][start + 2 :]
+                d, e, f = two[1][start + 3 :], two[0][start + 4 :], one[9][start:]
+                g, h, k = one[8][start + 1 :], one[7][start + 2 :], one[6][start + 3 :]
+                m, own, n = one[5][start + 4 :], rows[12][start + 2 :], rows[11][start + 3 :]
+                p, out = rows[10][start + 4 :], result[at:]
+                x, y, z = values[at + 2 * width - BORDER :], values[at + width - BORDER :], values[at:]
+                for j in range(stop - start):
+                    value = a[j] * x[j] + b[j] * x[j + 1] + c[j] * x[j + 2] + d[j] * x[j + 3] + e[j] * x[j + 4]
+                    value += f[j] * y[j] + g[j] * y[j + 1] + h[j] * y[j + 2] + k[j] * y[j + 3] + m[j] * y[j + 4]
+                    value += own[j] * z[j] + n[j] * z[j + 1] + p[j] * z[j + 2]
+                    out[j] = unit * value
             first, last = _next_run(active[block_row], last)
 
 
@@ -331,8 +314,10 @@ class SparseFactor:
             _renew_all(first_row, last_row, side, members, self._patterns, self._entries, self._factor)
         else:
             stored = self._patterns, self._rows_of_pattern, self._factor
-            _renew(start, stop, self._inside, changed[first:last], self._offsets, *stored)
-        _sum_squares(first_row, last_row, self._factor, self._unit, self._height, self._sides, self.squares)
+            rows = np.empty((last - first) * self._offsets.size, changed.dtype)
+            _renew(start, stop, self._inside, changed[first:last], self._offsets, *stored, rows)
+        blocks = self._height, self._sides, self.squares
+        _sum_squares(first_row, last_row, self._factor, self._unit, *blocks, self._grid_row())
 
     def restrict(self, residual: Array) -> Array:
         """Return Wᵀ G r by rows and columns of blocks, and keep G r for `prolong`.
@@ -344,7 +329,12 @@ class SparseFactor:
         residual : r, flat field
         """
         blocks = self._height, self._sides, self.squares
-        self._over_rows(_restrict, self._factor, self._unit, residual, *blocks, self._values, self._loads)
+
+        def restrict(i: int, j: int) -> None:
+            stored = self._values, self._loads, self._grid_row()
+            _restrict(i, j, self._factor, self._unit, residual, *blocks, *stored)
+
+        self._over_rows(restrict)
         return self._loads
 
     def prolong(self, loads: Array) -> Array:
@@ -356,9 +346,17 @@ class SparseFactor:
         loads : loads of the blocks, by rows and columns of blocks
         """
         blocks = self._height, self._sides, self.squares
-        self._over_rows(_correct, self._factor, self._unit, loads, *blocks, self._values)
+
+        def correct(i: int, j: int) -> None:
+            _correct(i, j, self._factor, self._unit, loads, *blocks, self._values, self._grid_row())
+
+        self._over_rows(correct)
         self._over_rows(_prolong, self._factor, self._unit, self._values, *blocks, self._result)
         return self._result
+
+    def _grid_row(self) -> Array:
+        """Return a scratch array for a row of the grid without border, in the precision of products with G."""
+        return np.empty(self._factor.shape[2] - 2 * BORDER, self._values.dtype)
 
     def _over_rows(self, function: Callable[..., Any], *arguments: Any) -> None:
         """Call function(first, last, *arguments) on several threads, until all rows of blocks have been processed.

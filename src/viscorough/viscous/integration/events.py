@@ -120,8 +120,13 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     row, column, gap = (values[order] for values in (elements.row, elements.column, elements.initial_gap))
     most = max(1, int(np.ceil(until_fraction * gap.size)))
     memory.require(8 * most**2, f"march: the factor for {most} elements in contact")
+    # Whole numbers of 32 bits, as in the dense solution of a contact, so that numba compiles shared functions once.
+    row, column = row.astype(np.int32), column.astype(np.int32)
+    factor, members, inside = np.empty((most, most)), np.empty(most, int), np.zeros(gap.size, bool)
+    impulse, depth, resistance = events = np.zeros((3, most))
+    scratch = *np.zeros((3, most)), inside, gap.copy(), np.zeros(gap.size)
     with uninterrupted():
-        impulse, depth, resistance, tension_index = _march(elements.influence, row, column, gap, most)
+        tension_index = _march(elements.influence, row, column, gap, factor, members, events, *scratch)
     if tension_index >= 0:
         raise ConvergenceError(f"march: tension on element {tension_index} of the contact set; contact would open")
     with np.errstate(over="ignore"):
@@ -149,24 +154,24 @@ def _respond(influence, row, column, members, count, first, second, element):
 
 
 @njit
-def _march(influence, row, column, initial_gap, most):
-    """Return impulse/(4π d), depth and Σq at every contact event, and the index of an element under tension.
+def _march(
+    influence, row, column, initial_gap, factor, members, events, forward, tangent, load, inside, last_gap, last_depth
+):  # fmt: skip
+    """Compute contact events until `most` elements are in contact; return the index of an element under tension.
 
     d is the side of an element, and q solves K q = 1 on the contact set (see the module). The index is a position in
     the contact set; −1 if no element is under tension.
 
     initial_gap : initial gaps, in increasing order
-    most : number of elements in contact at which the computation stops
+    factor : scratch array for the Cholesky factor of the influence matrix, shape (most, most)
+    members : scratch array for the indices of the elements in contact, shape (most,)
+    events : impulse/(4π d), depth and Σq at every event are stored here, shape (3, most)
+    forward, tangent, load : scratch arrays, zero on entry, shape (most,)
+    inside : True for elements in contact, False on entry
+    last_gap, last_depth : for each element, the gap that was last evaluated, and the depth of the indenter at that
+        time; the initial gap and zero on entry. Since then the gap has closed by no more than the increase of the depth
     """
-    elements = initial_gap.size
-    factor = np.empty((most, most))
-    members = np.empty(most, np.int64)
-    forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
-    inside = np.zeros(elements, np.bool_)
-    # For each element: the gap that was last evaluated, and the depth of the indenter at that time. Since then the gap
-    # has closed by no more than the increase of the depth.
-    last_gap, last_depth = initial_gap.copy(), np.zeros(elements)
-    impulse, depth, resistance = np.zeros(most), np.zeros(most), np.zeros(most)
+    elements, most = initial_gap.size, members.size
     element, depth_now, total = 0, 0.0, 0.0
     for count in range(1, most + 1):
         append_element(factor, influence, row, column, members, count - 1, element, forward)
@@ -174,8 +179,8 @@ def _march(influence, row, column, initial_gap, most):
         stiffness = solve_flat_punch(factor, count, forward, tangent)
         for t in range(count):
             if tangent[t] < 0:
-                return impulse, depth, resistance, t
-        impulse[count - 1], depth[count - 1], resistance[count - 1] = total, depth_now, stiffness
+                return t
+        events[0, count - 1], events[1, count - 1], events[2, count - 1] = total, depth_now, stiffness
         if count == most:
             break
 
@@ -205,4 +210,4 @@ def _march(influence, row, column, initial_gap, most):
         total += depth_step * stiffness
         for t in range(count):
             load[t] += depth_step * tangent[t]
-    return impulse, depth, resistance, -1
+    return -1

@@ -41,7 +41,8 @@ def test_sums_over_elements_that_join():
     touch = np.clip(np.maximum(-gap / slope / 0.4, 1 - pressure / tangent / 0.4), 0, 1)
     assert np.mean((touch > 0) & (touch < 1)) > 0.05
     expected = [slope @ slope, slope**2 @ (1 - touch), *(slope**2 @ np.maximum(s - touch, 0) for s in share)]
-    sums = kernels.touch_sums(change, initial_gap, tangent_gap, 0.4, share, places, pressure, tangent)
+    sums = np.zeros(4)
+    kernels.touch_sums(change, initial_gap, tangent_gap, 0.4, share, sums, places, pressure, tangent)
     np.testing.assert_allclose(sums, expected, rtol=1e-9)
 
 

@@ -14,6 +14,7 @@ mutant needs a test, unless it changes no result. The working tree is never chan
 import ast
 import contextlib
 import difflib
+import functools
 import re
 import shutil
 import subprocess
@@ -77,7 +78,8 @@ def places(text):
         operator, short = cosmic_ray.plugins.get_operator(name), name.removeprefix("core/")
         if operator.arguments() or LEFT_OUT.fullmatch(short):
             continue
-        starts = [start for node in nodes for start, _ in operator().mutation_positions(node)]
+        positions = operator().mutation_positions
+        starts = [start for node in nodes for start, _ in positions(node)]
         for occurrence, start in enumerate(starts):
             if not any(first <= start < last for first, last in left_out):
                 found.setdefault((short.split("_")[0], *start), []).append((name, occurrence))
@@ -128,13 +130,20 @@ def difference(mutant, text):
 # ---- the tests
 
 
+@functools.cache
+def test_texts(root):
+    """Return {path from the root: text} of all test files."""
+    return {
+        test.relative_to(root): test.read_text(encoding="utf-8") for test in sorted(root.glob("tests/**/test_*.py"))
+    }
+
+
 def area_tests(file, root=ROOT):
     """Return test files for a changed module; scripts that no test loads are tested by a run of the workflow."""
     if not file.startswith("workflow/"):
         return relevant_tests(file, root)
     call = f'load_script("{Path(file).stem}")'
-    loading = [test for test in root.glob("tests/**/test_*.py") if call in test.read_text(encoding="utf-8")]
-    return sorted(str(test.relative_to(root)) for test in loading) or FULL_RUN
+    return sorted(str(test) for test, text in test_texts(root).items() if call in text) or FULL_RUN
 
 
 def further_tests(file, root=ROOT):
@@ -142,13 +151,12 @@ def further_tests(file, root=ROOT):
     if file.startswith("workflow/"):
         return []
     module, folder = Path(file).relative_to("src").with_suffix(""), Path("tests", *Path(file).parts[1:-1])
-    name = re.compile(rf"\b{'.'.join(module.parts)}\b")
+    name = re.compile(rf"{'[./]'.join(module.parts)}\b")
     found = set()
-    for path in root.glob("tests/**/test_*.py"):
-        test = path.relative_to(root)
+    for test, text in test_texts(root).items():
         # Whole packages would have too many.
         in_folder = test.parent == folder or (len(folder.parts) > 2 and test.is_relative_to(folder))
-        if in_folder or name.search(path.read_text(encoding="utf-8")):
+        if in_folder or name.search(text):
             found.add(str(test))
     return sorted(found - set(area_tests(file, root)))
 

@@ -61,6 +61,9 @@ _FORGOTTEN, _APPROACH = 5.0, 0.999
 _HALVINGS, _NEWTON_STEPS = 64, 60
 # For x up to _SERIES_BELOW, `_second_mean` uses a series of _SERIES_TERMS terms.
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
+# For x above _KEPT_FROM, `_decay` computes exp(−x) first, otherwise 1 − exp(−x). From x = _VANISHED on, exp(−x) is less
+# than the smallest floating-point number.
+_KEPT_FROM, _VANISHED = 1.0, 746.0
 # Limit for the number of events at one time, divided by the number of springs. Only rounding errors can lead to more
 # events, since at one time a spring can be released once and touch once.
 _MOST_AT_ONCE = 4
@@ -84,9 +87,11 @@ class Law(NamedTuple):
     instantaneous, fluidity : J₀ of the spring and φ₀ of the dashpot in series
     flows, decays : J_j λ_j and rates λ_j of the Kelvin-Voigt elements with compliances J_j, shape (elements,)
     remainders : matrix G_b r_b/(r_b − λ_j), which converts internal variables w_b of branches to remainders ρ_j of
-        elements, shape (elements, branches)
-    branches : matrix J_j λ_j/(r_b − λ_j), which converts remainders ρ_j to internal variables w_b, shape (branches,
-        elements)
+        elements, shape (branches, elements)
+    branches : matrix J_j λ_j/(r_b − λ_j), which converts remainders ρ_j to internal variables w_b, shape (elements,
+        branches)
+
+    Both matrices are summed over their first index: whole rows, without gaps in memory, are added quickly.
     """
 
     viscosity: float
@@ -154,6 +159,8 @@ class _State(NamedTuple):
     left : time of the last release of each spring, shape (springs,)
     rest : deflection y of each spring at the time `left`, shape (springs,)
     remainder : remainders ρ_j of each spring at the time `left`, shape (springs, elements)
+    since, kept : time since the last touch of a spring, shape (1,), and exp(−r_b · since), shape (branches,); see
+        `_kept_since`
     most : largest number of springs in contact so far, shape (1,)
     receding : time of the first release of a spring, nan before it; shape (1,)
     """
@@ -165,6 +172,8 @@ class _State(NamedTuple):
     left: Array
     rest: Array
     remainder: Array
+    since: Array
+    kept: Array
     most: Integers
     receding: Array
 
@@ -174,13 +183,14 @@ def law_of(relaxation: RelaxationSpectrum, retardation: RetardationSpectrum) -> 
     rates, decays = 1 / relaxation.times, 1 / retardation.times
     flows = retardation.compliances * decays
     if relaxation.viscosity:
-        remainders, branches = np.zeros((decays.size, 0)), np.zeros((0, decays.size))
+        remainders, branches = np.zeros((0, decays.size)), np.zeros((decays.size, 0))
     else:
-        apart = rates - decays[:, None]
+        apart = rates[:, None] - decays
         # If a relaxation rate equals a retardation rate within rounding, the modulus of the branch is negligible, and
         # its coefficients are set to 0.
         inverse = np.divide(1.0, apart, out=np.zeros_like(apart), where=apart != 0)
-        remainders, branches = relaxation.moduli * rates * inverse, np.ascontiguousarray((flows[:, None] * inverse).T)
+        remainders = (relaxation.moduli * rates)[:, None] * inverse
+        branches = np.ascontiguousarray((flows * inverse).T)
     return Law(
         float(relaxation.viscosity), float(relaxation.relaxed_modulus), np.ascontiguousarray(relaxation.moduli), rates,
         float(retardation.instantaneous_compliance), float(retardation.fluidity), flows, decays, remainders, branches,
@@ -209,16 +219,33 @@ def move_row(
 
 
 @njit(inner=True)
-def _mean_decay(x):
-    """Return (1 − exp(−x))/x, the mean of exp(−s) for s from 0 to x."""
-    return -np.expm1(-x) / x if x > 0 else 1.0
+def _decay(x):
+    """Return exp(−x), and (1 − exp(−x))/x, the mean of exp(−s) for s from 0 to x.
+
+    Exponential functions take most of the time of a motion. So only one of the two results is computed with such a
+    function. The other result follows from it, without a loss of digits.
+    """
+    if x > _KEPT_FROM:
+        kept = _exponential(x)
+        return kept, (1 - kept) / x
+    mean = -np.expm1(-x) / x if x > 0 else 1.0
+    return 1 - x * mean, mean
 
 
 @njit(inner=True)
-def _second_mean(x):
-    """Return (x − 1 + exp(−x))/x², which is the double integral ∫₀ˣ ∫₀ˢ exp(−r) dr ds, divided by x²."""
+def _exponential(x):
+    """Return exp(−x). Where the result is 0, the exponential function of the C library takes three times as long."""
+    return np.exp(-x) if x < _VANISHED else 0.0
+
+
+@njit(inner=True)
+def _second_mean(x, mean):
+    """Return (x − 1 + exp(−x))/x², which is the double integral ∫₀ˣ ∫₀ˢ exp(−r) dr ds, divided by x².
+
+    mean : (1 − exp(−x))/x
+    """
     if x > _SERIES_BELOW:
-        return (x + np.expm1(-x)) / (x * x)
+        return (1 - mean) / x
     value = 0.0
     for n in range(_SERIES_TERMS, 0, -1):
         value = (1 - value * x) / (n + 1)
@@ -236,13 +263,15 @@ def _evaluate(s, value, slope, bend, first, second, rates):
     f, rate = value + s * (slope + s * bend), slope + 2 * bend * s
     up, down = max(2 * bend, 0.0), max(-2 * bend, 0.0)
     for k in range(rates.size):
+        if first[k] == 0 and second[k] == 0:
+            continue
         x = rates[k] * s
-        kept = np.exp(-x)
-        gone = s * _mean_decay(x)
+        kept, mean = _decay(x)
+        gone = s * mean
         f += first[k] * gone
         rate += first[k] * kept + second[k] * gone
         if second[k] != 0:
-            f += second[k] * s * s * _second_mean(x)
+            f += second[k] * s * s * _second_mean(x, mean)
         curvature = (second[k] - rates[k] * first[k]) * kept
         up += max(curvature, 0.0)
         down += max(-curvature, 0.0)
@@ -326,6 +355,21 @@ def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
 
 
 @njit(inner=True)
+def _kept_since(law, state, t, i):
+    """Return exp(−r_b (t − t_i)) for every branch b, where t_i is the time when spring i touched last.
+
+    The result is the array state.kept. An event needs the same values several times, so they are computed only if the
+    time since the touch has changed.
+    """
+    since = t - state.joined[i]
+    if since != state.since[0]:
+        state.since[0] = since
+        for b in range(law.rates.size):
+            state.kept[b] = _exponential(law.rates[b] * since)
+    return state.kept
+
+
+@njit(inner=True)
 def _release(row, law, state, t, u, force, rate, count, by_depth, first):
     """Return value, slope and rounding error of −φ, the tension of the last spring in contact.
 
@@ -333,13 +377,13 @@ def _release(row, law, state, t, u, force, rate, count, by_depth, first):
     the exponentials in −φ; they are written to `first`.
     """
     top, gap = count - 1, row.gaps[count - 1]
-    since = t - state.joined[top]
+    kept = _kept_since(law, state, t, top)
     if by_depth:
         value = law.relaxed * (u - gap) + law.viscosity * rate
         size = law.relaxed * (abs(u) + gap) + abs(law.viscosity * rate)
         slope = law.relaxed * rate
         for b in range(law.rates.size):
-            own = state.common[b] + state.offset[top, b] * np.exp(-law.rates[b] * since)
+            own = state.common[b] + state.offset[top, b] * kept[b]
             value += law.moduli[b] * own
             size += law.moduli[b] * (abs(own) + abs(state.common[b]))
             first[b] = -law.moduli[b] * (rate - law.rates[b] * own)
@@ -349,7 +393,7 @@ def _release(row, law, state, t, u, force, rate, count, by_depth, first):
         size = abs(force / stiffness) + law.relaxed * (centre + gap)
         slope = rate / stiffness
         for b in range(law.rates.size):
-            own = (state.offset[top, b] - state.total[top, b] / stiffness) * np.exp(-law.rates[b] * since)
+            own = (state.offset[top, b] - state.total[top, b] / stiffness) * kept[b]
             value += law.moduli[b] * own
             size += law.moduli[b] * abs(own)
             first[b] = law.moduli[b] * law.rates[b] * own
@@ -362,7 +406,8 @@ def _gap_now(state, law, gap, t, i):
     since = t - state.left[i]
     for j in range(law.decays.size):
         if state.remainder[i, j] != 0:
-            gap += law.flows[j] * state.remainder[i, j] * since * _mean_decay(law.decays[j] * since)
+            _, mean = _decay(law.decays[j] * since)
+            gap += law.flows[j] * state.remainder[i, j] * since * mean
     return gap + state.rest[i]
 
 
@@ -374,11 +419,11 @@ def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
         remainders[:] = force - law.relaxed * (stiffness * u - row.moment[count])
         return
     remainders[:] = 0.0
+    kept = _kept_since(law, state, t, top)
     for b in range(law.rates.size):
-        variable = stiffness * state.common[b]
-        variable += state.total[top, b] * np.exp(-law.rates[b] * (t - state.joined[top]))
+        variable = stiffness * state.common[b] + state.total[top, b] * kept[b]
         for j in range(law.decays.size):
-            remainders[j] += law.remainders[j, b] * variable
+            remainders[j] += law.remainders[b, j] * variable
 
 
 @njit(inner=True)
@@ -396,10 +441,11 @@ def _let_go(row, law, state, t, u, count):
             state.remainder[top, j] = -law.relaxed * (u - row.gaps[top])
         return top
     state.remainder[top, :] = 0.0
+    kept = _kept_since(law, state, t, top)
     for b in range(law.rates.size):
-        own = state.common[b] + state.offset[top, b] * np.exp(-law.rates[b] * (t - state.joined[top]))
+        own = state.common[b] + state.offset[top, b] * kept[b]
         for j in range(law.decays.size):
-            state.remainder[top, j] += law.remainders[j, b] * own
+            state.remainder[top, j] += law.remainders[b, j] * own
     return top
 
 
@@ -420,16 +466,17 @@ def _touch(row, law, state, t, u, force, count, by_depth):
     excess = law.relaxed * (u - gap)
     if from_balance:
         excess = force / stiffness + law.relaxed * (row.moment[count] / stiffness - gap)
+    state.offset[i, :] = 0.0
+    for j in range(law.decays.size):
+        if state.remainder[i, j] != 0:
+            remainder = state.remainder[i, j] * _exponential(law.decays[j] * (t - state.left[i]))
+            for b in range(law.rates.size):
+                state.offset[i, b] += law.branches[j, b] * remainder
+    kept = _kept_since(law, state, t, max(i - 1, 0))
     for b in range(law.rates.size):
-        own = 0.0
-        for j in range(law.decays.size):
-            if state.remainder[i, j] != 0:
-                kept = np.exp(-law.decays[j] * (t - state.left[i]))
-                own += law.branches[b, j] * state.remainder[i, j] * kept
+        own = state.offset[i, b]
         state.offset[i, b] = own - state.common[b]
-        before = 0.0
-        if i > 0:
-            before = state.total[i - 1, b] * np.exp(-law.rates[b] * (t - state.joined[i - 1]))
+        before = state.total[i - 1, b] * kept[b] if i > 0 else 0.0
         state.total[i, b] = before
         excess += law.moduli[b] * (state.offset[i, b] - before / stiffness if from_balance else own)
     excess /= law.moduli.sum()
@@ -447,9 +494,9 @@ def _carried(row, law, state, t, u, count):
     """
     stiffness, moment = row.stiffness[count], row.moment[count]
     force = law.relaxed * (stiffness * u - moment)
+    kept = _kept_since(law, state, t, count - 1)
     for b in range(law.rates.size):
-        variable = stiffness * state.common[b]
-        variable += state.total[count - 1, b] * np.exp(-law.rates[b] * (t - state.joined[count - 1]))
+        variable = stiffness * state.common[b] + state.total[count - 1, b] * kept[b]
         force += law.moduli[b] * variable
     return force
 
@@ -582,7 +629,7 @@ def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders,
     if count < row.gaps.size:
         for j in range(law.decays.size):
             if state.remainder[count, j] != 0:
-                kept = np.exp(-law.decays[j] * (t - state.left[count]))
+                kept = _exponential(law.decays[j] * (t - state.left[count]))
                 touch_amounts[j] -= law.flows[j] * state.remainder[count, j] * kept
     rounding = _ROUNDING * (abs(u) + (row.gaps[count] if count < row.gaps.size else 0.0))
     return _first_crossing(until, rounding, u - reached, slope, bend, touch_amounts, drive, law.decays)
@@ -600,21 +647,24 @@ def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
     if by_depth:
         for b in range(law.rates.size):
             x = law.rates[b] * s
-            state.common[b] = state.common[b] * np.exp(-x) + rate * s * _mean_decay(x)
+            kept, mean = _decay(x)
+            state.common[b] = state.common[b] * kept + rate * s * mean
         return u + rate * s
     stiffness = row.stiffness[count]
     rise = s * (law.instantaneous * rate + law.fluidity * (force + 0.5 * rate * s))
     for j in range(law.decays.size):
         x = law.decays[j] * s
-        mean = s * _mean_decay(x)
-        rise += law.flows[j] * (remainders[j] * mean + rate * s * s * _second_mean(x))
-        remainders[j] = remainders[j] * np.exp(-x) + rate * mean
+        kept, mean = _decay(x)
+        rise += law.flows[j] * (remainders[j] * s * mean + rate * s * s * _second_mean(x, mean))
+        remainders[j] = remainders[j] * kept + rate * s * mean
     for b in range(law.rates.size):
-        variable = law.fluidity * (force + rate * s) / law.rates[b]
-        for j in range(law.decays.size):
-            variable += law.branches[b, j] * remainders[j]
-        variable -= state.total[count - 1, b] * np.exp(-law.rates[b] * (end - state.joined[count - 1]))
-        state.common[b] = variable / stiffness
+        state.common[b] = law.fluidity * (force + rate * s) / law.rates[b]
+    for j in range(law.decays.size):
+        for b in range(law.rates.size):
+            state.common[b] += law.branches[j, b] * remainders[j]
+    kept = _kept_since(law, state, end, count - 1)
+    for b in range(law.rates.size):
+        state.common[b] = (state.common[b] - state.total[count - 1, b] * kept[b]) / stiffness
     return u + rise / stiffness
 
 
@@ -628,7 +678,8 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
         row.stiffness[i + 1], row.moment[i + 1] = row.stiffness[i] + weights[i], row.moment[i] + weights[i] * gaps[i]
     state = _State(
         np.zeros(branches), np.zeros(springs), np.zeros((springs, branches)), np.zeros((springs, branches)),
-        np.zeros(springs), np.zeros(springs), np.zeros((springs, elements)), np.zeros(1, np.int64), np.full(1, np.nan),
+        np.zeros(springs), np.zeros(springs), np.zeros((springs, elements)), np.zeros(1), np.ones(branches),
+        np.zeros(1, np.int64), np.full(1, np.nan),
     )  # fmt: skip
     depth, force, velocity = np.full(samples, np.nan), np.full(samples, np.nan), np.full(samples, np.nan)
     in_contact, deflection, largest = np.zeros(samples, np.int64), np.zeros(samples), np.ones(samples, np.bool_)
@@ -705,15 +756,17 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     count = _let_go(row, law, state, t, u, count)
                     if count > 0 and not by_depth:
                         u = _balanced(row, law, state, t, u, f, count)
-                    if count > 0:
+                    if count > 0 and law.viscosity > 0 and not by_depth:
                         _remainders_in_contact(row, law, state, t, u, f, count, remainders)
                 elif count == springs:
                     ended = BEYOND
                 else:
                     if not by_depth:
                         u = _balanced(row, law, state, t, u, f, count)
-                    kept = np.exp(-law.decays * (t - state.left[count]))
-                    remainders += weights[count] * state.remainder[count] * kept
+                    if law.viscosity > 0 and not by_depth:
+                        remainders += (
+                            weights[count] * state.remainder[count] * np.exp(-law.decays * (t - state.left[count]))
+                        )
                     count = _touch(row, law, state, t, u, f, count, by_depth)
                 if ended != SETTLED:
                     break

@@ -87,8 +87,9 @@ def _deflections(elements: Elements, loads: MemberLoads, targets: Integers) -> A
     """
     deflections, (members, pressure, tangent) = np.empty((2, targets.size)), loads
     position, target = ((elements.row[ranks], elements.column[ranks]) for ranks in (members, targets))
-    loads_ = np.ascontiguousarray(pressure), np.ascontiguousarray(tangent)
-    _sum_deflections(elements.influence, *position, *target, *loads_, deflections)
+    # numba would compile the function again for arrays that are not contiguous.
+    pressure, tangent = np.ascontiguousarray(pressure), np.ascontiguousarray(tangent)
+    _sum_deflections(elements.influence, *position, *target, pressure, tangent, deflections)
     return deflections
 
 
@@ -169,15 +170,11 @@ def follow_events(
     reaches `pressure_sum` before another element touches.
     """
     loads = contact.loads
-    most = min(most, elements.initial_gap.size)
-    factor, members, path = np.empty((most, most)), np.empty(most, int), np.empty((3, most))
     with uninterrupted():
-        levels, touched = _follow(
+        depth, total, stiffness, members, factor = _follow(
             elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
-            loads.members, loads.pressure, pressure_sum, factor, members, path,
-            *np.zeros((3, most)), elements.initial_gap.copy(), *np.empty((2, most), elements.row.dtype),
+            loads.members, loads.pressure, min(most, elements.initial_gap.size), pressure_sum,
         )  # fmt: skip
-    (depth, total, stiffness), members = path[:, :levels], members[:touched]
     count = np.arange(contact.count, contact.count + depth.size)
     # An event is complete if no further element touches at the same depth. The last event is certain to be complete
     # only if all elements are in contact. The first entry is the given contact, which is no event.
@@ -224,72 +221,65 @@ def _exact_contact(units: Units, depth: float, members: Integers, pressure: Arra
 
 
 @njit(fastmath=True)
-def _follow(
-    influence, row, column, initial_gap, depth, start, pressure, force, factor, members, path,
-    forward, tangent, load, earliest, member_row, member_column,
-):  # fmt: skip
+def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
     """Compute the contact events after a given contact (see `follow_events`) in compiled code, from plain arrays.
 
     The rank of an element is its place in the order of increasing initial gap.
 
     depth : reduced depth of the given contact
     start, pressure : ranks and pressures P of the elements in contact at this depth
+    most : the computation stops when this number of elements is in contact
     force : the computation stops when the sum ΣP of reduced pressures exceeds this value
-    factor : the Cholesky factor of the influence matrix is stored here, shape (most, most); the computation stops when
-        `most` elements are in contact
-    members : ranks of the elements in contact are stored here, in the order in which they touch; shape (most,)
-    path : depth, ΣP and Σq of every event are stored here, shape (3, most); the first event is the given contact
-    forward, tangent, load : scratch arrays, zero on entry, shape (most,)
-    earliest : lower bound of the depth at which each element touches; _NEVER for elements in contact. On entry the
-        bound is the initial gap, because a gap closes at most as fast as the depth grows. Later bounds follow from the
-        tangent of the gap, which is a convex function of the depth
-    member_row, member_column : scratch arrays for the positions of the elements in contact, shape (most,)
 
-    Returns the number of events, and the number of elements in contact.
+    Returns five arrays: the depth, ΣP and Σq of every event; the ranks of all elements in contact, in the order in
+    which they touch; and the Cholesky factor of their influence matrix. The first event is the given contact.
     """
-    count, total, following, events = 0, 0.0, 0, 0
+    factor, members = np.empty((most, most)), np.empty(most, np.int64)
+    forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
+    depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
+    # Lower bound of the depth at which each element touches; _NEVER for elements in contact. The first bound is the
+    # initial gap, because a gap closes at most as fast as the depth grows. Later bounds follow from the tangent of the
+    # gap, which is a convex function of the depth.
+    earliest = initial_gap.copy()
+    count, total, following = 0, 0.0, 0
+    for t in range(start.size - 1):
+        append_element(factor, influence, row, column, members, count, start[t], forward)
+        earliest[start[t]] = _NEVER
+        count += 1
     for t in range(start.size):
         load[t] = pressure[t]
         total += pressure[t]
-    element = start[0]
+    element, events = start[start.size - 1], 0
     while True:
         append_element(factor, influence, row, column, members, count, element, forward)
         earliest[element] = _NEVER
-        member_row[count], member_column[count] = row[element], column[element]
         count += 1
-        if count < start.size:  # the given contact is not complete yet
-            element = start[count]
-            continue
         stiffness = solve_flat_punch(factor, count, forward, tangent)
-        path[0, events], path[1, events], path[2, events] = depth, total, stiffness
+        depths[events], totals[events], stiffnesses[events] = depth, total, stiffness
         events += 1
         lowest = 0.0
         for t in range(count):
             lowest = min(lowest, tangent[t])
-        if count == members.size or total > force or lowest < 0:
+        if count == most or total > force or lowest < 0:
             break
         depth_step, element, following = _next_touch(
-            influence, row, column, initial_gap, depth, count, member_row, member_column, load, tangent, earliest,
-            following,
-        )  # fmt: skip
+            influence, row, column, initial_gap, depth, members[:count], load, tangent, earliest, following
+        )
         depth += depth_step
         total += depth_step * stiffness
         for t in range(count):
             load[t] += depth_step * tangent[t]
-    return events, count
+    return depths[:events], totals[:events], stiffnesses[:events], members[:count], factor
 
 
 @njit(inner=True, fastmath=True)
-def _next_touch(
-    influence, row, column, initial_gap, depth, count, member_row, member_column, load, tangent, earliest, guess
-):  # fmt: skip
+def _next_touch(influence, row, column, initial_gap, depth, members, load, tangent, earliest, guess):
     """Find the element that touches next.
 
     Elements are given by their ranks, their places in the order of increasing initial gap.
 
     depth : reduced depth of the contact
-    count : number of elements in contact
-    member_row, member_column, load, tangent : positions, pressures P and tangents q of the elements in contact
+    members, load, tangent : ranks of the elements in contact, their pressures P and their tangents q
     earliest : lower bound of the depth at which each element touches, _NEVER for elements in contact; raised in place
         for every element whose gap is computed
     guess : element whose gap is computed first; if it touches soon, few other gaps have to be computed
@@ -298,6 +288,7 @@ def _next_touch(
     element with the smallest lower bound among all other elements.
     """
     depth_step, element, following, first_later = _NEVER, -1, 0, _NEVER
+    member_row, member_column = row[members], column[members]
     for position in range(-1, initial_gap.size):
         i = guess if position < 0 else position
         # An element touches only at depths of at least its initial gap. The initial gap increases with the rank, so no
@@ -306,7 +297,7 @@ def _next_touch(
             break
         if earliest[i] - depth < depth_step:
             deflection, deflection_per_depth = 0.0, 0.0
-            for t in range(count):
+            for t in range(members.size):
                 value = influence[abs(member_row[t] - row[i]), abs(member_column[t] - column[i])]
                 deflection += value * load[t]
                 deflection_per_depth += value * tangent[t]

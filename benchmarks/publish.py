@@ -112,9 +112,10 @@ def other_runs(table):
         with_seeds = dict(tuple(published_claims("docs/seeds.csv").groupby("seed")))
         runs += with_seeds.values()
         seeds = f" and also with {len(with_seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)),"
+    of_runs = [overall(run) for run in runs]
     for claim, verdict in overall(table).items():
         # A run that was published before a claim was added has no verdict on it.
-        if others := {overall(run).get(claim, verdict) for run in runs} - {verdict}:
+        if others := {each.get(claim, verdict) for each in of_runs} - {verdict}:
             differ.append(f"{claim} ({', '.join(sorted(others))})")
     opposed = [f"{claim}, {case}" for claim, case in opposed_cases([table, *runs])]
     return (

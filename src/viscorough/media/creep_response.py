@@ -26,6 +26,9 @@ _CHUNK = 2**20
 # Let x be the length of an interval divided by a retardation time. For x below _SERIES_BELOW, (exp(−x) − 1 + x)/x is
 # computed by a series with _SERIES_TERMS terms, because the formula would lose digits.
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
+# For x above _KEPT_FROM, `decay` computes exp(−x) first, otherwise 1 − exp(−x). From x = _VANISHED on, exp(−x) is less
+# than the smallest floating-point number.
+_KEPT_FROM, _VANISHED = 1.0, 746.0
 
 
 class CreepResponse(NamedTuple):
@@ -141,6 +144,46 @@ def sums_over_the_past(
     return positive, negative
 
 
+@njit(inner=True)
+def decay(x):
+    """Return exp(−x), and (1 − exp(−x))/x, the mean of exp(−s) for s from 0 to x.
+
+    Exponential functions take most of the time of a motion. So only one of the two results is computed with such a
+    function. The other result follows from it, without a loss of digits.
+    """
+    if x > _KEPT_FROM:
+        kept = exponential(x)
+        return kept, (1 - kept) / x
+    mean = -np.expm1(-x) / x if x > 0 else 1.0
+    return 1 - x * mean, mean
+
+
+@njit(inner=True)
+def exponential(x):
+    """Return exp(−x). Where the result is 0, the exponential function of the C library takes three times as long."""
+    return np.exp(-x) if x < _VANISHED else 0.0
+
+
+@njit
+def branch_forces(lengths, loads, relaxation_times):
+    """Return, for each load F and each relaxation time τ, the state z with z' + z/τ = F', at every sample.
+
+    The shape is (loads, samples, times). F is 0 before the first sample.
+
+    lengths : lengths of the intervals between samples; F jumps at an interval of length 0
+    loads : F at the samples, for one or more loads, shape (loads, samples)
+    """
+    states = np.zeros((loads.shape[0], loads.shape[1], relaxation_times.size))
+    for i in range(loads.shape[0]):
+        states[i, 0] = loads[i, 0]
+    for k in range(lengths.size):
+        for j in range(relaxation_times.size):
+            kept, mean = decay(lengths[k] / relaxation_times[j])
+            for i in range(loads.shape[0]):
+                states[i, k + 1, j] = states[i, k, j] * kept + mean * (loads[i, k + 1] - loads[i, k])
+    return states
+
+
 @njit
 def branch_states(lengths, force, retardation_times):
     """Return, for each retardation time θ, the state y with θ y' + y = F, and z = F − y, at every sample.
@@ -160,16 +203,15 @@ def branch_states(lengths, force, retardation_times):
                 z += force[k + 1] - force[k]
             else:
                 x = lengths[k] / retardation_times[j]
-                kept, gone = np.exp(-x), -np.expm1(-x)
+                kept, mean = decay(x)
                 # For the forces F0 and F1 at the start and end of the interval, y becomes exp(−x) y + a F0 + b F1, with
                 # b = 1 − (1 − exp(−x))/x and a = 1 − exp(−x) − b.
                 if x < _SERIES_BELOW:
                     b = 0.0
                     for n in range(_SERIES_TERMS, 0, -1):
                         b = (1 - b) * x / (n + 1)
-                    a, mean = gone - b, 1 - b
+                    a = x * mean - b
                 else:
-                    mean = gone / x
                     a, b = mean - kept, 1 - mean
                 y = y * kept + a * force[k] + b * force[k + 1]
                 z = z * kept + mean * (force[k + 1] - force[k])

@@ -117,6 +117,8 @@ def zero_of_increasing(function: Callable[[Array], Array], low: Any, high: Any) 
     """
     for _ in range(_BISECTIONS):
         middle = np.where(high > 2 * low, np.sqrt(low) * np.sqrt(high), low + 0.5 * (high - low))
+        if ((middle <= low) | (middle >= high)).all():  # no numbers are left between the ends
+            break
         positive = function(middle) > 0
         low, high = np.where(positive, low, middle), np.where(positive, middle, high)
     return low + 0.5 * (high - low)

@@ -31,7 +31,7 @@ import numpy as np
 from viscorough.basics import units
 from viscorough.basics.argument_names import argument
 from viscorough.basics.types import Array, Integers
-from viscorough.media.creep_response import branch_states
+from viscorough.media.creep_response import branch_forces
 from viscorough.media.kinds import CreepTable, Prony, Springpot
 from viscorough.media.load import Load
 from viscorough.media.medium import RelaxationSpectrum
@@ -438,9 +438,7 @@ class _ForceRecord:
         spring = stiffness * path.depth[path.place] - self.moment[in_contact]
         count = np.searchsorted(self.gap, path.depth)
         elastic = self.stiffness[count] * path.depth - self.moment[count]
-        intervals = np.diff(path.time)
-        _, to_force = branch_states(intervals, elastic, times)
-        _, to_depth = branch_states(intervals, path.depth, times)
+        to_force, to_depth = branch_forces(np.diff(path.time), np.array([elastic, path.depth]), times)
         touch = path.touches[np.maximum(in_contact, 1) - 1]
         # Time since the last spring in contact touched. For measurements without contact it may be negative; the forces
         # for these measurements are set to 0 below.

@@ -41,6 +41,7 @@ import numpy as np
 from viscorough.basics.compilation import njit
 from viscorough.basics.interrupts import uninterrupted
 from viscorough.basics.types import Array, Integers, Mask
+from viscorough.media.creep_response import decay, exponential
 from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 
 # Rounding error of a force or an overlap, relative to the size of its terms. A spring is released only if its tension
@@ -61,9 +62,6 @@ _FORGOTTEN, _APPROACH = 5.0, 0.999
 _HALVINGS, _NEWTON_STEPS = 64, 60
 # For x up to _SERIES_BELOW, `_second_mean` uses a series of _SERIES_TERMS terms.
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
-# For x above _KEPT_FROM, `_decay` computes exp(−x) first, otherwise 1 − exp(−x). From x = _VANISHED on, exp(−x) is less
-# than the smallest floating-point number.
-_KEPT_FROM, _VANISHED = 1.0, 746.0
 # Limit for the number of events at one time, divided by the number of springs. Only rounding errors can lead to more
 # events, since at one time a spring can be released once and touch once.
 _MOST_AT_ONCE = 4
@@ -219,26 +217,6 @@ def move_row(
 
 
 @njit(inner=True)
-def _decay(x):
-    """Return exp(−x), and (1 − exp(−x))/x, the mean of exp(−s) for s from 0 to x.
-
-    Exponential functions take most of the time of a motion. So only one of the two results is computed with such a
-    function. The other result follows from it, without a loss of digits.
-    """
-    if x > _KEPT_FROM:
-        kept = _exponential(x)
-        return kept, (1 - kept) / x
-    mean = -np.expm1(-x) / x if x > 0 else 1.0
-    return 1 - x * mean, mean
-
-
-@njit(inner=True)
-def _exponential(x):
-    """Return exp(−x). Where the result is 0, the exponential function of the C library takes three times as long."""
-    return np.exp(-x) if x < _VANISHED else 0.0
-
-
-@njit(inner=True)
 def _second_mean(x, mean):
     """Return (x − 1 + exp(−x))/x², which is the double integral ∫₀ˣ ∫₀ˢ exp(−r) dr ds, divided by x².
 
@@ -266,7 +244,7 @@ def _evaluate(s, value, slope, bend, first, second, rates):
         if first[k] == 0 and second[k] == 0:
             continue
         x = rates[k] * s
-        kept, mean = _decay(x)
+        kept, mean = decay(x)
         gone = s * mean
         f += first[k] * gone
         rate += first[k] * kept + second[k] * gone
@@ -365,7 +343,7 @@ def _kept_since(law, state, t, i):
     if since != state.since[0]:
         state.since[0] = since
         for b in range(law.rates.size):
-            state.kept[b] = _exponential(law.rates[b] * since)
+            state.kept[b] = exponential(law.rates[b] * since)
     return state.kept
 
 
@@ -406,7 +384,7 @@ def _gap_now(state, law, gap, t, i):
     since = t - state.left[i]
     for j in range(law.decays.size):
         if state.remainder[i, j] != 0:
-            _, mean = _decay(law.decays[j] * since)
+            _, mean = decay(law.decays[j] * since)
             gap += law.flows[j] * state.remainder[i, j] * since * mean
     return gap + state.rest[i]
 
@@ -469,7 +447,7 @@ def _touch(row, law, state, t, u, force, count, by_depth):
     state.offset[i, :] = 0.0
     for j in range(law.decays.size):
         if state.remainder[i, j] != 0:
-            remainder = state.remainder[i, j] * _exponential(law.decays[j] * (t - state.left[i]))
+            remainder = state.remainder[i, j] * exponential(law.decays[j] * (t - state.left[i]))
             for b in range(law.rates.size):
                 state.offset[i, b] += law.branches[j, b] * remainder
     kept = _kept_since(law, state, t, max(i - 1, 0))
@@ -629,7 +607,7 @@ def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders,
     if count < row.gaps.size:
         for j in range(law.decays.size):
             if state.remainder[count, j] != 0:
-                kept = _exponential(law.decays[j] * (t - state.left[count]))
+                kept = exponential(law.decays[j] * (t - state.left[count]))
                 touch_amounts[j] -= law.flows[j] * state.remainder[count, j] * kept
     rounding = _ROUNDING * (abs(u) + (row.gaps[count] if count < row.gaps.size else 0.0))
     return _first_crossing(until, rounding, u - reached, slope, bend, touch_amounts, drive, law.decays)
@@ -647,14 +625,14 @@ def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
     if by_depth:
         for b in range(law.rates.size):
             x = law.rates[b] * s
-            kept, mean = _decay(x)
+            kept, mean = decay(x)
             state.common[b] = state.common[b] * kept + rate * s * mean
         return u + rate * s
     stiffness = row.stiffness[count]
     rise = s * (law.instantaneous * rate + law.fluidity * (force + 0.5 * rate * s))
     for j in range(law.decays.size):
         x = law.decays[j] * s
-        kept, mean = _decay(x)
+        kept, mean = decay(x)
         rise += law.flows[j] * (remainders[j] * s * mean + rate * s * s * _second_mean(x, mean))
         remainders[j] = remainders[j] * kept + rate * s * mean
     for b in range(law.rates.size):

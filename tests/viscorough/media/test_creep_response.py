@@ -7,7 +7,7 @@ import pytest
 
 from support.media import MEDIA
 from viscorough import KelvinVoigt, Load, Maxwell, Newtonian, Prony, StandardLinearSolid
-from viscorough.media.creep_response import by_states, creep_response
+from viscorough.media.creep_response import branch_forces, by_states, creep_response
 from viscorough.media.first_decrease import first_decrease, rate_at_samples
 
 MEDIA = MEDIA | {"prony liquid": Prony(0.0, [1e6, 1.0], [1e-5, 4.0])}
@@ -112,3 +112,15 @@ def test_noise_of_rounding_is_no_decrease():
     for medium in (StandardLinearSolid(4.0, 1.5, 0.3), KelvinVoigt(2.0, 5.0), Newtonian(1.0)):
         rate = creep_response(medium, Load(times, force=force)).rate
         assert (rate >= 0).all()
+
+
+def test_branch_forces_are_integrals_over_the_history_of_the_load():
+    """z = ∫ exp(−(t − s)/τ) dF(s) under a step to 1 at time 0, a ramp to 3 at time 2, a step to 0.5, and a hold."""
+    times, load = np.array([0.0, 2.0, 2.0, 2.5]), np.array([1.0, 3.0, 0.5, 0.5])
+    branches = np.array([1e-4, 0.01, 1.0, 1e6])
+    found = branch_forces(np.diff(times), np.array([load, -2 * load]), branches)
+    at_turn = np.exp(-2 / branches) - branches * np.expm1(-2 / branches)
+    after = at_turn - 2.5
+    expected = [np.ones(4), at_turn, after, after * np.exp(-0.5 / branches)]
+    np.testing.assert_allclose(found[0], expected, rtol=1e-14)
+    np.testing.assert_allclose(found[1], -2 * np.array(expected), rtol=1e-14)

@@ -37,12 +37,13 @@ def assert_same_curve(curve, other):
         assert type(value) is type(other_value), field.name
 
 
-def curve_of_levels(depth, force, stiffness, contact_count):
-    """Make a LoadingCurve of these levels."""
+def curve_of_levels(depth, force, stiffness, contact_count, tolerance=1e-9):
+    """Make a LoadingCurve of these levels. The tolerance determines the number of springs of its row."""
     levels = (np.asarray(values) for values in (depth, force, stiffness, contact_count))
-    return LoadingCurve(*levels, 10**6, "by hand", 1e-9, 0, np.zeros(len(depth)))
+    return LoadingCurve(*levels, 10**6, "by hand", tolerance, 0, np.zeros(len(depth)))
 
 
-def curve_of_body(body, depth):
+def curve_of_body(body, depth, tolerance=1e-9):
     """Return the curve of a body of revolution. Ten elements join at each level, so at_force interpolates smoothly."""
-    return curve_of_levels(depth, body.force(depth), body.stiffness(depth), 10 * np.arange(1, depth.size + 1))
+    count = 10 * np.arange(1, depth.size + 1)
+    return curve_of_levels(depth, body.force(depth), body.stiffness(depth), count, tolerance)

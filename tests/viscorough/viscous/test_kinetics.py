@@ -42,8 +42,9 @@ def test_depth_under_a_varying_force_agrees_with_time_integration():
 
 def test_times_of_the_levels_reproduce_the_levels():
     """Rounding of F·t/η, up or down, must move no level beyond the ends of the curve."""
+    curve = dataclasses.replace(CURVE, tolerance=1e-4)  # fewer springs, since between the levels nothing is compared
     for force in np.random.default_rng(5).uniform(0.1, 10, 50):
-        levels = kinetics(CURVE, force, VISCOSITY, CURVE.force * VISCOSITY / force)
+        levels = kinetics(curve, force, VISCOSITY, CURVE.force * VISCOSITY / force)
         np.testing.assert_allclose(levels.depth, CURVE.depth, rtol=1e-13)
         np.testing.assert_allclose(levels.velocity, force / (VISCOSITY * CURVE.stiffness), rtol=1e-12)
 

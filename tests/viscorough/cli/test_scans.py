@@ -1,5 +1,6 @@
 """A folder of scans to one table: the numbers of single files, in any order, continued after an interrupt."""
 
+import multiprocessing
 import re
 
 import numpy as np
@@ -9,6 +10,7 @@ import viscorough
 from support import dying_process
 from support.command_line import run, sphere_heights
 from support.tables import read_table
+from support.workflow import COPIES
 from viscorough import contact_at, indent, self_affine_disc
 from viscorough.cli import scans
 from viscorough.cli.surface_options import Surface
@@ -31,6 +33,12 @@ def here(here):
     return here
 
 
+@pytest.fixture
+def forked(monkeypatch):
+    """Fork the processes that evaluate files, which takes less time than starting them as the other tests do."""
+    monkeypatch.setattr(multiprocessing, "get_context", lambda method: COPIES)
+
+
 def contact(names="a.nc b.nc c.nc", options="", output="table.csv"):
     """Return the exit code of viscorough contact for these files."""
     files = " ".join(f"scans/{name}" for name in names.split())
@@ -45,6 +53,7 @@ def mark(path, row=0):
     path.write_text("".join(lines))
 
 
+@pytest.mark.usefixtures("forked")
 def test_a_folder_becomes_a_table_of_all_files_and_loads(here, capsys):
     """Python gives the same numbers, in um and N. A file that cannot be read has a reason, and the exit code is 3."""
     assert contact() == scans.SOME_FAILED
@@ -73,6 +82,7 @@ def test_the_table_depends_neither_on_jobs_nor_on_the_order_of_files(here):
     assert (here / "one.csv").read_bytes() == (here / "two.csv").read_bytes()
 
 
+@pytest.mark.usefixtures("forked")
 def test_only_changed_files_are_evaluated_again(here, capsys):
     contact("a.nc b.nc", "--jobs 1")
     table = here / "table.csv"
@@ -138,6 +148,7 @@ def test_single_file_gives_a_table_of_its_loads(here, capsys):
     assert not (here / "other.csv").exists()
 
 
+@pytest.mark.usefixtures("forked")
 def test_curves_of_a_folder_have_a_row_for_each_level(here):
     command = "indent scans/a.nc scans/b.nc --young '2 MPa' -o curves.csv"
     assert run(f"{command} --until-force '20 uN'") == 0
@@ -169,6 +180,7 @@ def test_wrong_options_are_not_reported_as_errors_of_files(complaint, line, what
     assert what in complaint(line)
 
 
+@pytest.mark.usefixtures("forked")
 def test_warnings_of_files_are_in_the_table(here, capsys):
     np.save("scans/steep.npy", 40 * sphere_heights(9))
     assert run("contact scans/steep.npy scans/a.nc --spacing 1 --unit um --depth 0.1 -o table.csv") == 0

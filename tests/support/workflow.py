@@ -2,7 +2,7 @@
 
 import fcntl
 import importlib.util
-import multiprocessing
+import multiprocessing.forkserver
 import os
 import re
 import runpy
@@ -52,14 +52,18 @@ def copy_sources(folder):
     shutil.copytree(ROOT / "src", folder / "src", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
 
 
+def common_folder(tmp_path_factory):
+    """Return the temporary folder of all processes of the test session."""
+    own = tmp_path_factory.getbasetemp()
+    return own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+
+
 def made_once(tmp_path_factory, name, make):
     """Return a folder that the first test that needs it makes, in any process of the session; tests must not change it.
 
     make : function of the new, empty folder
     """
-    common = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        common = common.parent
+    common = common_folder(tmp_path_factory)
     folder, made = common / name, common / f"{name}.made"
     with open(common / f"{name}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # one process at a time
@@ -84,8 +88,8 @@ def environment(folder, project=None):
 
 
 # Every run is a fork of a process that has already loaded Snakemake and the imports of this project's packages. Jobs
-# are forks, too, since most of them take less time than these imports. Only the first job of each script runs in a new
-# process, which shows that the script works there.
+# are forks, too, since most of them take less time than these imports. Only the first job of each script in the test
+# session runs in a new process, which shows that the script works there.
 COPIES = multiprocessing.get_context("forkserver")
 PRELOADED = ["snakemake.cli", "snakemake.workflow", "snakemake.report.html_reporter", "smart_open", "nbformat"]
 PRELOADED += ["netCDF4", "numba", "pandas", "pydantic", "xarray", "scipy.special", "scipy.optimize"]
@@ -104,21 +108,38 @@ def _enter(variables, folder, output):
         os.dup2(file.fileno(), 2)
 
 
-def _run_snakemake(arguments, variables, folder, output):
+# Variable that names a folder with an empty file for each script that has run in a new process; tests/workflow sets it.
+STARTED = "VISCOROUGH_TESTS_STARTED"
+
+
+def _server_of_forks():
+    """Return where other processes reach the server of forks: fields of multiprocessing that it has no names for."""
+    multiprocessing.forkserver.ensure_running()
+    fields = vars(multiprocessing.forkserver._forkserver)
+    return {name: value for name, value in fields.items() if name in ("_forkserver_address", "_forkserver_authkey")}
+
+
+def _run_snakemake(arguments, variables, folder, output, server):
     _enter(variables, folder, output)
+    # Fork the jobs from the same server: otherwise each run would start another server and load all packages again.
+    vars(multiprocessing.forkserver._forkserver).update(server, ensure_running=lambda: None)
     sys.argv = ["snakemake", *arguments]
     python = importlib.import_module("snakemake.script").PythonScript
-    in_new_process, scripts = python.execute_script, set()
+    in_new_process = python.execute_script
     # Snakemake runs each job in a thread. The exit code of a process can be read only once, and starting a process
     # reads the exit codes of all ended ones. Without the lock, a thread that joins its process at that moment would get
     # 255.
     one_thread = threading.Lock()
 
     def execute_script(self, path, edit=False):
-        if (script := self.path.get_filename()) not in scripts:
-            scripts.add(script)
+        try:  # the first of several processes makes the file
+            Path(os.environ[STARTED], Path(self.path.get_filename()).name).touch(exist_ok=False)
+        except FileExistsError:
+            execute_in_fork(self, path)
+        else:
             in_new_process(self, path, edit)
-            return
+
+    def execute_in_fork(self, path):
         job = COPIES.Process(target=_run_job, args=(path, dict(os.environ), os.getcwd(), output))
         with one_thread:
             job.start()
@@ -150,7 +171,8 @@ def snakemake(folder, *arguments, fails=False, cores=2, project=None):
     number = () if cores is None else ("--cores", cores)
     with tempfile.NamedTemporaryFile("r") as output:
         line = ["--nocolor", *map(str, (*number, *arguments))]
-        run = COPIES.Process(target=_run_snakemake, args=(line, environment(folder, project), folder, output.name))
+        surroundings = (environment(folder, project), folder, output.name, _server_of_forks())
+        run = COPIES.Process(target=_run_snakemake, args=(line, *surroundings))
         run.start()
         run.join(HANGS)
         text = output.read()

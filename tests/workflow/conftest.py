@@ -4,7 +4,17 @@ import shutil
 
 import pytest
 
-from support.workflow import TEST, copy_project, made_once, snakemake
+from support.workflow import STARTED, TEST, common_folder, copy_project, made_once, snakemake
+
+
+@pytest.fixture(scope="session", autouse=True)
+def started_scripts(tmp_path_factory):
+    """Let each script run in a new process once in the session, with its first job."""
+    folder = common_folder(tmp_path_factory) / "started"
+    folder.mkdir(exist_ok=True)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(STARTED, str(folder))
+        yield
 
 
 @pytest.fixture(scope="session")

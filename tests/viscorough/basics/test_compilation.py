@@ -63,21 +63,38 @@ def more(x):
 }
 
 
-def test_copies_of_a_source_share_compiled_code_and_changes_are_noticed(tmp_path):
-    def result(folder, changes=("", "")):
-        (tmp_path / folder).mkdir()
-        for name, text in KERNELS.items():
-            (tmp_path / folder / name).write_text(text.replace(*changes))
-        script = f"import sys; sys.path.insert(0, {str(tmp_path / folder)!r}); import whole; print(whole.more(3))"
-        done = python("-c", script, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
-        return int(done.stdout), len(list((tmp_path / "cache").iterdir()))
+# Prints, for each folder, the result of its function and the number of files in the cache.
+RESULTS = """
+import os, sys
+for folder in sys.argv[1:]:
+    sys.path.insert(0, folder)
+    import whole
+    print(whole.more(3), len(os.listdir(os.environ["NUMBA_CACHE_DIR"])))
+    sys.path.remove(folder)
+    del sys.modules["whole"], sys.modules["parts"]
+"""
 
-    assert result("first") == (7, 1)
-    assert result("copy") == (7, 1)
-    assert result("comment", ("import njit", "import njit  # a decorator")) == (7, 1)
-    assert result("constant", ("FACTOR = 2", "FACTOR = 5")) == (16, 2)
-    assert result("called", ("FACTOR * x", "FACTOR - x")) == (0, 3)
-    assert result("option", ("(inner=True)", "(inner=True, fastmath=True)")) == (7, 4)
+
+def test_copies_of_a_source_share_compiled_code_and_changes_are_noticed(tmp_path):
+    def results(**changes):
+        """Return the results of changed copies, which one new process computes."""
+        for folder, change in changes.items():
+            (tmp_path / folder).mkdir()
+            for name, text in KERNELS.items():
+                (tmp_path / folder / name).write_text(text.replace(*change))
+        folders = [str(tmp_path / folder) for folder in changes]
+        done = python("-c", RESULTS, *folders, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
+        return [tuple(map(int, line.split())) for line in done.stdout.splitlines()]
+
+    assert results(first=("", "")) == [(7, 1)]
+    changed = results(
+        copy=("", ""),
+        comment=("import njit", "import njit  # a decorator"),
+        constant=("FACTOR = 2", "FACTOR = 5"),
+        called=("FACTOR * x", "FACTOR - x"),
+        option=("(inner=True)", "(inner=True, fastmath=True)"),
+    )
+    assert changed == [(7, 1), (7, 1), (16, 2), (0, 3), (7, 4)]
 
 
 def test_inner_functions_are_refused_in_python_whether_compiled_or_not():

@@ -24,7 +24,7 @@ rule check_validation:
         "../scripts/check_validation.py"
 
 
-# Names of the tables by which the claims are judged.
+# Names of the tables that decide about the claims.
 EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "zeta_laws")
 EVIDENCE += ("methods", "sizes", "grid_dependence", "histories")
 

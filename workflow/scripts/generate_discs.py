@@ -12,7 +12,7 @@ def main(surfaces, *, ensembles, seed):
 
     surfaces : file to write
     ensembles : settings of each ensemble and numbers of its discs in this batch, from `run.cases.batch_ensembles`
-    seed : root seed, from which the seed of each disc is derived
+    seed : root seed of the seeds of all discs
     """
 
     def discs(name, spawn_key, surface, elements, numbers):

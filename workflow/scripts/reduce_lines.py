@@ -11,7 +11,7 @@ from viscorough_study.run.seeds import realization_seed
 def main(curves, *, ensembles, seed, until_x):
     """Generate a batch of lines, and write their loading curves up to X = F/(4GhL) = until_x; lengths have no unit.
 
-    curves : file to write; seed : root seed, from which the seed of each line is derived
+    curves : file to write; seed : root seed of the seeds of all lines
     ensembles : settings of each ensemble and numbers of its lines in this batch, from `run.cases.batch_ensembles`
     """
     members = []

@@ -11,7 +11,7 @@ from viscorough_study.run.tables import recorded, write_table
 def main(csv, nc, *, benchmarks):
     """Write the table with the time and the memory of every rule.
 
-    benchmarks : {name of a rule: files in which Snakemake recorded the time and memory of its jobs}
+    benchmarks : {name of a rule: files with the time and memory of its jobs, from Snakemake}
     """
     made = {"date": date.today().isoformat()}
     attributes = recorded(machine=timing.machine(), versions=versions(), made=made)

@@ -7,8 +7,8 @@ The iterations rely on three properties of M:
 2. No eigenvalue of M K is below `LEAST_EIGENVALUE`. This gives bounds on errors.
 3. The product of M with a vector of ones is approximately the pressure of a flat punch at unit depth.
 
-M is symmetric, and does not depend on the number of threads. Values of a residual outside the contact set have no
-effect, and a result may be overwritten by the next call. Release steps are slightly longer than 1, so no eigenvalue of
+M is symmetric, and does not depend on the number of threads. Finite values of a residual outside the contact set have
+no effect. A result may be overwritten by the next call. Release steps are slightly longer than 1, so no eigenvalue of
 M K may exceed 1.8.
 
 The rest of the solver imports only the names below. Another preconditioner therefore changes only this package, its

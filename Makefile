@@ -31,7 +31,7 @@ endif
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
 .PHONY: help environment environment-dev environment-slurm settings reproduce paper report check lint ready-to-test test docs test-slurm bench \
-	speed light stability sizes law law-errors large first-minutes article outside fuzz faults seeds publish chaos dist peers lock lock-dev lock-peers lock-slurm clean
+	speed light stability sizes law law-errors large first-minutes outside fuzz faults seeds publish chaos dist peers lock lock-dev lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -49,7 +49,6 @@ help:
 	@echo "make intervals   coverage of the 95 % intervals of identified media, 43200 records; an hour"
 	@echo "make law-errors  error of this law on other discs, and the interval of single surfaces; 10 minutes"
 	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"
-	@echo "make article     results/article.pdf, a replication report on the run; with the SETTINGS of the run"
 	@echo "make outside     our values beside numbers that others published; two minutes"
 	@echo "make fuzz        10000 bad files and options through the command line, 10000 text files of known maps, 1400 damaged files; 15 minutes"
 	@echo "make faults      200 random changes of the sources, one at a time in a copy: how many do the tests catch?"
@@ -62,7 +61,7 @@ help:
 	@echo "make lock        renew the lock files from pyproject.toml; needs uv, as do lock-dev, lock-peers and lock-slurm"
 	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"
 	@echo "make clean       remove results and caches, keep the environment"
-	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, stability, sizes."
+	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, speed, stability, sizes."
 
 environment: .venv/package-installed
 
@@ -180,9 +179,6 @@ first-minutes: environment
 
 dist: environment
 	$(BIN)/python benchmarks/distribution.py --output build/dist
-
-article: settings
-	$(SNAKEMAKE) -- article
 
 outside: environment
 	$(BIN)/python benchmarks/outside.py --output results/outside.csv

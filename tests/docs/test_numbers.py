@@ -13,12 +13,12 @@ from measuring import fit_cost
 from support.documentation import ROOT, read
 from support.study import CLAIMS, SHOWN
 from support.workflow import merged, read_settings
+from viscorough import reference
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE
 from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.law.calibrated_law import penetration_law
 from viscorough.reference import exponent_beta
-from viscorough_study.page import article
-from viscorough_study.page.results import Results
+from viscorough_study.fits.conventions import fits
 from viscorough_study.run.cases import disc_cases
 
 TABLE = publish.published_claims()
@@ -62,9 +62,25 @@ def base_fits():
 
 
 def prefactors():
-    """Return ζ by both formulas of the paper and of discs, as the article shows them, by Hurst exponent."""
-    results = Results({"scaling": published("scaling.csv"), "claims": pd.read_csv(ROOT / "docs/claims.csv")}, {})
-    return pd.DataFrame(article.prefactors(results, SHOWN)["rows"]).set_index("hurst")
+    """Return ζ by both formulas of the paper and of discs, by Hurst exponent.
+
+    value : ζ in the conventions of the figures
+    eq_4, eq_11 : ζ from Eq. 4, and from Eq. 11 for a law without the factor 1/Γ(2 − α)
+    ratio_if_radius : ratio of ζ to Eq. 11, both for a law with this factor, if L were the radius of the disc
+    """
+    every, rows = published("scaling.csv").query("source == 'discs' and case_group == 'base'"), []
+    for row in fits(every, SHOWN | {"gamma": "without"}).itertuples():
+        eq_11, gamma = reference.zeta_viscous(row.hurst), _gamma(row.beta)
+        numbers = {"hurst": row.hurst, "value": row.zeta, "eq_4": reference.zeta_elastic(row.hurst)}
+        numbers["eq_11"] = eq_11 * _gamma(reference.exponent_beta(row.hurst))
+        # If L is the radius instead of the diameter, X and κ double, so ζ = κ/X^α grows by the factor 2^(1−α) = 2^β.
+        rows.append(numbers | {"ratio_if_radius": 2**row.beta * row.zeta / gamma / eq_11})
+    return pd.DataFrame(rows).set_index("hurst")
+
+
+def _gamma(beta):
+    """Return Γ(2 − α) with α = 1 − β."""
+    return reference.velocity_law(1.0, 1.0, 1 - beta) / reference.velocity_law(1.0, 1.0, 1 - beta, gamma=True)
 
 
 def stiffness_over():
@@ -131,9 +147,10 @@ def periodic(roll_off):
 
 def largest(roll_off):
     """Return the largest g of periodic surfaces by Hurst exponent, then its X, with or without a roll-off."""
-    rows = article.control(Results({"periodic": published("periodic.csv")}, {}))
-    kind = "rolled" if roll_off else "whole"
-    return [row[kind][column] for column in ("g", "x") for row in rows]
+    table = published("periodic.csv")
+    rows = table[table["roll_off_wavelength"].notna() == roll_off]
+    highest = rows.loc[rows.groupby("hurst")["g"].idxmax()]
+    return [*highest["g"], *highest["x"]]
 
 
 def plateau():

@@ -22,7 +22,7 @@ RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="ut
 TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, table in rule["tables"].items()}
 FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their file names
 HANGS = 3000  # seconds after which a run counts as hanging: ten times the longest run on a busy machine
-TARGETS = {"all", "article", "curves", "figures", "tables", "validation", "speed", "stability", "sizes"}
+TARGETS = {"all", "curves", "figures", "tables", "validation", "speed", "stability", "sizes"}
 TARGETS |= {"costs", "measured", *(f"figure_{number}" for number in range(1, 5))}
 
 

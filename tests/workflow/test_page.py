@@ -11,7 +11,7 @@ import pytest
 
 from support.code_blocks import run_python, run_shell
 from support.page import BROWSER, Page, number_in, opened
-from support.workflow import FIGURES, RESULTS, ROOT, TEST, jobs, snakemake
+from support.workflow import FIGURES, RESULTS, ROOT
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.verdicts.claims import overall, physics
@@ -65,11 +65,8 @@ def test_code_on_the_page_runs(html, tmp_path, monkeypatch):
         run_shell(line)
 
 
-def test_commands_on_page_and_in_article_exist(html):
-    """The article shows no block of code that a test would have to run."""
-    article = (ROOT / "workflow/article/article.typ.jinja").read_text(encoding="utf-8")
-    assert "```" not in article
-    commands = re.findall(r"<code>(make [\w -]+)</code>", html) + re.findall(r"`(make [\w -]+)`", article)
+def test_commands_on_page_exist(html):
+    commands = re.findall(r"<code>(make [\w -]+)</code>", html)
     assert len(set(commands)) > 3
     for command in commands:
         run_shell(command)
@@ -162,12 +159,3 @@ def test_narrow_screen_needs_no_horizontal_scrolling(html, tmp_path):
     path, size = tmp_path / "frame.html", 'width="400" height="900"'
     path.write_text(f'<!DOCTYPE html><title>-</title><iframe src="page.html" {size} onload="{width}"></iframe>')
     assert "<title>400</title>" in opened(path, "--hide-scrollbars", "--allow-file-access-from-files")
-
-
-def test_article_is_made_from_the_results(finished):
-    """The rule is not part of the default target. Numbers that the article quotes from other runs are published."""
-    planned = jobs(snakemake(finished, *TEST, "--", "article"))
-    assert planned == {"make_article": 1}
-    pdf = (finished / "results/article.pdf").read_bytes()
-    assert pdf.startswith(b"%PDF")
-    assert 1e5 < len(pdf) < 5e6

@@ -1,5 +1,4 @@
-# Rules that make the page of the results, which is the last output of `all`, and the article. Both are made from
-# results only.
+# The rule that makes the page of the results, which is the last output of `all`. It is made from results only.
 
 # {file of a figure on the page: description for readers who cannot see the figure}. The report has their captions.
 PAGE_FIGURES = {
@@ -54,45 +53,3 @@ rule make_page:
         "The page of the results"
     script:
         "../scripts/make_page.py"
-
-
-ARTICLE_FIGURES = ["fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "interface", "speed"]
-ARTICLE_TABLES = ["validation", "interface", "periodic", "plateaus"]
-ARTICLE_TEXTS = [*sorted((WORKFLOW / "article").iterdir()), PROJECT / "CITATION.cff"]
-ARTICLE_TEXTS += [PROJECT / "resources/literature/stiffness.yaml"]
-QUOTED = ("sum_rules.json", "outside.csv", "law.csv", "published.json")
-ARTICLE_TEXTS += [PROJECT / "docs/results" / name for name in QUOTED]
-
-
-rule article:
-    """An article on the reproduction, results/article.pdf."""
-    input:
-        "results/article.pdf",
-
-
-rule make_article:
-    input:
-        discs="results/ensembles/discs.nc",
-        lines="results/ensembles/lines.nc",
-        tables=expand("results/tables/{table}.csv", table=PAGE_TABLES + ARTICLE_TABLES),
-        figures=expand("results/figures/{file}.pdf", file=ARTICLE_FIGURES),
-    output:
-        pdf="results/article.pdf",
-    log:
-        "results/logs/make_article.log",
-    benchmark:
-        "results/benchmarks/make_article.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        text_digests(ARTICLE_TEXTS),
-        claims=paper("claims"),
-        numbers=paper("numbers"),
-        repository=config["article"]["repository"],
-    message:
-        "The article"
-    script:
-        "../scripts/make_article.py"

@@ -1,4 +1,4 @@
-"""Collect the contents of the page and of the article from the tables and loading curves of a run."""
+"""Collect the contents of the page from the tables and loading curves of a run."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from viscorough_study.verdicts.claims import findings
 
 
 def contents_of(project, discs, lines, *, tables, claims, numbers):
-    """Return the variables for the templates of the page and of the article, {name: content}.
+    """Return the variables for the template of the page, {name: content}.
 
     project : folder of the project, which contains published numbers and verdicts, and the list of tables
     discs, lines : NetCDF files with the loading curves of all discs and of all lines of the run (ensembles.pool)

@@ -1,4 +1,4 @@
-"""Write numbers as text for readers of the results page, the article and the figures."""
+"""Write numbers as text for readers of the results page and the figures."""
 
 import numpy as np
 

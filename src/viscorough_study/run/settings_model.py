@@ -266,14 +266,6 @@ class Figures(Section):
     )
 
 
-class Article(Section):
-    """The article that `make article` writes."""
-
-    repository: text(
-        r'^(https?://[^\s"\\]{1,200})?$(?!\n)', "an address that begins with https:// or http://, or empty"
-    ) = meaning("address of the code that the article (`make article`) states; none if empty")
-
-
 LIMIT = real(above=0, high=1)
 
 
@@ -531,7 +523,6 @@ class Settings(Section):
     periodic: Periodic
     verdicts: Verdicts
     figures: Figures
-    article: Article
     validation: Validation
     direct: Direct
     media: Media

@@ -19,7 +19,7 @@ SCAN = {"name": "scan", "files": ["z.npy"]}
 FLUID = {"name": "fluid", "kind": "newtonian", "viscosity": 1.0}
 WRONG = [
     ({"discs": {"elemnts": 33}}, "unknown key 'elemnts' in discs; did you mean elements?"),
-    ({"colour": "blue"}, "unknown key 'colour' in settings; allowed: article, collapse, direct, discs"),
+    ({"colour": "blue"}, "unknown key 'colour' in settings; allowed: collapse, direct, discs"),
     ({"dis\ncs": 1}, r"unknown key 'dis\ncs' in settings; did you mean discs?"),
     ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: integer, 9 to 4097 (elements across"),
     ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: integer, 9 to"),

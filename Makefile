@@ -30,37 +30,28 @@ endif
 # the packages of the first one.
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
-.PHONY: help environment environment-dev environment-slurm settings reproduce paper report check lint ready-to-test test docs test-slurm bench \
-	speed light stability sizes law law-errors large first-minutes outside fuzz faults seeds publish chaos dist peers lock lock-dev lock-peers lock-slurm clean
+.PHONY: help environment environment-dev environment-slurm settings reproduce paper report check lint ready-to-test test test-all docs test-slurm bench \
+	speed stability sizes law law-errors intervals large first-minutes outside fuzz faults seeds publish dist peers lock lock-dev lock-peers lock-slurm clean
 
 help:
-	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
-	@echo "make paper       a larger run, with twice as many surfaces as the paper"
-	@echo "make report      results/report.html of the existing results, with the SETTINGS that they were made with"
-	@echo "make check       format, lint, contracts, types and the tests of what has changed since the last commit; half a minute"
-	@echo "make test        format, lint, types, documentation and every test"
-	@echo "make docs        the documentation as a website, in build/docs/index.html"
-	@echo "make bench       cost and errors of curves and lines, in results/benchmarks.json"
-	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
-	@echo "make light       of this, one light load on large maps; 45 minutes"
-	@echo "make stability   where each method fails, and random small indenters against dense solutions"
-	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
-	@echo "make law         the calibrated law of the interface, from discs to complete contact; 10 minutes"
-	@echo "make intervals   coverage of the 95 % intervals of identified media, 43200 records; an hour"
-	@echo "make law-errors  error of this law on other discs, and the interval of single surfaces; 10 minutes"
-	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"
-	@echo "make outside     our values beside numbers that others published; two minutes"
-	@echo "make fuzz        10000 bad files and options through the command line, 10000 text files of known maps, 1400 damaged files; 15 minutes"
-	@echo "make faults      200 random changes of the sources, one at a time in a copy: how many do the tests catch?"
-	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
-	@echo "make first-minutes time from a clone to the page, with empty caches, three times; 15 minutes on a quiet machine"
-	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
-	@echo "make chaos       a small reproduction killed 60 times, its results compared with those of an undisturbed run"
-	@echo "make test-slurm  the workflow through Slurm on this machine, while jobs are lost; Debian, as root"
-	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
-	@echo "make lock        renew the lock files from pyproject.toml; needs uv, as do lock-dev, lock-peers and lock-slurm"
-	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"
-	@echo "make clean       remove results and caches, keep the environment"
+	@echo "make reproduce     the default reproduction, with the page results/index.html"
+	@echo "make paper         a larger run, with twice as many surfaces as the paper"
+	@echo "make report        results/report.html of the existing results"
+	@echo "make speed | stability | sizes      larger versions of parts of the run"
+	@echo "make check         format, lint, types and the tests of changed files; half a minute"
+	@echo "make test          format, lint, types, documentation and the tests that a change needs"
+	@echo "make test-all      the same, and the tests that need longer"
+	@echo "make docs          the documentation as a website, in build/docs/index.html"
+	@echo "make clean         remove results and caches, keep the environment"
+	@echo "Before a release:"
+	@echo "make bench | large | first-minutes  cost of curves, of large maps, and from clone to page"
+	@echo "make outside       our values beside numbers that others published"
+	@echo "make fuzz | faults random files and options; random changes of the sources"
+	@echo "make seeds         the reproduction with three root seeds"
+	@echo "make law | law-errors               calibration of the law of the interface"
+	@echo "make dist | test-slurm              the wheel in an empty environment; the workflow through Slurm"
+	@echo "make publish       verdicts and numbers from results/ into README.md, docs/ and the package"
+	@echo "make peers | lock  environments of other solvers; renew the lock files"
 	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, speed, stability, sizes."
 
 environment: .venv/package-installed
@@ -135,7 +126,11 @@ ready-to-test: lint
 
 test: environment-dev
 	@$(MAKE) --no-print-directory --jobs $(CORES) docs ready-to-test
-	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
+	$(BIN)/python -m pytest -n $(CORES) --dist worksteal -m "not long"
+
+# Also the tests marked `long`, such as interrupted runs of the workflow and many random motions.
+test-all: test
+	$(BIN)/python -m pytest -n $(CORES) --dist worksteal -m long
 
 bench: environment
 	$(BIN)/python benchmarks/curves.py --output results/benchmarks.json
@@ -146,28 +141,22 @@ sizes: SETTINGS = config/sizes.yaml
 speed: settings
 	$(SNAKEMAKE) -- speed
 	$(BIN)/python benchmarks/solver_race.py --output results/tables/other_solvers.csv
-	$(MAKE) light
-
-light: environment
-	$(BIN)/python benchmarks/light_contact.py --output results/tables/light_contact.csv \
-		--figure results/figures/light_contact.png
 
 stability: settings
 	$(SNAKEMAKE) -- stability
 	$(BIN)/python benchmarks/campaign.py --cores $(CORES) --output results/campaign.json
-	$(BIN)/python benchmarks/sum_rules.py --output results/sum_rules.json
 
 sizes: settings
 	$(SNAKEMAKE) -- sizes
 
 law: environment
-	$(BIN)/python benchmarks/law.py --cores $(CORES) --output results/tables/law.csv
+	PYTHONPATH=benchmarks $(BIN)/python calibration/law.py --cores $(CORES) --output results/tables/law.csv
 
 intervals: environment
 	$(BIN)/python benchmarks/identification.py --cores $(CORES) --output results/tables/identification.csv
 
 law-errors: environment
-	$(BIN)/python benchmarks/law_errors.py --cores $(CORES) --output results/tables/law_errors.csv \
+	PYTHONPATH=benchmarks $(BIN)/python calibration/law_errors.py --cores $(CORES) --output results/tables/law_errors.csv \
 		--scatter results/tables/law_scatter.csv
 
 large: environment
@@ -186,7 +175,6 @@ outside: environment
 fuzz: environment-dev
 	$(BIN)/python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
 	$(BIN)/python benchmarks/file_campaign.py --files 10000 --output results/file_campaign.json
-	$(BIN)/python benchmarks/damaged_files.py --output results/damaged_files.json
 
 faults: environment-dev
 	$(BIN)/python benchmarks/mutants.py --cores $(CORES) --output results/mutants.json
@@ -196,9 +184,6 @@ seeds: environment
 
 publish: environment
 	$(BIN)/python benchmarks/publish.py --command paper
-
-chaos: environment
-	$(BIN)/python benchmarks/chaos.py --output results/chaos.json
 
 test-slurm: environment-slurm
 	$(BIN)/python benchmarks/slurm.py --output results/slurm.json
@@ -222,4 +207,4 @@ lock-slurm:
 clean:
 	find results -mindepth 1 ! -path results/README.md -delete
 	rm -rf .snakemake .pytest_cache .ruff_cache .mypy_cache .hypothesis build
-	find src tests workflow benchmarks docs -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
+	find src tests workflow benchmarks calibration docs -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true

@@ -66,8 +66,7 @@ PUBLISHED = {
         "speed level_placement",
         "methods other_solvers level_placement one_surface mean_accuracy sufficient_models",
     ),
-    "light": _made("light_contact", "light_contact"),  # a part of `make speed`
-    "stability": _made("failures failure_map", "failure_map failure_knobs", "campaign.json sum_rules.json"),
+    "stability": _made("failures failure_map", "failure_map failure_knobs", "campaign.json"),
     "sizes": _made("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
     "large": _made("large", "large"),
     "bench": ["benchmarks.json"],
@@ -313,30 +312,6 @@ def requested_errors():
     return markdown_table(head, filled(line, rows))
 
 
-def light_loads():
-    """Return the time of one light load on large maps, and the times of other solvers over it, as a Markdown table."""
-    table = pd.read_csv(ROOT / "docs/results/light_contact.csv").eval("percent = 100 * fraction")
-    maps = ["elements", "percent"]
-    own = table.query("solver == 'viscorough' and threads == 1").groupby(maps, as_index=False)["wall_s"].median()
-    others = table[table["solver"] != "viscorough"].pivot_table("ratio", maps, ["solver", "threads"], "median")
-    rows = filled("| {elements}² | {percent:g} % | {wall_s:.2g} s |", others.index.to_frame(False).merge(own))
-    return with_ratios(["| map | contact | viscorough |", *rows], others)
-
-
-def sum_rules():
-    """Return relative deviations of both integrals of curves and audits, as a Markdown table."""
-    head = "| | first, 1e-3 | second, 1e-3 | first, 1e-8 | second, 1e-8 | first, audit | second, audit "
-    head += "| first, last level alone | levels of the audit |"
-    content, rows = json.loads((ROOT / "docs/results/sum_rules.json").read_text(encoding="utf-8")), []
-    for indenter, rules in content["indenters"].items():
-        audit = rules["audit"]["1e-05"]
-        curves = rules["plain"]["1e-03"], rules["plain"]["1e-08"], audit
-        both = [curve[rule]["by levels"] for curve in curves for rule in ("first", "second")]
-        cells = [f"{abs(number):.0e}" for number in (*both, audit["first"]["last level"])]
-        rows.append(f"| {indenter} | {' | '.join(cells)} | {audit['levels']} |")
-    return markdown_table(head, rows)
-
-
 def outside_numbers():
     """Return published numbers next to ours, from docs/results/outside.csv, as a Markdown table."""
     table = pd.read_csv(ROOT / "docs/results/outside.csv")
@@ -459,9 +434,7 @@ def tables():
         ("docs/performance.md", "requested errors"): requested_errors(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
         ("docs/performance.md", "large maps"): large_maps(),
-        ("docs/performance.md", "light loads"): light_loads(),
         ("docs/outside.md", "outside"): outside_numbers(),
-        ("docs/verification.md", "sum rules"): sum_rules(),
         ("docs/scaling.md", "infinite grid"): infinite_grid(),
         ("docs/theory.md", "interface law"): interface_law(),
         ("docs/verification.md", "law errors"): law_errors(),

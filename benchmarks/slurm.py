@@ -22,10 +22,12 @@ from pathlib import Path
 
 import click
 import psutil
-from chaos import compare, contents, remove_results, run_to_end, wait_for
+from measured_times import holds_times
 from measuring import output_option, save
-from project_copy import copy_project
+from project_copy import copy_project, environment
 
+SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
+HANGS = 3600  # seconds after which a run counts as hanging, even on a busy machine
 NODE = socket.gethostname().split(".")[0]
 # The cluster has no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
@@ -58,6 +60,57 @@ SelectTypeParameters=CR_CPU_Memory
 NodeName={node} NodeAddr=127.0.0.1 CPUs={cpus} RealMemory={memory} State=UNKNOWN
 PartitionName=test Nodes={node} Default=YES MaxTime=INFINITE State=UP
 """
+
+
+def remove_results(folder):
+    for name in ("results", ".snakemake"):
+        shutil.rmtree(folder / name, ignore_errors=True)
+
+
+def wait_for(condition, what, seconds=120):
+    """Wait until the condition is true, and return its value."""
+    end = time.monotonic() + seconds
+    while not (value := condition()):
+        if time.monotonic() > end:
+            raise click.ClickException(f"{what} does not happen within {seconds} s")
+        time.sleep(0.2)
+    return value
+
+
+def run_to_end(folder, *arguments, disturb=None):
+    """Return the seconds of a run that may be disturbed and must end without an error; its output goes to a log."""
+    start = time.perf_counter()
+    with (folder / "run.log").open("w") as log:
+        streams = {"stdout": log, "stderr": log, "start_new_session": True}
+        run = subprocess.Popen([*SNAKEMAKE, *arguments], cwd=folder, env=environment(folder), **streams)
+    try:
+        if disturb:
+            disturb()
+        if code := run.wait(HANGS):
+            raise click.ClickException(f"{folder.name} ends with {code}:\n{log_tail(folder)}")
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(run.pid, signal.SIGKILL)
+        run.wait()
+    return time.perf_counter() - start
+
+
+def log_tail(folder):
+    return "\n".join((folder / "run.log").read_text().splitlines()[-20:])
+
+
+def contents(folder):
+    """Return {name: bytes} of all files in results/, without the bytes of files that hold times."""
+    results = folder / "results"
+    names = sorted(path.relative_to(results) for path in results.rglob("*") if path.is_file())
+    return {str(name): b"" if holds_times(name) else (results / name).read_bytes() for name in names}
+
+
+def compare(folder, expected):
+    """Return one line for each file in results/ that differs from the expected contents."""
+    actual = contents(folder)
+    lines = [f"{name}: is missing or left over" for name in sorted(actual.keys() ^ expected.keys())]
+    return lines + [f"{name}: differs" for name in expected if actual.get(name, expected[name]) != expected[name]]
 
 
 def printed(*command):

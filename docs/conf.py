@@ -13,7 +13,8 @@ from docutils.utils.math import latex2mathml
 
 from viscorough.cli import cli
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))  # pages contain the columns of their tables
+# Pages contain the columns of the tables of these folders.
+sys.path += [str(Path(__file__).resolve().parents[1] / folder) for folder in ("benchmarks", "calibration")]
 
 project = "viscorough"
 release = importlib.metadata.version("viscorough")

@@ -1,6 +1,6 @@
 """Test the calibrated law on discs that it has never seen, and calibrate the interval of a single surface.
 
-    python benchmarks/law_errors.py --cores 2 --output results/law_errors.csv --scatter results/law_scatter.csv
+    python calibration/law_errors.py --cores 2 --output results/law_errors.csv --scatter results/law_scatter.csv
 
 The law is the law of the installed package. Two samples of discs are drawn, on 129 and on 257 elements across. They
 share no disc with each other, nor with the discs to which the law was fitted and which determined its range.
@@ -8,6 +8,8 @@ share no disc with each other, nor with the discs to which the law was fitted an
 1. From the first sample, calibrate the interval in which 95 % of single surfaces lie (law_scatter).
 2. On the second sample, count the discs that lie in this interval.
 3. On both samples, measure the error of the law for the mean of many discs, without control variates.
+
+The script imports measuring.py from benchmarks/, which PYTHONPATH must name.
 """
 
 from functools import partial

@@ -1,9 +1,11 @@
 """Calibrate the penetration law on curves of discs to complete contact, and test it on other discs.
 
-    python benchmarks/law.py --cores 2 --output results/tables/law.csv
+    python calibration/law.py --cores 2 --output results/tables/law.csv
 
 For every Hurst exponent and grid, the law is fitted to some discs and tested on the same number of other discs, which
 were drawn after its form had been chosen. The table has the columns of law_calibration.COLUMNS.
+
+The script imports measuring.py from benchmarks/, which PYTHONPATH must name.
 """
 
 from functools import partial

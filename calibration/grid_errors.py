@@ -1,8 +1,8 @@
 """Measure how often the stated error of the grid covers the true error, and the cost of requested errors.
 
-    python benchmarks/grid_errors.py coverage --surfaces 200 --cores 2 --output build/grid_coverage.csv
-    python benchmarks/grid_errors.py requests --surfaces 100 --cores 2 --output build/grid_requests.csv
-    python benchmarks/grid_errors.py requests --across 2049 --hurst 0.8 --hurst 0.4 --error 0.05 --surfaces 2 \\
+    python calibration/grid_errors.py coverage --surfaces 200 --cores 2 --output build/grid_coverage.csv
+    python calibration/grid_errors.py requests --surfaces 100 --cores 2 --output build/grid_requests.csv
+    python calibration/grid_errors.py requests --across 2049 --hurst 0.8 --hurst 0.4 --error 0.05 --surfaces 2 \\
         --output build/grid_large.csv
 
 - `coverage`: the true error is the deviation from the same map sampled four times finer. It is compared with the stated
@@ -12,6 +12,8 @@
   "test" has different surfaces.
 - `requests`: the error against the curve of all points over X = 0.01 to 3, and the processor time over the time of this
   curve. A request is met if the error is within it.
+
+The script imports measuring.py from benchmarks/, which PYTHONPATH must name.
 """
 
 import time

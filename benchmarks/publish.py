@@ -8,8 +8,7 @@ their origin. Name the commands whose results are in the folder: some of the fil
 and the intervals of single surfaces. `reproduce` includes the verdicts and the cost of the default run,
 `first-minutes` the time from the clone to the page. `seeds` includes the dependence of the verdicts on the seed, which
 draws the surfaces. With `--pages-only` only the tables in README.md and docs/ are written, from the last published
-results and from the statements in resources/paper/claims.yaml. The addresses of the project in pyproject.toml are
-written to README.md, docs/ and CITATION.cff in both cases. The workflow writes only into results/.
+results and from the statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
 import json
@@ -17,13 +16,11 @@ import re
 import shutil
 import subprocess
 import textwrap
-import tomllib
 from datetime import UTC, datetime
 from pathlib import Path
 
 import click
 import pandas as pd
-import yaml
 from measuring import write_json
 from PIL import Image  # matplotlib depends on it
 
@@ -92,8 +89,6 @@ KEPT = {
     "first-minutes": {"first_minutes.csv": FIRST_MINUTES},
     "seeds": {"seeds.csv": "docs/seeds.csv"},
 }
-# {key of CITATION.cff: name of its address in pyproject.toml}
-CITED_ADDRESSES = {"repository-code": "Repository", "url": "Documentation"}
 CLAIMS = read_paper(ROOT / "resources/paper", "claims")
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 
@@ -170,58 +165,6 @@ def sentences():
         verdict = judged or f"not judged: {sentence['why']}"
         rows.append(f"| {sentence['where']} | {sentence['says']} | {sentence['origin']} | {verdict} |")
     return markdown_table("| where | what the paper says | origin | verdict |", rows)
-
-
-def addresses():
-    """Return the addresses of the project from pyproject.toml: {name: address}."""
-    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["urls"]
-
-
-def installation():
-    """Return shell lines that install the library with its plots, from a checkout or from the repository."""
-    return (
-        "```shell\n"
-        "python3 -m venv venv && . venv/bin/activate\n"
-        'pip install ".[plot]"  # in a folder with the sources, or from the repository:\n'
-        f'pip install "viscorough[plot] @ git+{addresses()["Repository"]}"\n'
-        "```\n"
-    )
-
-
-def project_links():
-    """Return a sentence with the addresses of the project."""
-    links = {name: addresses()[name] for name in ("Repository", "Documentation", "Issues")}
-    text = " · ".join(f"[{name}]({address})" for name, address in links.items())
-    return paragraph(f"{text} (placeholders until the project is published)")
-
-
-def bibtex():
-    """Return BibTeX entries for the project and the paper, from CITATION.cff."""
-    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-    (paper,) = cited["references"]
-    authors = " and ".join(f"{author['family-names']}, {author['given-names']}" for author in paper["authors"])
-    software = {
-        "author": f"{{{cited['authors'][0]['name']}}}",
-        "title": cited["title"],
-        "version": cited["version"],
-        "year": cited["date-released"].year,
-        "url": cited["repository-code"],
-    }
-    article = {"author": authors} | {name: paper[name] for name in ("title", "journal", "volume", "year", "doi")}
-    article["pages"] = paper["start"]
-    entries = {"software{viscorough": software, "article{kuerschner2013": article}
-    text = ""
-    for entry, fields in entries.items():
-        lines = [f"  {name} = {{{value}}}," for name, value in fields.items()]
-        text += "\n".join([f"@{entry},", *(textwrap.fill(line, 80, subsequent_indent="    ") for line in lines), "}\n"])
-    return f"```bibtex\n{text}```\n"
-
-
-def citation(text):
-    """Return CITATION.cff with the addresses of pyproject.toml; text : present content of the file"""
-    for key, name in CITED_ADDRESSES.items():
-        text = re.sub(rf"^{key}: .*$", f"{key}: {addresses()[name]}", text, flags=re.MULTILINE)
-    return text
 
 
 def time_sentence():
@@ -424,11 +367,6 @@ def tables():
         ("docs/verdicts.md", "answer"): answer_lines(),
         ("docs/verdicts.md", "sentences"): sentences(),
         ("README.md", "time"): time_sentence(),
-        ("README.md", "installation"): installation(),
-        ("docs/getting_started.md", "installation"): installation(),
-        ("docs/index.md", "addresses"): project_links(),
-        ("docs/index.md", "installation"): installation(),
-        ("docs/index.md", "citation"): bibtex(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "sufficient models"): sufficient_models(),
         ("docs/performance.md", "requested errors"): requested_errors(),
@@ -443,13 +381,11 @@ def tables():
 
 
 def write_tables():
-    """Write the generated parts between their marks, and the addresses of CITATION.cff."""
+    """Write the generated parts between their marks."""
     for (page, name), table in tables().items():
         begin, end = BEGIN.format(name), END.format(name)
         before, rest = (ROOT / page).read_text(encoding="utf-8").split(begin)
         (ROOT / page).write_text(before + begin + "\n" + table + "\n" + end + rest.split(end)[1], encoding="utf-8")
-    cited = ROOT / "CITATION.cff"
-    cited.write_text(citation(cited.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def copy_other_solvers(table, target, machine, date):

@@ -10,7 +10,6 @@ import click
 import pandas as pd
 import publish
 import pytest
-import yaml
 from PIL import Image
 
 from support.documentation import ROOT, read
@@ -38,15 +37,6 @@ def test_paragraph_has_no_line_that_would_begin_a_list():
     for shift in range(130):
         lines = publish.paragraph("x" * shift + " H/(1 + H) and a - b " + "of many words " * 20).splitlines()
         assert not any(line.startswith(("+ ", "- ")) for line in lines)
-
-
-def test_citation_has_the_addresses_of_the_project():
-    text = read(ROOT / "CITATION.cff")
-    assert publish.citation(text) == text
-    cited = yaml.safe_load(text)
-    assert {key: cited[key] for key in publish.CITED_ADDRESSES} == {
-        key: publish.addresses()[name] for key, name in publish.CITED_ADDRESSES.items()
-    }
 
 
 @pytest.fixture

@@ -118,7 +118,7 @@ def test_extras_are_added_to_an_installed_package_without_an_index_that_has_it()
 
 def test_commands_without_make_agree_with_the_makefile():
     """Commands of environment and tests are compared in full, commands of the workflow without progress lines."""
-    page = ROOT / "docs/getting_started.md"
+    page = ROOT / "docs/reproduce.md"
     (text,) = (block.text for block in blocks(page) if "python3 -m venv .venv" in block.text)
     command = ["make", "--dry-run", "--always-make", "CORES=2", "environment", "reproduce", "test"]
     made = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout

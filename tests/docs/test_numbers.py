@@ -309,10 +309,8 @@ QUOTED = {
         "at {:.0f} to {:.0f} % of the cost": reduction_costs,
         "takes {:.2f} to {:.2f} s for a disc of 257": lambda: default_path()["wall_s"].agg(["min", "max"]),
     },
-    "docs/getting_started.md": {
-        "at most {:.2f} GB per job": lambda: pd.read_csv(ROOT / publish.DEFAULT_COSTS)["memory_mb"].max() / 1000,
-    },
     "docs/reproduce.md": {
+        "at most {:.2f} GB per job": lambda: pd.read_csv(ROOT / publish.DEFAULT_COSTS)["memory_mb"].max() / 1000,
         "50 500 lines: {:.0f} minutes": minutes_of_paper,
         "which shows them; {} (": publish.default_minutes,
         "{} discs for the figures, {} for variants and grids": discs_of_paper,

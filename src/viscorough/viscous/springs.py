@@ -40,6 +40,10 @@ _STIFFNESS_STEP = 2e-3
 _MOST_CHORDS, _MOST_SPRINGS = 2000, 100_000
 # Number of chords that replace the power law before the first level (computed point) of the curve.
 _EARLY_CHORDS = 64
+# The first of these chords ends at least at the depth where the stiffness of the power law is 1/_EARLY_CHORDS to this
+# power, 4e-15, of its value at the first level. Motions overflow if the first spring is far softer. The exponent of the
+# power law is large if the first level is deep although few elements touch.
+_LARGEST_DECAY = 8.0
 # A load may exceed the end of the loading curve by this share, because of rounding.
 ROUNDING = 1e-10
 
@@ -101,7 +105,7 @@ def _before_first_level(curve: LoadingCurve) -> Array:
     exponent = stiffness * depth / force
     if curve.starts_straight or exponent <= 1:
         return np.array([[0.0, depth], [0.0, force], [count, count]])
-    share = np.linspace(0, 1, _EARLY_CHORDS + 1) ** 2
+    share = np.linspace(0, 1, _EARLY_CHORDS + 1) ** min(2.0, _LARGEST_DECAY / (exponent - 1))
     return np.array([depth * share, force * share**exponent, count * share])
 
 

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from support.curves import curve_of_body, random_curve
-from viscorough import indent, reference, self_affine_disc
+from support.curves import curve_of_body, curve_of_levels, random_curve
+from viscorough import AccuracyWarning, Load, Maxwell, indent, kinetics, reference, self_affine_disc
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.springs import row_of_springs
 
@@ -46,6 +46,17 @@ def test_row_of_a_curve_of_all_contact_events_is_exact():
     assert row.limit == np.inf, "complete contact goes on as a flat punch"
 
 
+def test_contact_fraction_is_linear_in_the_depth_between_levels():
+    """A spring of a chord touches at the depth where the chord begins."""
+    curve = indent(DISC, tolerance=1e-2)
+    row = row_of_springs(curve)
+    first = curve.depth[np.argmax(np.diff(curve.contact_count) > 1)]
+    chords = row.gap >= first
+    assert np.count_nonzero(chords) > 100
+    expected = np.interp(row.gap[chords], curve.depth, curve.contact_count) / curve.elements
+    np.testing.assert_allclose(row.contact_fraction[chords], expected, rtol=1e-9)
+
+
 def test_stiffness_is_made_monotone():
     """If rounding or the tolerance make levels slightly non-convex, these levels lie above the row."""
     curve = random_curve(levels=30)
@@ -62,3 +73,18 @@ def test_row_follows_a_power_law_before_the_first_level():
     assert row.first_depth == 0.1
     depth = np.linspace(0.02, 0.1, 9)
     np.testing.assert_allclose(force_of_row(row, depth), sphere.force(depth), rtol=5e-3)
+
+
+@pytest.mark.parametrize("power", [20.0, 90.0, 1e4])
+def test_row_follows_a_steep_power_law(power):
+    """The curve begins deep, but few elements touch there. Springs that hardly carry a load would overflow."""
+    curve = curve_of_levels([1.0, 1.0 + 0.1 / power], [1.0, 1.11], [power, 1.2 * power], [1, 2])
+    row = row_of_springs(curve)
+    assert row.gap[0] == 0
+    assert row.stiffness.min() > 1e-15
+    force = np.array([0.01, 0.1, 0.5, 0.9])
+    np.testing.assert_allclose(force_of_row(row, force ** (1 / power)), force, rtol=0.01)
+    # With J(t) = 1 + t, this ramp has the creep response 0.7 (1 + 1/2) at time 1, on the tangent of the first level.
+    with pytest.warns(AccuracyWarning, match="before its first level"):
+        motion = kinetics(curve, Load([0.0, 1.0, 2.0], force=[0.0, 0.7, 0.0]), Maxwell(1.0, 1.0), [1.0])
+    assert motion.depth == pytest.approx(1 + 0.05 / power, rel=1e-9)

@@ -74,6 +74,14 @@ def test_variance_between_groups_excludes_the_variance_between_sets():
     assert apart[2] < 0.5 * np.mean([excess_variance([list(group)])[2] for group in groups])
 
 
+def test_variance_between_groups_takes_a_degree_of_freedom_from_every_set():
+    """Two sets of two groups of two samples: 4 − 2 and 4 degrees of freedom, and mean squares 80/2 and 8/4."""
+    sets = [[mean + np.array([-1.0, 1.0]) for mean in means] for means in ((0.0, 4.0), (10.0, 18.0))]
+    median, low, high, sampling = excess_variance(sets)
+    assert sampling == pytest.approx(2 / 2)
+    assert (median, low, high) == pytest.approx(tuple(20 / stats.f.ppf([0.5, 0.975, 0.025], 2, 4) - 1))
+
+
 def test_verdict_depends_on_the_numbers_of_cases_and_realizations():
     """For four cases, 1.05 to 1.35 lies outside of -1 to 1 (outside begins at 1.01); for fifty cases at 0.95."""
     sample, values = evidence(), (1.2, 1.05, 1.35)

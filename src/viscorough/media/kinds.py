@@ -40,7 +40,7 @@ from viscorough.basics.arrays import (
 from viscorough.basics.elasticity import poisson_ratio, shear_over_incompressible, young_over_shear
 from viscorough.basics.summaries import span
 from viscorough.basics.types import Array, Scalar, Several
-from viscorough.media.medium import Medium, RelaxationSpectrum, RetardationSpectrum
+from viscorough.media.medium import Medium, RelaxationSpectrum, RetardationSpectrum, checked_times
 from viscorough.media.spectra import retardation_spectrum
 
 _NONE = np.array([])
@@ -81,12 +81,14 @@ class _Exponential(Medium):
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """Return the creep compliance J at times t ≥ 0, an array of any shape. At time 0 this is J(0+)."""
+        time = checked_times(time)
         instantaneous, fluidity, compliances, times = self.retardation
         delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
         return instantaneous + np.multiply(fluidity, time) + delayed
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """Return dJ/dt at times t ≥ 0, an array of any shape."""
+        time = checked_times(time)
         _, fluidity, compliances, times = self.retardation
         return fluidity + (compliances / times * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
 
@@ -103,6 +105,7 @@ class _Exponential(Medium):
 
         The pulse η δ(t) of a parallel dashpot is left out.
         """
+        time = checked_times(time)
         _, relaxed, moduli, times = self.relaxation
         return relaxed + (moduli * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
 
@@ -414,12 +417,12 @@ class Springpot(Medium):
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """Return the creep compliance J at times t ≥ 0, an array of any shape."""
-        return np.asarray(time, dtype=float) ** self.exponent / (self.modulus * gamma(1 + self.exponent))
+        return checked_times(time) ** self.exponent / (self.modulus * gamma(1 + self.exponent))
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """Return dJ/dt at times t ≥ 0, an array of any shape; infinite at time 0."""
         with np.errstate(divide="ignore"):
-            return np.asarray(time, dtype=float) ** (self.exponent - 1) / (self.modulus * gamma(self.exponent))
+            return checked_times(time) ** (self.exponent - 1) / (self.modulus * gamma(self.exponent))
 
     def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
         """Return J(end) − J(start) for 0 ≤ start ≤ end, to rounding also if the two times are close."""
@@ -432,7 +435,7 @@ class Springpot(Medium):
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """Return the relaxation modulus ψ at times t ≥ 0, an array of any shape; infinite at time 0."""
         with np.errstate(divide="ignore"):
-            return self.modulus * np.asarray(time, dtype=float) ** -self.exponent / gamma(1 - self.exponent)
+            return self.modulus * checked_times(time) ** -self.exponent / gamma(1 - self.exponent)
 
     def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """Return the integral ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`, to rounding."""
@@ -502,14 +505,14 @@ class CreepTable(ReadOnlyArrays, Medium):
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """Return the creep compliance J at times t ≥ 0, an array of any shape; nan after the last point."""
-        return np.interp(np.asarray(time, dtype=float), self.times, self.compliances, right=np.nan)
+        return np.interp(checked_times(time), self.times, self.compliances, right=np.nan)
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """Return dJ/dt at times t from 0 to the last point, an array of any shape.
 
         left : at a point of the table, return the rate before the point instead of the rate after the point
         """
-        place = np.searchsorted(self.times, time, side="left" if left else "right") - 1
+        place = np.searchsorted(self.times, checked_times(time), side="left" if left else "right") - 1
         return self._slopes[np.clip(place, 0, self._slopes.size - 1)]
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:

@@ -22,9 +22,9 @@ _SAME_TIME = 1e-13
 class Load(ReadOnlyArrays):
     """Force or depth as a function of time, linear between samples; read-only arrays of shape (samples,).
 
-    Before the first sample, force and depth are zero, so that a first value above zero is a step. Numbers have no unit
-    attached. Times are in s, forces in N, and depths in the indenter's unit of length. If this unit is not known, all
-    numbers are in consistent units.
+    Before the first sample, force and depth are zero, so that a first value above zero is a step (`kinetics` states an
+    exception for noisy depths). Numbers have no unit attached. Times are in s, forces in N, and depths in the
+    indenter's unit of length. If this unit is not known, all numbers are in consistent units.
 
     Parameters
     ----------
@@ -118,6 +118,21 @@ class Load(ReadOnlyArrays):
         values = np.insert(self.values, place, np.interp(new, self.time, self.values))
         load = Load(np.insert(self.time, place, new), **{"depth" if self.by_depth else "force": values})
         return load, np.searchsorted(load.time, times + rounding, side="right") - 1
+
+    def with_first_ramp(self) -> Load:
+        """Return the load with a ramp from zero before the first sample, if this sample is above zero by chance.
+
+        A record that was shifted to zero before contact often begins slightly above zero, because of noise. This is
+        assumed if the first value is above zero, but not above the largest rise from a sample to the next. The ramp
+        then begins at zero, and lasts as long as the interval between the first two samples. Any other load is returned
+        unchanged: a larger first value is a step, as is a time that is given twice.
+        """
+        time, values = self.time, self.values
+        lengths, rises = np.diff(time), np.diff(values)
+        if time.size < 2 or lengths[0] == 0 or not 0 < values[0] <= rises[lengths > 0].max():
+            return self
+        name = "depth" if self.by_depth else "force"
+        return Load(np.append(2 * time[0] - time[1], time), **{name: np.append(0.0, values)})
 
     def in_units_of(self, length_unit: str) -> Load:
         """Return the load with forces converted from N to Pa × length_unit², to be consistent with moduli in Pa.

@@ -8,7 +8,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscorough.basics.arrays import real_numbers
 from viscorough.basics.types import Array
+
+
+def checked_times(time: ArrayLike) -> Array:
+    """Return times as an array of floats, without labels. Raises ValueError unless they are real numbers from 0 on."""
+    times = real_numbers("time", time)
+    if (times < 0).any():
+        raise ValueError(f"time: {times.min():g}; allowed: 0 or more")
+    return times
 
 
 class RelaxationSpectrum(NamedTuple):

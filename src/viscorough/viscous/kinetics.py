@@ -87,7 +87,10 @@ def kinetics(
         linear in between, with a time given twice for a step; or a Load, whose samples may be at other times than
         `times`. Before the first sample there is no load. Forces are F ≥ 0, in N, and depths are in the curve's unit of
         length. If this unit is known, both may also have a unit (a text such as "5 mN", or a quantity of pint). A
-        negative depth lifts the indenter above the plane of first contact.
+        negative depth lifts the indenter above the plane of first contact. In a medium without an instantaneous
+        response (Newtonian, Kelvin-Voigt, Springpot), a first depth above 0 would need an infinite force. If it does
+        not exceed the largest rise from a sample to the next, it is taken to be noise: the depth then rises from 0 to
+        the first sample, within a time equal to the interval between the first two samples.
     medium : Medium or float or str
         Medium, such as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian medium. If the curve's unit of length
         is known, moduli, times and viscosities are in Pa, s and Pa s, and a text such as "2 kPa s" is allowed.
@@ -249,6 +252,7 @@ def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any
     name, value = ("depth", depth) if force is None else ("force", force)
     if times is not None:
         times = units.numbers(times, "s", unit, "times")
+    constant = False
     if isinstance(value, Load):
         if value.by_depth != (name == "depth"):
             raise ValueError(
@@ -262,9 +266,14 @@ def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any
                 raise ValueError(f"times: missing; a {name} given as samples needs the time of each sample")
             load, times = Load(times, **{name: values}).in_units_of(unit), None
         else:
+            constant = True
             load, times = _constant(curve, medium, name, float(values), times)
+    first, samples = 0, load.time.size
+    if load.by_depth and not constant and not medium.creep_compliance(0.0) > 0:
+        load = load.with_first_ramp()
+        first = load.time.size - samples
     if times is None:
-        return load, np.arange(load.time.size)
+        return load, np.arange(first, load.time.size)
     load, place = load.with_times(times)
     kept = slice(None, int(place[-1]) + 2)
     return Load(load.time[kept], **{name: load.values[kept]}), place

@@ -714,6 +714,7 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     # although not at the sample.
                     if law.viscosity > 0 or not by_depth:
                         force[k - 1], in_contact[k - 1] = now, count
+                        deflection[k - 1] = row.stiffness[count] * depth[k - 1] - row.moment[count]
                         largest[k - 1] = count >= state.most[0]
                 passed = length if arrives else passed + s
                 t = times[k] if arrives else last + passed

@@ -1,12 +1,14 @@
 """Media: compliance and modulus against closed forms and against each other, and refusals."""
 
 import numpy as np
+import pandas as pd
 import pytest
+import xarray as xr
 from scipy.integrate import quad
 from scipy.special import beta
 
 from support.contract import refused
-from support.media import SPRINGS_AND_DASHPOTS
+from support.media import MEDIA, SPRINGS_AND_DASHPOTS
 from viscorough import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 TIMES = np.append(0, np.geomspace(1e-9, 1e6, 60))
@@ -168,3 +170,18 @@ def test_a_constant_poisson_ratio_keeps_relaxation_times():
     relaxation_time, times = viscosity / (young / (2 * (1 + ratio))), np.linspace(0, 20, 9)
     expected = young * np.exp(-times / relaxation_time) / (1 - ratio**2)
     np.testing.assert_allclose(4 * medium.relaxation_modulus(times), expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_times_may_have_labels_but_no_signs(name):
+    medium, times = MEDIA[name], np.array([0.5, 2.0])
+    for function in (medium.creep_compliance, medium.creep_rate):
+        np.testing.assert_array_equal(function(pd.Series(times, index=[3, 1])), function(times))
+        np.testing.assert_array_equal(function(xr.DataArray(times, dims="t")), function(times))
+        for wrong, message in (
+            (-1.0, "time: -1; allowed: 0 or more"),
+            (1j, "real numbers are needed"),
+            ([True], "truth values"),
+        ):
+            with pytest.raises(ValueError, match=message):
+                function(wrong)

@@ -353,3 +353,43 @@ def test_depth_follows_a_force_that_vanishes():
     load = Load([0.0, 0.25, 0.3, 0.4, 0.5], force=1e-5 * np.array([4, 8, 3, 0, 0]))
     before, after = kinetics(curve, load, medium, [0.4 - short, 0.4]).depth
     assert after == pytest.approx(before, rel=1e-4)
+
+
+# ---- reloads from zero, and records that begin above zero
+
+
+@pytest.mark.parametrize("name", ["maxwell", "fluid"])
+def test_depth_is_continuous_where_a_reload_begins(name):
+    """A fluid keeps its imprint, so all springs touch again as soon as the force rises from zero."""
+    medium = {"maxwell": MEDIA["maxwell"], "fluid": Prony(0.0, [2.0, 1.0], [0.1, 3.0])}[name]
+    times, shape = np.array([0.0, 60, 72, 130, 190]), np.array([0.0, 1, 1, 0, 1])
+    for seed in range(4):
+        curve = indent(self_affine_disc(0.4, 17, rms=0.02, seed=seed), until_fraction=0.9)
+        force = 0.25 * curve.force[-1] / medium.creep_compliance(130.0)
+        motion = kinetics(curve, Load(times, force=force * shape), medium, [130 - 1e-7, 130, 130 + 1e-7])
+        np.testing.assert_allclose(motion.depth, motion.depth[0], rtol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["newtonian", "kelvin-voigt", "springpot"])
+def test_record_that_begins_above_zero_by_noise_has_a_ramp_before_it(name):
+    """In these media a step of the depth needs an infinite force."""
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 0.2, 301))
+    times, medium = np.linspace(1.0, 2.0, 41), MEDIA[name]
+    depth = 0.1 * (times - 1.0) + 1e-3 * np.random.default_rng(3).random(times.size)
+    motion = kinetics(curve, Load(times, depth=depth), medium)
+    with_ramp = kinetics(curve, Load(np.append(0.975, times), depth=np.append(0.0, depth)), medium)
+    np.testing.assert_array_equal(motion.time, times)
+    np.testing.assert_allclose(motion.force, with_ramp.force[1:], rtol=1e-12)
+    between = kinetics(curve, Load(times, depth=depth), medium, times[:9])  # other samples than those of the record
+    np.testing.assert_allclose(between.force[:-1], motion.force[:8], rtol=1e-9)
+    assert np.isfinite(motion.force).all()
+
+
+def test_intended_step_of_the_depth_stays_a_step():
+    curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 0.2, 301))
+    held = [0.1, 0.1, 0.1], MEDIA["springpot"], [0.0, 0.5, 1.0]
+    motion = kinetics(curve, depth=held[0], medium=held[1], times=held[2])
+    expected = curve.at_depth(0.1)[0] * MEDIA["springpot"].relaxation_modulus(np.array([0.5, 1.0]))
+    np.testing.assert_allclose(motion.force[1:], expected, rtol=1e-4)
+    with refused("steps into the surface at time 0, which takes an infinite force"):
+        kinetics(curve, depth=held[0], medium=MEDIA["newtonian"], times=held[2])

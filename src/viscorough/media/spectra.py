@@ -74,6 +74,8 @@ def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
     λ_j, and one zero lies above all λ_j. The moduli are G_i = 1/(φ/r_i + r_i Σ_j J_j λ_j/(r_i − λ_j)²).
     """
     instantaneous, fluidity, compliances, times = retardation
+    if not times.size:  # a spring and a dashpot in series
+        return RelaxationSpectrum(0.0, 0.0, np.array([1 / instantaneous]), np.array([instantaneous / fluidity]))
     decays = np.sort(1 / times)
     flows = (compliances / times)[np.argsort(1 / times)]
     most = np.finfo(float).max ** 0.25 * decays[-1]

@@ -129,6 +129,9 @@ def identify_medium(
     if kind not in KINDS:
         raise ValueError(f"kind {kind!r}; allowed: {', '.join(KINDS)}")
     check_curve("identify_medium", curve)
+    for name, chosen in (("fit_offset", fit_offset), ("fit_drift", fit_drift)):
+        if not isinstance(chosen, bool | np.bool_):
+            raise ValueError(f"{name}: {chosen!r:.60}; allowed: True or False")
     unit, shift = curve.length_unit, Shift(offset=fit_offset, drift=fit_drift)
     by_depth = isinstance(load, Load) and load.by_depth
     value_unit = "N" if by_depth else unit

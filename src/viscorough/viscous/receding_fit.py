@@ -90,7 +90,11 @@ def fit_receding_depth(
     low = high = np.full(time.size + shifted.size, np.nan)
     if not np.isnan(scatter):
         target = depth - predicted + columns @ amounts
-        low, high = extremes(columns, target, values, distance_of(np.hypot(scatter, resolution), freedom), signed)
+        # Offset and drift have almost the same effect as slow elements. So their intervals, and those of J, follow from
+        # a joint confidence region of all unknowns above 0.
+        unknowns = shifted.size + int(np.count_nonzero(amounts)) if shifted.size else 1
+        distance = distance_of(np.hypot(scatter, resolution), freedom, unknowns)
+        low, high = extremes(columns, target, values, distance, signed)
         limit_early_times(low, high, time, first_lag(load, lags))
     compliance = values @ amounts
     medium: CreepTable | Prony | Springpot = CreepTable(time, compliance)

@@ -146,6 +146,9 @@ def test_records_that_no_growing_contact_can_have_are_refused():
     force, depth = record(MEDIA["newtonian"])
     with refused("kind 'prony': the record shows no compliance at once"):
         identify_medium(CURVE, force, TIMES, depth, kind="prony")
+    for choice in (2, -1, None, "yes"):
+        with refused("fit_offset: .*; allowed: True or False"):
+            identify_medium(CURVE, force, TIMES, depth, fit_offset=choice)
     for scatter in (0.0, -1.0, np.nan, np.inf):
         with refused("scatter: .* finite"):
             identify_medium(CURVE, force, TIMES, depth, scatter=scatter)
@@ -229,6 +232,20 @@ def test_exact_depths_of_a_receding_contact_give_the_compliance(name):
     identified = identify_medium(FEWER_LEVELS, load, TIMES, motion.depth)
     exact = MEDIA[name].creep_compliance(TIMES)
     np.testing.assert_allclose(identified.medium.creep_compliance(TIMES), exact, rtol=0.006)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.3])
+@pytest.mark.parametrize("name", ["newtonian", "maxwell", "solid"])
+def test_receding_records_without_visible_delayed_creep_are_fitted(name, noise):
+    """A fluid has no Kelvin-Voigt elements, and large noise hides those of a solid."""
+    times = np.geomspace(0.02, 60, 20)
+    force = 10 / float(MEDIA[name].creep_compliance(60.0))
+    load = Load([0.0, 2.0, 30.0, 60.0], force=[0.0, force, force, 0.0])
+    depth = kinetics(FEWER_SPRINGS, load, MEDIA[name], times).depth
+    depth = depth + noise * depth.max() * np.random.default_rng(1).standard_normal(20)
+    identified = identify_medium(FEWER_SPRINGS, load, times, depth)
+    exact = MEDIA[name].creep_compliance(times[-1])
+    assert identified.compliance[-1] == pytest.approx(exact, rel=0.5 if noise else 0.01)
 
 
 @pytest.mark.parametrize("history", ["ramp and hold", "force curve"])

@@ -17,6 +17,7 @@ from viscorough.io import suffixes
 @options.force
 @options.force_history
 @options.depth_history
+@options.columns
 @click.option(
     "--fit",
     type=click.Choice(["table", "prony", "springpot"]),
@@ -38,6 +39,7 @@ def creep(
     force: Quantity | None,
     force_history: Path | None,
     depth_history: Path | None,
+    columns: dict[str, str] | None,
     fit: str,
     scatter: Quantity | None,
     fit_offset: bool,
@@ -46,10 +48,11 @@ def creep(
 ) -> None:
     """Find the medium of a half-space from a measured indentation by the indenter with the loading curve in CURVE.nc.
 
-    RECORD.csv has two columns: times, and measured depths or, with --depth-history, measured forces. A heading may
-    state units, such as t [s],u [um]; otherwise numbers are in s, N and the unit of length of the curve. The load may
-    be held or removed: a record is, for example, a creep test, a relaxation test, or a force curve. A measured depth
-    determines the creep compliance J(t), a measured force the relaxation modulus.
+    RECORD.csv has columns of times, and of measured depths or, with --depth-history, measured forces. A heading decides
+    which columns these are, and may state units, such as t [s],u [um]; otherwise numbers are in s, N and the unit of
+    length of the curve. Without a heading there are two columns, and times come first. RECORD.csv and a history may be
+    the same file. The load may be held or removed: a record is, for example, a creep test, a relaxation test, or a
+    force curve. A measured depth determines the creep compliance J(t), a measured force the relaxation modulus.
 
     MEDIUM.yaml is a medium for viscorough kinetics. A creep table is written to MEDIUM.csv, with the columns time,
     compliance, low and high: J and its interval of 95 %, which follows from the scatter of the record. If the force was
@@ -81,8 +84,8 @@ def creep(
     loading = files.read_curve(curve)
     unit = loading.length_unit
     measured, value_unit = ("depth", unit) if depth_history is None else ("force", "N")
-    times, values = read_columns(record, "a record", {"time": "s", measured: value_unit}, unit)
-    load, about = files.load_from_options(force, force_history, unit, depth_history)
+    times, values = read_columns(record, "a record", {"time": "s", measured: value_unit}, unit, columns)
+    load, about = files.load_from_options(force, force_history, unit, depth_history, columns)
     deviation = None if scatter is None else units.number(scatter, value_unit, unit, "--scatter")
     identified = identify_medium(
         loading, load, times, values, kind=fit, scatter=deviation, fit_offset=fit_offset, fit_drift=fit_drift

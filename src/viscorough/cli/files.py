@@ -100,15 +100,21 @@ def read_curve(path: Path) -> viscorough.LoadingCurve:
 
 
 def load_from_options(
-    force: Quantity | None, force_history: Path | None, length_unit: str, depth_history: Path | None = None
+    force: Quantity | None,
+    force_history: Path | None,
+    length_unit: str,
+    depth_history: Path | None = None,
+    columns: dict[str, str] | None = None,
 ) -> tuple[Any, dict[str, Any]]:
     """Return (load, attributes for the output file) from --force, --force-history or --depth-history.
+
+    columns : {quantity: name or number of its column in the history}
 
     One of the three options is given; the others are None. The load is a number for --force, and a Load for a history.
     """
     for kind, history in (("force", force_history), ("depth", depth_history)):
         if history is not None:
-            load = viscorough.read_load(history, kind, length_unit)
+            load = viscorough.read_load(history, kind, length_unit, columns)
             return load, {kind: printable_name(history)}
     number = units.number(force, "N", length_unit, "--force")
     return number, {"force": number}

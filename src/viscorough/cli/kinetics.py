@@ -22,6 +22,7 @@ _CORRESPONDENCE = (
 @options.force
 @options.force_history
 @options.depth_history
+@options.columns
 @options.viscosity
 @options.medium
 @click.option(
@@ -37,6 +38,7 @@ def kinetics(
     force: Quantity | None,
     force_history: Path | None,
     depth_history: Path | None,
+    columns: dict[str, str] | None,
     viscosity: Quantity | None,
     medium: Path | None,
     times: list[float] | None,
@@ -89,7 +91,7 @@ def kinetics(
     files.check_output(output, curve=curve, force_history=force_history, depth_history=depth_history, medium=medium)
     loading = files.read_curve(curve)
     half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
-    load, load_attributes = files.load_from_options(force, force_history, loading.length_unit, depth_history)
+    load, load_attributes = files.load_from_options(force, force_history, loading.length_unit, depth_history, columns)
     grid_error, error_attributes = _stated_grid_error(loading, load)
     about |= error_attributes
     motion = viscorough.kinetics(loading, load, half_space, times)

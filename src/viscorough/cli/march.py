@@ -30,6 +30,7 @@ METHODS = ("events", "implicit")
     "--times", type=options.Increasing(), help="Times of the output and ends of the steps, under a constant force."
 )
 @options.force_history
+@options.columns
 @options.until(1)
 @options.progress
 def march(
@@ -42,6 +43,7 @@ def march(
     medium: Path | None,
     times: Any,
     force_history: Path | None,
+    columns: dict[str, str] | None,
     until_fraction: float | None,
     progress: bool,
 ) -> None:
@@ -73,7 +75,7 @@ def march(
 
     indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
-    load, load_attributes = files.load_from_options(force or Quantity(1.0), force_history, unit)
+    load, load_attributes = files.load_from_options(force or Quantity(1.0), force_history, unit, columns=columns)
     if times:  # with --times, `load` is a number, the constant force
         load = viscorough.Load(np.append(0.0, times), force=np.full(1 + len(times), load))
     half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)

@@ -3,6 +3,7 @@
 import contextlib
 import itertools
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -121,6 +122,20 @@ class Times(Increasing):
         return [first + (last - first) * step / steps for step in range(steps)] + [last]
 
 
+class ColumnChoice(click.ParamType):
+    """Type of options: names or numbers of columns, such as time=1,force=Load, converted to {quantity: text}."""
+
+    name = "columns"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> dict[str, str]:
+        entries = [entry.partition("=") for entry in re.split(r",(?=\s*\w+\s*=)", value)]
+        chosen = {name.strip(): column.strip() for name, _, column in entries}
+        allowed = ("time", "depth", "force")
+        if len(chosen) < len(entries) or not all(chosen.values()) or not chosen.keys() <= set(allowed):
+            self.fail(f"{value!r} is not like time=1,depth=3,force=2; allowed: {', '.join(allowed)}", param, ctx)
+        return chosen
+
+
 FILE = click.Path(path_type=Path)
 
 
@@ -154,14 +169,21 @@ force_history = click.option(
     "--force-history",
     type=FILE,
     metavar="FORCE.csv",
-    help="Two columns, times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
+    help="Columns of times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
 )
 depth_history = click.option(
     "--depth-history",
     type=FILE,
     metavar="DEPTH.csv",
-    help="Two columns, times and depths, instead of a force: linear in between; a time given twice is a step. A depth "
+    help="Columns of times and depths, instead of a force: linear in between; a time given twice is a step. A depth "
     "below 0 lifts the indenter.",
+)
+columns = click.option(
+    "--columns",
+    type=ColumnChoice(),
+    metavar="time=A,force=B",
+    help="Names or numbers, from 1, of the columns in files of times and depths or forces whose heading does not name "
+    "them, as in time=1,depth=3; '2 [nm]' states a unit.",
 )
 viscosity = click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
 medium = click.option(

@@ -237,6 +237,14 @@ def _with_units_of_prj(scan: Scan, path: FilePath) -> Scan:
     return scan._replace(unit=vertical, spacing_unit=lateral)
 
 
+def is_npy(path: FilePath) -> bool:
+    """Return True if a file is named .npy or begins like a .npy file. Raises ValueError for an unreadable file."""
+    if Path(path).suffix.lower() == ".npy":
+        return True
+    with reading(path, "a file of numbers is needed"), open(path, "rb") as file:
+        return file.read(len(np.lib.format.MAGIC_PREFIX)) == np.lib.format.MAGIC_PREFIX
+
+
 def npy_array(path: FilePath) -> NDArray[Any]:
     """Return the array in a .npy file. Raises a one-line ValueError for unreadable files and pickled objects."""
     with reading(path, "a .npy file of numbers is needed"), open(path, "rb") as file:

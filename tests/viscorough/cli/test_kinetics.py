@@ -196,7 +196,7 @@ BAD_MEDIA = [
     (medium_text("springpot", exponent="half"), "exponent: 'half'; allowed: a plain number"),
     (medium_text("prony", moduli="[a, b]"), "moduli[0]: 'a'; allowed: a plain number"),
     (medium_text("creep_table", file=3), "the name of a .csv or .npy file"),
-    (medium_text("creep_table", file="curve.nc"), "a creep table is read from .csv and .npy"),
+    (medium_text("creep_table", file="curve.nc"), "a creep table is read from text"),
     ("viscosity: 1", "kind None; allowed: newtonian, maxwell"),
     ("- kind: newtonian", "it holds [{'kind': 'newtonian'}]); one mapping"),
     ("kind: newtonian\nviscosity: 1\nviscosity: 2", "key viscosity for the second time"),

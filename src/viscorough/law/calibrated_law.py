@@ -261,6 +261,21 @@ def relative_interval(table: Mapping[str, Any], quantity: str, hurst: float, x: 
     return np.array(ends)
 
 
+def law_covers(hurst: float, x: Numbers | None = None) -> bool:
+    """Return True if the law is calibrated for the Hurst exponent and, if `x` is given, confirmed at all these X."""
+    low, high = _calibrated_hurst()
+    if x is None or not low <= hurst <= high:
+        return low <= hurst <= high
+    law = penetration_law(hurst)
+    return bool(np.all((np.asarray(x) >= law.x_low) & (np.asarray(x) <= law.x_high)))
+
+
+def _calibrated_hurst() -> tuple[float, float]:
+    """Return the smallest and the largest Hurst exponent for which the law is calibrated."""
+    low, high = calibration()["hurst"][[0, -1]]
+    return float(low), float(high)
+
+
 def penetration_law(hurst: float) -> PenetrationLaw:
     """Return the PenetrationLaw of a self-affine surface with Hurst exponent H.
 
@@ -294,7 +309,7 @@ def penetration_law(hurst: float) -> PenetrationLaw:
     (0.4, True)
     """
     table, beyond = calibration(), interface_calibration()
-    low, high = table["hurst"][[0, -1]]
+    low, high = _calibrated_hurst()
     name = spelled("--hurst", "hurst of the penetration law")
     hurst = real_number(name, hurst)
     if not low <= hurst <= high:

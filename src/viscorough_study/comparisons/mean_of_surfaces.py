@@ -7,13 +7,14 @@ arithmetic mean over the same discs.
 If a model averages the velocities of n surfaces, its error is √⟨b² + s²/n⟩, where ⟨ ⟩ is the mean over X = Ft/(4ηhL)
 from 0.01 to 1. At each X, s is the standard deviation of ln(vt/h) among single surfaces, and b is the deviation of the
 model's mean of ln(vt/h) from the exact mean, less the part that the scatter of the realizations explains. A model that
-needs no surfaces has the error b. The processor time is n times the time of one curve (performance.one_surface).
+needs no surfaces has the error b. The law has no error for a Hurst exponent or X outside its calibration. The processor
+time is n times the time of one curve (performance.one_surface).
 """
 
 import numpy as np
 import pandas as pd
 
-from viscorough.law.calibrated_law import penetration_law
+from viscorough.law.calibrated_law import law_covers, penetration_law
 from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import fits
@@ -73,8 +74,9 @@ def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *,
             for number in SURFACES
         ]
         here = (x >= X[0]) & (x <= X[1])
-        law = np.log(penetration_law(hurst).velocity(x[here])) - np.log(truth["velocity_arithmetic"].values[here])
-        rows.append((hurst, "velocity", LAW, np.nan, 0, 0.0, np.sqrt(np.nanmean(law**2))))
+        law = penetration_law(hurst).velocity(x[here]) if law_covers(hurst, x[here]) else np.nan
+        deviation = np.log(law / truth["velocity_arithmetic"].values[here])
+        rows.append((hurst, "velocity", LAW, np.nan, 0, 0.0, _root_mean(deviation**2)))
         rows += _exponent_rows(hurst, scaling, conventions, lines, times)
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
@@ -92,7 +94,7 @@ class _Mean:
     @property
     def scatter(self):
         """Return the standard deviation of ln(vt/h) among single surfaces, as a root mean square over all X."""
-        return float(np.sqrt(np.nanmean(self.variance)))
+        return _root_mean(self.variance)
 
     def deviation(self, other):
         """Return the root mean square over all X of the difference between another mean and this mean.
@@ -100,7 +102,13 @@ class _Mean:
         The part of the difference that the scatter of the two ensembles explains is subtracted.
         """
         by_chance = self.variance / self.number + other.variance / other.number
-        return float(np.sqrt(max(np.nanmean((other.logarithm - self.logarithm) ** 2 - by_chance), 0.0)))
+        return _root_mean((other.logarithm - self.logarithm) ** 2 - by_chance)
+
+
+def _root_mean(squares):
+    """Return the root of the mean of the defined squares; 0 if the mean is negative, nan if none is defined."""
+    defined = squares[np.isfinite(squares)]
+    return float(np.sqrt(max(defined.mean(), 0.0))) if defined.size else np.nan
 
 
 def _nearest(values, value):
@@ -128,12 +136,13 @@ def _line_time(times, points):
 def _exponent_rows(hurst, scaling, conventions, lines, times):
     """Yield a table row for each model, with the error of its exponent β in region (b), relative to β of the discs.
 
+    The law has no error for a Hurst exponent outside its calibration.
     No rows are yielded if the discs have no region (b).
     """
     discs = fits(scaling, conventions, source="discs", case_group="base").set_index("hurst")["beta"]
     if not np.isfinite(exact := discs.get(hurst, np.nan)):
         return
-    betas = {PAPER: exponent_beta(hurst), LAW: penetration_law(hurst).beta}
+    betas = {PAPER: exponent_beta(hurst), LAW: penetration_law(hurst).beta if law_covers(hurst) else np.nan}
     for model, beta in betas.items():
         yield hurst, "exponent", model, np.nan, 0, 0.0, abs(beta / exact - 1)
     reduced = fits(scaling, conventions | {"rms_convention": "line"}, source="lines").set_index("hurst")

@@ -65,10 +65,10 @@ def media_table(ensembles, media, *, force, times):
     media : {name: medium of viscorough.media.kinds} in Pa and s; force : F [N]
     times : times t > 0, logarithmically uniform [s]
     A curve reaches a time if the depth at this time is on the curve. The mean at a time contains only groups whose
-    curves all reach this time. The table omits times that no group reaches, and times at which a velocity is 0. X is
-    computed with the mean rms height.
+    curves all reach this time. The table omits times that no group reaches, and times at which a velocity is 0. It has
+    no rows if no group reaches any time. X is computed with the mean rms height.
     """
-    parts = []
+    parts = [pd.DataFrame(columns=list(COLUMNS))]
     for (name, medium), (hurst, groups) in product(media.items(), ensembles.items()):
         motions = [_motions(*group, medium, force=force, times=times) for group in groups]
         depth, velocity = (np.concatenate(values) for values in zip(*motions, strict=True))
@@ -88,7 +88,7 @@ def media_table(ensembles, media, *, force, times):
             "realizations": np.isfinite(velocity[:, moving]).sum(axis=0),
         }
         parts.append(pd.DataFrame(columns))
-    return pd.concat(parts, ignore_index=True)[list(COLUMNS)]
+    return pd.concat(parts[1:] or parts, ignore_index=True)[list(COLUMNS)]
 
 
 def _motions(curves, rms, _, medium, *, force, times):

@@ -93,7 +93,10 @@ def periodic_contact(heights, start, tolerance=TOLERANCE):
     def deflection(load):
         return fft.irfft2(kernel * fft.rfft2(load), s=load.shape)
 
-    direction, last, keep = np.zeros_like(heights), 1.0, 0.0
+    unit = np.zeros_like(heights)
+    unit[0, 0] = 1.0
+    single = 1 / deflection(unit)[0, 0]  # change of the load of one element that moves this element by 1
+    direction, last, conjugate = np.zeros_like(heights), 1.0, False
     for _ in range(ITERATIONS_MAX):
         touching = pressure > 0
         gap = deflection(pressure) - heights
@@ -102,14 +105,16 @@ def periodic_contact(heights, start, tolerance=TOLERANCE):
         if np.abs(gap[touching]).max() <= tolerance and gap.min() >= -tolerance:
             return separation, pressure
         square = np.sum(gap[touching] ** 2)
-        direction = np.where(touching, gap + keep * square / last * direction, 0.0)
+        direction = np.where(touching, gap + (square / last if conjugate and last else 0.0) * direction, 0.0)
         last = square
         response = deflection(direction)
         response -= response[touching].mean()
-        step = np.sum(gap[touching] * direction[touching]) / np.sum(response[touching] * direction[touching])
+        curvature = np.sum(response[touching] * direction[touching])
+        # If a single element touches, its load is given, the curvature is 0, and only overlaps change the pressures.
+        step = np.sum(gap[touching] * direction[touching]) / curvature if curvature else single
         pressure = np.maximum(pressure - step * direction, 0.0)
         overlapping = (pressure == 0) & (gap < 0)
         pressure[overlapping] -= step * gap[overlapping]
-        keep = 0.0 if overlapping.any() else 1.0
+        conjugate = not overlapping.any()
         pressure *= mean / pressure.mean()
     raise ConvergenceError(f"periodic contact: tolerance {tolerance:g} not reached in {ITERATIONS_MAX} iterations")

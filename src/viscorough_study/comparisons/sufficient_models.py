@@ -39,7 +39,7 @@ def sufficient_models(one_surface, mean_accuracy):
     """
     tables, rows = {"one": _judged_by_itself(one_surface), "mean": mean_accuracy}, []
     for question, name, quantity, errors in QUESTIONS:
-        measured = tables[name][tables[name]["quantity"] == quantity].dropna(subset="processor_s")
+        measured = tables[name][tables[name]["quantity"] == quantity].dropna(subset=["processor_s", "error"])
         candidates = _over_hurst(measured)
         for allowed in errors if len(candidates) else ():
             within = candidates[candidates["error"] <= allowed]

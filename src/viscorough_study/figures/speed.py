@@ -42,8 +42,11 @@ def plot_speed(one_surface, means, methods, other_solvers):
         _draw_one_surface(axes, velocity[velocity["hurst"] == hurst])
     rows = means[means["quantity"] == "velocity"]
     hurst = min(rows["hurst"], key=lambda value: (abs(value - exponents[0]), value))
-    many.set_title(f"(c) Mean of many surfaces, $H$ = {hurst:g}:\nthe law needs no simulation")
-    _draw_mean(many, rows[rows["hurst"] == hurst])
+    rows = rows[rows["hurst"] == hurst]
+    has_law = rows[rows["model"] == LAW]["error"].notna().any()
+    finding = "the law needs no simulation" if has_law else "the law is not calibrated for it"
+    many.set_title(f"(c) Mean of many surfaces, $H$ = {hurst:g}:\n{finding}")
+    _draw_mean(many, rows)
     solver.set_title("(d) Solver alone, on a given grid:\nfiner tolerances go far below the grid error")
     _draw_solvers(solver, methods, velocity, other_solvers)
     return figure
@@ -65,7 +68,12 @@ def _power(number):
 
 
 def _draw_free(axes, rows, above=False):
-    """Draw the law, which costs no time, as a marker at the left edge, with a label above or below the marker."""
+    """Draw the law, which costs no time, as a marker at the left edge, with a label above or below the marker.
+
+    Nothing is drawn if the table has no error of the law, which is calibrated for some Hurst exponents only.
+    """
+    if rows["error"].isna().all():
+        return
     place, edge = (LEFT, rows["error"].iloc[0]), axes.get_yaxis_transform()
     look = {"color": style.VERMILION, "clip_on": False}
     axes.plot(*place, "D", transform=edge, markersize=5, **look)

@@ -70,7 +70,7 @@ in_style = rc_context(STYLE)
 def figure(plot):
     """Decorate a function that draws a figure: apply `STYLE`, and set the ticks of logarithmic axes.
 
-    The decorated function raises ValueError if its first argument is a table without rows.
+    If the first argument is a table without rows, the figure only says that the run has no data for it.
     """
 
     @wraps(plot)
@@ -78,7 +78,7 @@ def figure(plot):
     def styled(*arguments, **options):
         first = next(iter((*arguments, *options.values())))
         if isinstance(first, pd.DataFrame) and first.empty:
-            raise ValueError(f"{plot.__name__}: the table has no rows; at least one is needed")
+            return _without_data()
         drawn = plot(*arguments, **options)
         for axes in drawn.axes:
             # Turn off the labels of minor ticks. They are empty, but matplotlib would measure each label.
@@ -89,6 +89,13 @@ def figure(plot):
         return drawn
 
     return styled
+
+
+def _without_data():
+    """Return a figure that says that the run has no data for it, as with settings whose range no curve reaches."""
+    empty = new_figure(20)
+    empty.text(0.5, 0.5, "no data with these settings", ha="center", va="center", color=GREY)
+    return empty
 
 
 def new_figure(height, width=WIDE):

@@ -74,18 +74,21 @@ def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
     resamples, seed : number of resamples and seed of the bootstrap
 
     The mean over the realizations is arithmetic, since compliances add. Abscissae with one element in contact, region
-    (a), are omitted.
+    (a), are omitted. If none remains, the row has no u₀/h and no plateau, and the table of g(X) has no rows.
     """
     x, count, velocity = (ensemble[name].values for name in ("x", "contact_count_median", "velocity"))
     kept = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
     samples = np.exp(log_means(velocity, "arithmetic", resamples, np.random.default_rng(seed)))[:, kept]
     x, size = x[kept], len(velocity)
     interface = samples - x / punch
+    curve = pd.DataFrame({"x": x} | three_columns("interface", with_interval(interface, size)))
+    if not x.size:
+        return {"realizations": size, "kappa_c": punch}, curve
     largest = int(np.argmax(interface[0]))
     run = run_around(interface[0] >= (1 - plateau) * interface[0, largest], largest)
     row = {"realizations": size, "kappa_c": punch, "plateau_low": x[run][0], "plateau_high": x[run][-1]}
     row |= three_columns("u0", with_interval(interface[:, run].mean(axis=1), size))
-    return row, pd.DataFrame({"x": x} | three_columns("interface", with_interval(interface, size)))
+    return row, curve
 
 
 def run_around(allowed, place):

@@ -14,6 +14,7 @@ from scipy.ndimage import find_objects, label
 
 from viscorough_study.fits.conventions import FITTED
 
+FEWEST = 3  # abscissae in the window of a fit: a line through two points says nothing about a power law
 ROUNDING = 1e-9  # relative difference up to which abscissae, or numbers of decades, count as equal
 
 
@@ -75,6 +76,8 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
       elements_min elements are in contact at X_low, and if at least the fraction fraction_min of the realizations
       reaches every abscissa.
 
+    A window with fewer than three abscissae is too short for a fit, and is None.
+
     All windows are determined from the geometric mean, also for fits to the arithmetic mean.
     """
     run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
@@ -89,7 +92,8 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
         enough = mean["contact_count_median"].values[inside][:1] >= limits["elements_min"]
         if enough.all() and (mean["fraction_defined"].values[inside] >= fraction_min).all():
             windows[f"X = {low:g} to {high:g}"] = low, high
-    return windows
+    numbers = {name: in_window(mean["x"].values, window).sum() if window else 0 for name, window in windows.items()}
+    return {name: window if numbers[name] >= FEWEST else None for name, window in windows.items()}
 
 
 def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
@@ -133,8 +137,8 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     at an abscissa in the window.
     """
     chosen = in_window(x, window)
-    if chosen.sum() < 3:
-        raise ValueError(f"fit_power_law: {chosen.sum()} abscissae in the window, at least 3 are needed")
+    if chosen.sum() < FEWEST:
+        raise ValueError(f"fit_power_law: {chosen.sum()} abscissae in the window, at least {FEWEST} are needed")
     log_x, velocity = np.log(x[chosen]), velocity[:, chosen]
     if not np.isfinite(velocity).any(axis=0).all():
         raise ValueError("fit_power_law: an abscissa of the window has no realization, at least 1 is needed")

@@ -2,7 +2,7 @@
 
 A method is called a model here. The models are boundary elements on several grids and with several tolerances, boundary
 elements with a requested error (`indent` then chooses the grid), the method of dimensionality reduction (MDR), and the
-calibrated penetration law of the library.
+calibrated penetration law of the library. The law has no error for a Hurst exponent or X outside its calibration.
 
 The error of a model is its deviation from the full map, the map of all points of the same surface. The error of the
 velocity v is the root mean square of ln(v/v_full) at X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several
@@ -22,7 +22,7 @@ from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.grid_error import every_nth_point
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
-from viscorough.law.calibrated_law import penetration_law
+from viscorough.law.calibrated_law import law_covers, penetration_law
 from viscorough.mdr import reduce
 from viscorough.media.kinds import StandardLinearSolid
 from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
@@ -142,7 +142,7 @@ def surface_rows(hurst, elements, seed):
         velocity, seconds = _timed(lambda: _reduced_velocity(hurst, points, force, line_seed))  # noqa: B023
         made = {"model": MDR, "parameter": "points", "value": points, "processor_s": seconds}
         table.append(velocity_row | made | {"error": _deviation(velocity, truth["velocity"])})
-    velocity = penetration_law(hurst).velocity(x)
+    velocity = penetration_law(hurst).velocity(x) if law_covers(hurst, x) else np.nan
     made = {"model": LAW, "parameter": "", "value": np.nan, "processor_s": 0.0}
     table.append(velocity_row | made | {"error": _deviation(velocity, truth["velocity"])})
     return table + _pressure_rows(every_nth_point(disc, CONTACT_STEP))

@@ -24,6 +24,7 @@ REALIZATIONS = whole(2, 10_000)
 BATCH = whole(1, 10_000)
 X = real(1e-15, 1e4)
 TEN_TIMES = "at least ten times"
+PLATEAU = "`verdicts.plateau_range` and half a slope's width"
 
 
 class Combination(Section):
@@ -62,7 +63,7 @@ class Discs(Section):
     )
     short_until_x: real(above=0, high=1e4) = meaning(
         "X at which the curves of further realizations end",
-        also="at least `verdicts.plateau_range` and half a slope's width",
+        also=f"at least {PLATEAU}",
     )
     batch: BATCH = meaning(
         "realizations of every combination in a job; at most these are lost when it is killed. A change alters no "
@@ -99,7 +100,8 @@ class Surface(Section):
         "convention are stored and used in ensembles"
     )
     roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
-        "longest wavelength of the power law, of discs and lines; null: no roll-off", also=FOUR_ELEMENTS
+        "longest wavelength of the power law, of discs and lines; null: no roll-off",
+        also=f"{FOUR_ELEMENTS} of the coarsest grid",
     )
     roll_off_level: ROLL_OFF_LEVEL = meaning(
         "spectral density of longer waves relative to that at the roll-off wavelength, of discs and lines; 0: none, "
@@ -152,7 +154,7 @@ class Indentation(Section):
     until_fraction: real(1e-6, 1) = meaning("share of the elements in contact at which a curve ends")
     until_x: real(1e-14, 1e4) = meaning(
         "X = F/(4GhL) at which a curve ends if it is reached first; h is the larger of the two rms heights",
-        also=f"{TEN_TIMES} `ensemble.x_low`",
+        also=f"{TEN_TIMES} `ensemble.x_low`, at least {PLATEAU}",
     )
 
 
@@ -171,8 +173,8 @@ class Lines(Section):
 class Ensemble(Section):
     """Abscissae X common to all curves."""
 
-    x_low: X = meaning("lowest abscissa X = F/(4GhL) = Ft/(4ηhL)")
-    x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
+    x_low: X = meaning("lowest abscissa X = F/(4GhL) = Ft/(4ηhL)", also=f"at most {PLATEAU}")
+    x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`, at least {PLATEAU}")
     per_decade: whole(2, 200) = meaning("abscissae per decade; their decimal logarithms are multiples of 1/per_decade")
 
 
@@ -215,7 +217,7 @@ class RollOff(Section):
     """Roll-off of the second spectrum of the periodic surfaces."""
 
     wavelength: real(above=0, high=1) = meaning(
-        "longest wavelength of the power law over the period; of the second spectrum"
+        "longest wavelength of the power law over the period; of the second spectrum", also=FOUR_ELEMENTS
     )
     level: real(0, 1) = meaning("spectral density of longer waves relative to that at the roll-off")
 
@@ -227,9 +229,9 @@ class Periodic(Section):
     points: whole(16, 4096) = meaning("elements along a side of the periodic square")
     surfaces: whole(2, 100_000) = meaning("surfaces of each Hurst exponent and spectrum")
     roll_off: RollOff
-    x_low: real(above=0, high=1000) = meaning("lowest X = (π/4) p L/(E* h) of the levels")
-    x_high: real(above=0, high=1000) = meaning("highest X of the levels", also=f"{TEN_TIMES} `x_low`")
-    per_decade: whole(1, 100) = meaning("levels per decade of X")
+    x_low: real(1e-15, 1000) = meaning("lowest X = (π/4) p L/(E* h) of the levels")
+    x_high: real(1e-15, 1000) = meaning("highest X of the levels", also=f"{TEN_TIMES} `x_low`")
+    per_decade: whole(2, 100) = meaning("levels per decade of X")
 
 
 class Verdicts(Section):
@@ -242,7 +244,7 @@ class Verdicts(Section):
     )
     plateau_range: several(real(above=0, high=100), 2, 2) = meaning(
         "lower and upper X between which these decades are sought",
-        also="within `ensemble.x_low` and `x_high`, at least a decade apart",
+        also="at least a decade apart",
     )
     draws: whole(1, 100_000) = meaning(
         "number of synthetic ensembles of each kind; they show how often the test accepts power laws, and other curves"
@@ -337,7 +339,9 @@ class MediumCase(Section):
         "relaxation times of the branches of `prony`", None
     )
     modulus: real(**POSITIVE, unit="Pa sᵃ") = meaning("coefficient K of `springpot`; J = tᵃ/(K Γ(1 + a))", None)
-    exponent: real(above=0, high=1) = meaning("exponent a of `springpot`", None)
+    exponent: real(above=0, high=1) = meaning(
+        "exponent a of `springpot`", None, also="below 1, where it is `newtonian`"
+    )
 
 
 class Media(Section):
@@ -407,8 +411,9 @@ class Scenes(Section):
 class OneSurface(Section):
     """Surfaces on which all models of a single surface are compared."""
 
-    hurst: several(real(0.1, 1), 2, 4, once=True) = meaning(
-        "Hurst exponents of the surfaces on which grids, requested errors, the MDR and the law are measured"
+    hurst: several(HURST, 2, 4, once=True) = meaning(
+        "Hurst exponents of the surfaces on which grids, requested errors, the MDR and the law are measured; the law "
+        "is left out where it is not calibrated"
     )
     elements: whole(65, 2049) = meaning(
         "elements across the full map, to which all are compared; the grids are every second to every sixteenth point "
@@ -471,7 +476,7 @@ class Control(Section):
         "Hurst exponent of the control, discs of the same sizes with a roll-off; they have no power law"
     )
     roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
-        "longest wavelength of the power law of the control", also="at least four elements of the coarsest grid"
+        "longest wavelength of the power law of the control", also=f"{FOUR_ELEMENTS} of the coarsest grid"
     )
 
 
@@ -485,7 +490,7 @@ class Sizes(Section):
     windows: several(several(X, 2, 2), 0, 9, once=True) = meaning(
         "first and last X of windows in which exponents on all grids are compared; in addition to the windows of "
         "region (b), which move with the grid",
-        also="each at least a decade wide",
+        also="each at least a decade wide, within `ensemble.x_low` and `x_high`",
     )
     until_x: real(1e-14, 1e6) = meaning(
         "X = F/(4GhL) at which the curves of all grids end", also=f"{TEN_TIMES} `ensemble.x_low`"

@@ -17,9 +17,7 @@ _RANGES = [
     ("media.times.low", "media.times.high", 10),
     ("ensemble.x_low", "indentation.until_x", 10),
     ("ensemble.x_low", "sizes.until_x", 10),
-    ("ensemble.x_low", "verdicts.plateau_range.0", 1),
     ("verdicts.plateau_range.0", "verdicts.plateau_range.1", 10),
-    ("verdicts.plateau_range.1", "ensemble.x_high", 1),
     ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
 ]
 # Lists of ranges: {setting with a list of upper ends: setting with the lower end of all ranges}. The lower end is None
@@ -63,17 +61,17 @@ def _unlike_lengths(settings):
 
 def _too_short_wave(settings):
     """Yield contradictions for each roll-off wavelength below four elements, since no grid resolves such waves."""
-    shared, across = settings.surface.roll_off_wavelength, settings.discs.elements
-    waves = [(["surface", "roll_off_wavelength"], "surface", shared, across)]
-    for i, case in enumerate(settings.variants.cases):
-        if "roll_off_wavelength" in case.model_fields_set:
-            waves.append((["variants", "cases", i], case.name, case.roll_off_wavelength, across))
-    coarsest = min(grid.elements for grid in settings.sizes.discs)
-    waves.append((["sizes", "control"], "sizes.control", settings.sizes.control.roll_off_wavelength, coarsest))
-    for path, name, wavelength, elements in waves:
+    discs, lines = settings.sizes.discs, settings.sizes.lines
+    across, coarsest = settings.discs.elements, min(grid.elements for grid in discs)
+    every_grid = min(across, coarsest, settings.lines.points, *(grid.points for grid in lines))
+    waves = [(["surface", "roll_off_wavelength"], every_grid), (["sizes", "control", "roll_off_wavelength"], coarsest)]
+    waves += [(["variants", "cases", i, "roll_off_wavelength"], across) for i in range(len(settings.variants.cases))]
+    waves.append((["periodic", "roll_off", "wavelength"], settings.periodic.points))
+    for path, elements in waves:
+        wavelength = _value(settings, path)
         if wavelength is not None and wavelength * elements < 4:
-            complaint = f"roll_off_wavelength {wavelength:g} of {name} is too short; allowed: from four elements"
-            yield [path], complaint
+            allowed = f"from {4 / elements:.4g}, four elements of the coarsest grid"
+            yield [path], f"{name_of(path)}: {wavelength:g} is too short; allowed: {allowed}"
 
 
 def _empty_range(settings):
@@ -117,15 +115,32 @@ def _too_narrow_slope(settings):
         yield [["scaling", "slope_half_width"], ["ensemble", "per_decade"]], f"{fault}; allowed: {allowed}"
 
 
-def _too_short_curve(settings):
-    end = settings.verdicts.plateau_range[1] * 10**settings.scaling.slope_half_width
-    for path in (["discs", "short_until_x"], ["indentation", "until_x"]):
-        if (until_x := _value(settings, path)) < end:
-            fault = (
-                f"{name_of(path)}: curves that end at X = {until_x:g} miss a part of verdicts.plateau_range and half "
-            )
-            complaint = f"{fault}a slope's width; allowed: from {end:.4g}"
-            yield [path, ["verdicts", "plateau_range", 1]], complaint
+def _too_few_abscissae(settings):
+    """Yield contradictions if a local slope in verdicts.plateau_range would need X that are not computed."""
+    reach = 10**settings.scaling.slope_half_width
+    low, high = settings.verdicts.plateau_range[0] / reach, settings.verdicts.plateau_range[1] * reach
+    for path in (["discs", "short_until_x"], ["indentation", "until_x"], ["ensemble", "x_high"]):
+        if (end := _value(settings, path)) < high:
+            yield _missing_part(path, ["verdicts", "plateau_range", 1], end, f"from {high:.4g}")
+    if (start := settings.ensemble.x_low) > low:
+        yield _missing_part(["ensemble", "x_low"], ["verdicts", "plateau_range", 0], start, f"up to {low:.4g}")
+
+
+def _missing_part(path, end_of_range, x, allowed):
+    fault = (
+        f"{name_of(path)}: curves that end at X = {x:g} miss a part of verdicts.plateau_range and half a slope's width"
+    )
+    return [path, end_of_range], f"{fault}; allowed: {allowed}"
+
+
+def _window_outside(settings):
+    """Yield contradictions for each window of sizes.windows that is not within the range of the abscissae."""
+    low, high = settings.ensemble.x_low, settings.ensemble.x_high
+    for i, (first, last) in enumerate(settings.sizes.windows):
+        if first < low or last > high:
+            path = ["sizes", "windows", i]
+            complaint = f"{name_of(path)}: {shown([first, last])} is not within {low:g} to {high:g}"
+            yield [path, ["ensemble"]], f"{complaint}; allowed: windows from ensemble.x_low to x_high"
 
 
 def _wrong_medium(settings):
@@ -153,7 +168,8 @@ _RULES = (
     _too_short_wave,
     _empty_range,
     _too_narrow_slope,
-    _too_short_curve,
+    _too_few_abscissae,
+    _window_outside,
     _wrong_medium,
     _empty_crop,
 )

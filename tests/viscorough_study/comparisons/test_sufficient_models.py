@@ -41,6 +41,14 @@ def test_the_worst_hurst_exponent_decides_on_error_and_time():
     assert rows.loc[0.2, "hurst"] == "0.4, 0.8"
 
 
+def test_model_without_an_error_at_a_hurst_exponent_does_not_count():
+    table = grids(coarse=(0.3, 0.3))
+    law = (table["model"] == "law") & (table["hurst"] == 0.8)
+    for known, model in ((0.1, "viscorough.penetration_law"), (np.nan, "viscorough.indent")):
+        rows = chosen(table.assign(error=table["error"].mask(law, known).mask((table["model"] == "law") & ~law, 0.1)))
+        assert rows.loc[0.2, "model"] == model
+
+
 def test_full_map_counts_with_the_error_that_it_states():
     rows = chosen(grids())
     assert rows.loc[0.1, "setting"] == "129 × 129 points, tolerance=0.1"

@@ -33,6 +33,13 @@ def test_errors_vanish_on_the_full_map_and_grow_with_the_spacing(table):
     assert (grids.query("across == 65")["stated"] > 0).all()
 
 
+@pytest.mark.parametrize("hurst", [0.05, 1.0])
+def test_law_has_no_error_outside_its_calibration(hurst):
+    """At H = 0.05 the law has no constants; at H = 1 it is not confirmed at the smallest X of the comparison."""
+    table = one_surface.measure_surfaces(hurst=[hurst], elements=65, surfaces=1, seed=1)
+    assert set(table[table["error"].isna()]["model"]) == {"law"}
+
+
 def test_pressures_have_the_error_of_the_tolerance_on_a_map_too_large_for_dense_solutions():
     disc = self_affine_disc(0.8, 257, seed=1)
     errors = {row["value"]: row["error"] for row in one_surface._pressure_rows(disc)}

@@ -47,7 +47,18 @@ WRONG = [
     ({"media": {"cases": [FLUID | {"kind": "maxwell"}]}}, "fluid in media.cases: lacks shear_modulus; maxwell needs"),
     ({"media": {"cases": [FLUID | {"exponent": 0.5}]}}, "fluid in media.cases: unknown key 'exponent'; allowed for"),
     ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst[1] is 0.40000000001; allowed: 0 to 1, at most"),
-    ({"sizes": {"discs": [{"elements": 17, "realizations": 2}]}}, "roll_off_wavelength 0.125 of sizes.control is too"),
+    (
+        {"sizes": {"discs": [{"elements": 17, "realizations": 2}]}},
+        "sizes.control.roll_off_wavelength: 0.125 is too short",
+    ),
+    (
+        {"periodic": {"roll_off": {"wavelength": 1e-9}}},
+        "periodic.roll_off.wavelength: 1e-09 is too short; allowed: from",
+    ),
+    (
+        {"surface": {"roll_off_wavelength": 3e-3}},
+        "surface.roll_off_wavelength: 0.003 is too short; allowed: from 0.1212",
+    ),
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"discs": {"short_until_x": 0.5}}, "discs.short_until_x: curves that end at X = 0.5 miss a part of verdicts"),
     ({"sizes": {"windows": [[0.01, 0.02]]}}, "sizes.windows[0]: 0.01 and 0.02 are too close"),
@@ -55,9 +66,14 @@ WRONG = [
     ({"verdicts": {"plateau_range": [1, 1e-3]}}, "verdicts.plateau_range: 1 and 0.001 are in the wrong order; allowed"),
     (
         {"verdicts": {"plateau_range": [1e-3, 100]}},
-        "verdicts.plateau_range[1] and ensemble.x_high: 100 and 30 are in",
+        "discs.short_until_x: curves that end at X = 1.8 miss a part of verdicts.plateau_range",
     ),
-    ({"ensemble": {"x_low": 1e-2}}, "ensemble.x_low and verdicts.plateau_range[0]: 0.01 and 0.001 are in the wrong"),
+    (
+        {"ensemble": {"x_low": 1e-3}},
+        "ensemble.x_low: curves that end at X = 0.001 miss a part of verdicts.plateau_range",
+    ),
+    ({"ensemble": {"x_high": 1.0}}, "ensemble.x_high: curves that end at X = 1 miss a part of verdicts.plateau_range"),
+    ({"sizes": {"windows": [[1e-12, 1e-3]]}}, "sizes.windows[0]: [1e-12, 0.001] is not within 1e-09 to 30; allowed"),
     ({"periodic": {"x_low": 10, "x_high": 0.1}}, "periodic.x_low and x_high: 10 and 0.1 are in the wrong order"),
     ({"periodic": {"hurst": [0.1, 0.1]}}, "periodic.hurst: 0.1 occurs twice; allowed: once"),
     ({"lines": {"hurst": [0, 0.0, 0.1, 0.4, 0.6, 0.9]}}, "lines.hurst: 0 occurs twice; allowed: once"),

@@ -19,7 +19,8 @@ from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array, Integers
 from viscorough.media.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
 from viscorough.media.load import Load
-from viscorough.media.medium import Medium, RetardationSpectrum
+from viscorough.media.medium import Medium
+from viscorough.media.spectra import RetardationSpectrum
 
 # Number of pairs of samples that sums over the past hold in memory at a time.
 _CHUNK = 2**20

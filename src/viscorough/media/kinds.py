@@ -16,7 +16,6 @@ Poisson ratio other than 0.5 is replaced by the incompressible medium with the s
 from __future__ import annotations
 
 import contextlib
-from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -40,8 +39,9 @@ from viscorough.basics.arrays import (
 from viscorough.basics.elasticity import poisson_ratio, shear_over_incompressible, young_over_shear
 from viscorough.basics.summaries import span
 from viscorough.basics.types import Array, Scalar, Several
-from viscorough.media.medium import Medium, RelaxationSpectrum, RetardationSpectrum, checked_times
-from viscorough.media.spectra import retardation_spectrum
+from viscorough.media.medium import Medium, checked_times
+from viscorough.media.spectra import RelaxationSpectrum
+from viscorough.media.springs_and_dashpots import SpringsAndDashpots
 
 _NONE = np.array([])
 # SI unit of each parameter that may be given with a unit.
@@ -68,66 +68,8 @@ _TABLE_ROUNDING = 1e-9
 _LAST_DIGITS = 1e-14
 
 
-class _Exponential(Medium):
-    """Base class of media of springs and dashpots. They have the spectra `relaxation` and `retardation`."""
-
-    @property
-    @abstractmethod
-    def relaxation(self) -> RelaxationSpectrum: ...
-
-    @cached_property
-    def retardation(self) -> RetardationSpectrum:
-        return retardation_spectrum(self.relaxation)
-
-    def creep_compliance(self, time: ArrayLike) -> Array:
-        """Return the creep compliance J at times t ≥ 0, an array of any shape. At time 0 this is J(0+)."""
-        time = checked_times(time)
-        instantaneous, fluidity, compliances, times = self.retardation
-        delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
-        return instantaneous + np.multiply(fluidity, time) + delayed
-
-    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
-        """Return dJ/dt at times t ≥ 0, an array of any shape."""
-        time = checked_times(time)
-        _, fluidity, compliances, times = self.retardation
-        return fluidity + (compliances / times * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
-
-    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`."""
-        instantaneous, fluidity, compliances, times = self.retardation
-        length, before = np.subtract(end, start), np.divide.outer(start, times)
-        x = np.divide.outer(length, times)
-        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-before) * np.expm1(-x))
-        return (instantaneous + 0.5 * fluidity * np.add(start, end)) * length + delayed.sum(axis=-1)
-
-    def relaxation_modulus(self, time: ArrayLike) -> Array:
-        """Return the relaxation modulus ψ at times t ≥ 0, an array of any shape. At time 0 this is ψ(0+).
-
-        The pulse η δ(t) of a parallel dashpot is left out.
-        """
-        time = checked_times(time)
-        _, relaxed, moduli, times = self.relaxation
-        return relaxed + (moduli * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
-
-    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return the integral ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`, without the pulse η δ(t) of a dashpot."""
-        _, relaxed, moduli, times = self.relaxation
-        length = np.subtract(end, start)
-        decayed = -np.expm1(-np.divide.outer(length, times)) * np.exp(-np.divide.outer(start, times))
-        return relaxed * length + (moduli * times * decayed).sum(axis=-1)
-
-    def _check_spectra(self) -> None:
-        """Raise ValueError unless all numbers in both spectra, and the inverse of their times, are finite."""
-        with np.errstate(all="ignore"):
-            rates = 1 / self.relaxation.times, 1 / self.retardation.times
-            values = np.hstack([*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates])
-        if not np.isfinite(values).all():
-            name = type(self).__name__
-            raise ValueError(f"{name}: its values are too far apart for double precision; closer ones are allowed")
-
-
 @dataclass(frozen=True)
-class Newtonian(_Exponential):
+class Newtonian(SpringsAndDashpots):
     """The linearly viscous medium of the paper: creep compliance J = t/η, relaxation modulus ψ = η δ(t).
 
     Parameters
@@ -154,7 +96,7 @@ class Newtonian(_Exponential):
 
 
 @dataclass(frozen=True, init=False)
-class _SpringAndDashpot(_Exponential):
+class _SpringAndDashpot(SpringsAndDashpots):
     shear_modulus: float
     viscosity: float
 
@@ -241,7 +183,7 @@ class KelvinVoigt(_SpringAndDashpot):
 
 
 @dataclass(frozen=True, init=False)
-class StandardLinearSolid(_Exponential):
+class StandardLinearSolid(SpringsAndDashpots):
     """A solid that relaxes from the modulus G₀ to the modulus G∞ with one relaxation time τ.
 
     ψ = G∞ + (G₀ − G∞) exp(−t/τ), and J = 1/G∞ − (1/G∞ − 1/G₀) exp(−t/θ) with the retardation time θ = τ G₀/G∞.
@@ -303,7 +245,7 @@ class StandardLinearSolid(_Exponential):
 
 
 @dataclass(frozen=True, init=False)
-class Prony(_Exponential):
+class Prony(SpringsAndDashpots):
     """A Prony series: a spring and Maxwell branches in parallel, with ψ = G∞ + Σ G_i exp(−t/τ_i).
 
     J is computed exactly from ψ, see `viscorough.media.spectra.retardation_spectrum`.

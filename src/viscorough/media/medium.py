@@ -1,15 +1,15 @@
-"""Base class of linear viscoelastic media, and the spectra of media of springs and dashpots."""
+"""Base class of linear viscoelastic media."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough.basics.arrays import real_numbers
 from viscorough.basics.types import Array
+from viscorough.media.spectra import RelaxationSpectrum, RetardationSpectrum
 
 
 def checked_times(time: ArrayLike) -> Array:
@@ -18,43 +18,6 @@ def checked_times(time: ArrayLike) -> Array:
     if (times < 0).any():
         raise ValueError(f"time: {times.min():g}; allowed: 0 or more")
     return times
-
-
-class RelaxationSpectrum(NamedTuple):
-    """Relaxation modulus ψ(t) = η δ(t) + G∞ + Σ G_i exp(−t/τ_i) of a dashpot, a spring and branches in parallel.
-
-    A branch consists of a spring and a dashpot in series (Maxwell).
-
-    viscosity : η of the parallel dashpot, 0 without a dashpot
-    relaxed_modulus : G∞ of the parallel spring, 0 without a spring
-    moduli, times : modulus G_i > 0 and relaxation time τ_i > 0 of each branch, arrays of shape (branches,)
-    """
-
-    viscosity: float
-    relaxed_modulus: float
-    moduli: Array
-    times: Array
-
-    @property
-    def instantaneous_modulus(self) -> float:
-        """Return G∞ + Σ G_i, the modulus at time 0 of a medium without a parallel dashpot."""
-        return self.relaxed_modulus + self.moduli.sum()
-
-
-class RetardationSpectrum(NamedTuple):
-    """Creep compliance J(t) = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)) of a spring, a dashpot and elements in series.
-
-    An element consists of a spring and a dashpot in parallel (Kelvin-Voigt).
-
-    instantaneous_compliance : J₀ of the spring, 0 without a spring
-    fluidity : φ of the dashpot, the inverse of its viscosity; 0 without a dashpot
-    compliances, times : compliance J_j > 0 and retardation time θ_j > 0 of each element, arrays of shape (elements,)
-    """
-
-    instantaneous_compliance: float
-    fluidity: float
-    compliances: Array
-    times: Array
 
 
 class Medium(ABC):

@@ -1,4 +1,4 @@
-"""Exact conversion between the relaxation spectrum and the retardation spectrum of springs and dashpots.
+"""Spectra of media of springs and dashpots, and the exact conversion between relaxation and retardation.
 
 With the Laplace transforms ψ̂ and Ĵ of relaxation modulus and creep compliance, the relaxance Q(s) = s ψ̂(s) satisfies
 s Ĵ(s) = 1/Q(s). Q has a pole at s = −r for every relaxation rate r. It has a zero at s = −λ for every retardation rate
@@ -8,12 +8,11 @@ s Ĵ(s) = 1/Q(s). Q has a pole at s = −r for every relaxation rate r. It has a
 """
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscorough.basics.types import Array
-from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
 
 # Relative error of the springs and dashpots that approximate a power law.
 _POWER_LAW_ERROR = 1e-10
@@ -23,6 +22,93 @@ _SLOWEST = 1e-10
 # Number of bisections of an interval that contains a zero. The first ten reduce the ratio of the ends of the interval
 # to 2. The others find the zero to rounding.
 _BISECTIONS = 80
+# The upper bound of the largest relaxation rate is increased by this share, because of rounding.
+_MARGIN = 1e-9
+
+
+class RelaxationSpectrum(NamedTuple):
+    """Relaxation modulus ψ(t) = η δ(t) + G∞ + Σ G_i exp(−t/τ_i) of a dashpot, a spring and branches in parallel.
+
+    A branch consists of a spring and a dashpot in series (Maxwell).
+
+    viscosity : η of the parallel dashpot, 0 without a dashpot
+    relaxed_modulus : G∞ of the parallel spring, 0 without a spring
+    moduli, times : modulus G_i > 0 and relaxation time τ_i > 0 of each branch, arrays of shape (branches,)
+    """
+
+    viscosity: float
+    relaxed_modulus: float
+    moduli: Array
+    times: Array
+
+    @property
+    def instantaneous_modulus(self) -> float:
+        """Return G∞ + Σ G_i, the modulus at time 0 of a medium without a parallel dashpot."""
+        return self.relaxed_modulus + self.moduli.sum()
+
+
+class RetardationSpectrum(NamedTuple):
+    """Creep compliance J(t) = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)) of a spring, a dashpot and elements in series.
+
+    An element consists of a spring and a dashpot in parallel (Kelvin-Voigt).
+
+    instantaneous_compliance : J₀ of the spring, 0 without a spring
+    fluidity : φ of the dashpot, the inverse of its viscosity; 0 without a dashpot
+    compliances, times : compliance J_j > 0 and retardation time θ_j > 0 of each element, arrays of shape (elements,)
+    """
+
+    instantaneous_compliance: float
+    fluidity: float
+    compliances: Array
+    times: Array
+
+
+class Spectrum(NamedTuple):
+    """Relaxation and retardation spectrum of a medium, and matrices that convert their internal variables.
+
+    J = J₀ + φ₀ t + Σ J_j (1 − exp(−λ_j t)) and ψ = η δ(t) + G∞ + Σ G_b exp(−r_b t).
+
+    viscosity, relaxed : η of the parallel dashpot and G∞ of the parallel spring
+    moduli, rates : moduli G_b and rates r_b of the Maxwell branches, shape (branches,)
+    instantaneous, fluidity : J₀ of the spring and φ₀ of the dashpot in series
+    flows, decays : J_j λ_j and rates λ_j of the Kelvin-Voigt elements with compliances J_j, shape (elements,)
+    remainders : matrix G_b r_b/(r_b − λ_j), which converts internal variables w_b of branches to remainders ρ_j of
+        elements, shape (branches, elements)
+    branches : matrix J_j λ_j/(r_b − λ_j), which converts remainders ρ_j to internal variables w_b, shape (elements,
+        branches)
+
+    Both matrices are summed over their first index: whole rows, without gaps in memory, are added quickly.
+    """
+
+    viscosity: float
+    relaxed: float
+    moduli: Array
+    rates: Array
+    instantaneous: float
+    fluidity: float
+    flows: Array
+    decays: Array
+    remainders: Array
+    branches: Array
+
+
+def spectrum_of(relaxation: RelaxationSpectrum, retardation: RetardationSpectrum) -> Spectrum:
+    """Return the Spectrum of the medium that has these two spectra."""
+    rates, decays = 1 / relaxation.times, 1 / retardation.times
+    flows = retardation.compliances * decays
+    if relaxation.viscosity:
+        remainders, branches = np.zeros((0, decays.size)), np.zeros((decays.size, 0))
+    else:
+        apart = rates[:, None] - decays
+        # If a relaxation rate equals a retardation rate within rounding, the modulus of the branch is negligible, and
+        # its coefficients are set to 0.
+        inverse = np.divide(1.0, apart, out=np.zeros_like(apart), where=apart != 0)
+        remainders = (relaxation.moduli * rates)[:, None] * inverse
+        branches = np.ascontiguousarray((flows * inverse).T)
+    return Spectrum(
+        float(relaxation.viscosity), float(relaxation.relaxed_modulus), np.ascontiguousarray(relaxation.moduli), rates,
+        float(retardation.instantaneous_compliance), float(retardation.fluidity), flows, decays, remainders, branches,
+    )  # fmt: skip
 
 
 def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
@@ -67,27 +153,36 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
 
 
 def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
-    """Return the RelaxationSpectrum of the same fluid as a RetardationSpectrum with J₀ > 0 and φ > 0.
+    """Return the RelaxationSpectrum of the same medium as a RetardationSpectrum with J₀ > 0.
 
-    This is the inverse of `retardation_spectrum`. With the retardation rates λ_j = 1/θ_j, the relaxation rates r are
-    the zeros of s Ĵ(s) = J₀ + φ/s + Σ J_j λ_j/(s + λ_j) at s = −r. One zero lies below each λ_j, above the next smaller
-    λ_j, and one zero lies above all λ_j. The moduli are G_i = 1/(φ/r_i + r_i Σ_j J_j λ_j/(r_i − λ_j)²).
+    This is the inverse of `retardation_spectrum`; the medium needs a dashpot (φ > 0) or at least one element. With the
+    retardation rates λ_j = 1/θ_j, the relaxation rates r are the zeros of s Ĵ(s) = J₀ + φ/s + Σ J_j λ_j/(s + λ_j) at
+    s = −r. One zero lies between every two neighbouring λ_j, and one above all λ_j. If φ > 0, a further zero lies below
+    the smallest λ_j, and G∞ = 0. Otherwise G∞ = 1/(J₀ + Σ J_j). The moduli are
+    G_i = 1/(φ/r_i + r_i Σ_j J_j λ_j/(r_i − λ_j)²).
+
+    The unknown is the distance of a zero from the nearest λ_j, so that a zero that is close to a λ_j loses no digits.
     """
     instantaneous, fluidity, compliances, times = retardation
-    if not times.size:  # a spring and a dashpot in series
-        return RelaxationSpectrum(0.0, 0.0, np.array([1 / instantaneous]), np.array([instantaneous / fluidity]))
-    decays = np.sort(1 / times)
-    flows = (compliances / times)[np.argsort(1 / times)]
-    most = np.finfo(float).max ** 0.25 * decays[-1]
-    low, high = np.append(np.finfo(float).tiny ** 0.25 * decays[0], decays), np.append(decays, most)
+    order = np.argsort(-times)
+    decays, flows = 1 / times[order], (compliances / times)[order]
+    below = np.append(0.0, decays) if fluidity else decays
+    # The largest zero lies below the sum of the largest λ_j and (φ + Σ J_j λ_j)/J₀.
+    above = np.append(below[1:], below[-1] + (fluidity + flows.sum()) / instantaneous * (1 + _MARGIN))
+    from_decays = decays[:, None]  # the following arrays have a row per retardation rate and a column per zero
 
-    def response(rate: Array) -> Array:
-        with np.errstate(divide="ignore"):
-            return instantaneous - fluidity / rate + (flows / (decays - rate[:, None])).sum(axis=1)
+    def response(pole: Array, distance: Array) -> Array:
+        elements = (flows[:, None] / (from_decays - pole - distance)).sum(axis=0)
+        return instantaneous - fluidity / (pole + distance) + elements
 
-    rates = zero_of_increasing(response, low, high)
-    slopes = fluidity / rates + rates * (flows / (rates[:, None] - decays) ** 2).sum(axis=1)
-    return RelaxationSpectrum(0.0, 0.0, 1 / slopes, 1 / rates)
+    half = 0.5 * (above - below)
+    lower = response(below, half) > 0
+    pole, sign = np.where(lower, below, above), np.where(lower, 1.0, -1.0)
+    distance = sign * zero_of_increasing(lambda size: sign * response(pole, sign * size), np.finfo(float).tiny, half)
+    rates = pole + distance
+    slopes = fluidity / rates + rates * (flows[:, None] / (from_decays - pole - distance) ** 2).sum(axis=0)
+    relaxed = 0.0 if fluidity else 1 / (instantaneous + compliances.sum())
+    return RelaxationSpectrum(0.0, relaxed, 1 / slopes, 1 / rates)
 
 
 def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest: float) -> RetardationSpectrum:

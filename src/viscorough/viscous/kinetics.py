@@ -37,11 +37,11 @@ from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import Springpot, medium_of
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium
-from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, zero_of_increasing
+from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, spectrum_of, zero_of_increasing
 from viscorough.results.loading_curve import LoadingCurve, check_curve
 from viscorough.results.motion import Motion
 from viscorough.viscous.springs import ROUNDING, RowOfSprings, row_of_springs
-from viscorough.viscous.unilateral import BEYOND, INFINITE, RESTLESS, RowMotion, law_of, move_row
+from viscorough.viscous.unilateral import BEYOND, INFINITE, RESTLESS, RowMotion, move_row
 from viscorough.viscous.unilateral_sums import move_row_by_sums
 
 # Time that counts as infinite: the end of the creep is searched for only before this time.
@@ -180,7 +180,7 @@ def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) 
         moved = move_row_by_sums(row, medium, load)
         ended, until = BEYOND, float(load.time[np.argmax(np.isnan(moved.depth))])
     else:
-        law = law_of(*spectra)
+        law = spectrum_of(*spectra)
         row_and_law = row.gap, row.stiffness, row.limit, law
         moved, ended, until = move_row(*row_and_law, load.time, load.values, by_depth=load.by_depth)
     if ended == RESTLESS and np.isfinite(moved.depth[~np.isnan(moved.depth)]).all():

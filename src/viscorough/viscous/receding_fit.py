@@ -17,8 +17,7 @@ from viscorough.basics.argument_names import argument
 from viscorough.basics.types import Array, Integers
 from viscorough.media.kinds import CreepTable, Prony, Springpot
 from viscorough.media.load import Load
-from viscorough.media.medium import RetardationSpectrum
-from viscorough.media.spectra import relaxation_spectrum
+from viscorough.media.spectra import RetardationSpectrum, relaxation_spectrum, spectrum_of
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.creep_fit import first_lag, knots_of, prony_series, spectrum_of_growth
 from viscorough.viscous.kinetics import kinetics
@@ -37,7 +36,7 @@ from viscorough.viscous.record_fit import (
     spread_times,
 )
 from viscorough.viscous.springs import merged, row_of_springs
-from viscorough.viscous.unilateral import law_of, move_row
+from viscorough.viscous.unilateral import move_row
 
 # Largest number of Gauss-Newton iterations, and of trial steps in an iteration. If a step increases the sum of squares,
 # the next trial step has half the length.
@@ -213,9 +212,9 @@ class _RecedingRecord:
             amounts[2:][kept],
             self.times[kept],
         )
-        law = law_of(relaxation_spectrum(retardation), retardation)
+        spectrum = spectrum_of(relaxation_spectrum(retardation), retardation)
         moved, _, _ = move_row(
-            self.gap, self.stiffness, self.limit, law, self.load.time, self.load.values, by_depth=False
+            self.gap, self.stiffness, self.limit, spectrum, self.load.time, self.load.values, by_depth=False
         )
         return moved.depth[self.place]
 

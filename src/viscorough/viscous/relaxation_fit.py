@@ -34,8 +34,7 @@ from viscorough.basics.types import Array, Integers
 from viscorough.media.creep_response import branch_forces
 from viscorough.media.kinds import CreepTable, Prony, Springpot
 from viscorough.media.load import Load
-from viscorough.media.medium import RelaxationSpectrum
-from viscorough.media.spectra import retardation_spectrum
+from viscorough.media.spectra import RelaxationSpectrum, retardation_spectrum, spectrum_of
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.kinetics import kinetics
 from viscorough.viscous.non_negative import extremes, non_negative
@@ -50,7 +49,7 @@ from viscorough.viscous.record_fit import (
     spread_times,
 )
 from viscorough.viscous.springs import merged, row_of_springs
-from viscorough.viscous.unilateral import law_of, move_row
+from viscorough.viscous.unilateral import move_row
 
 # Largest number of Gauss-Newton iterations. The iterations end earlier if the sum of squares decreases by less than the
 # share _STALLED, or if the root mean square of the residuals is below the share _EXACT of the largest force.
@@ -401,7 +400,7 @@ class _ForceRecord:
             columns = self._columns(path, times[branches], in_contact)
             return path, columns @ np.append(amounts[0], amounts[1:][branches]), in_contact
         spectrum = RelaxationSpectrum(0.0, float(amounts[0]), amounts[1:][branches], times[branches])
-        law = law_of(spectrum, retardation_spectrum(spectrum))
+        law = spectrum_of(spectrum, retardation_spectrum(spectrum))
         springs, depth = (self.gap, np.diff(self.stiffness)), self.load.values - offset - self.drifts @ drift
         moved, _, _ = move_row(*springs, np.inf, law, self.load.time, depth, by_depth=True)
         return path, moved.force[self.place], moved.in_contact[self.place]

@@ -42,7 +42,7 @@ from viscorough.basics.compilation import njit
 from viscorough.basics.interrupts import uninterrupted
 from viscorough.basics.types import Array, Integers, Mask
 from viscorough.media.creep_response import decay, exponential
-from viscorough.media.medium import RelaxationSpectrum, RetardationSpectrum
+from viscorough.media.spectra import Spectrum
 
 # Rounding error of a force or an overlap, relative to the size of its terms. A spring is released only if its tension
 # exceeds this error, and touches only if its overlap does.
@@ -73,35 +73,6 @@ _PAUSE, _MOST_PAUSES = 5e-16, 21
 # Ways in which a motion ends: at the last sample (SETTLED), when the depth reaches its limit (BEYOND), at a step that
 # needs an infinite force (INFINITE), or when springs touch and are released at the same time without end (RESTLESS).
 SETTLED, BEYOND, INFINITE, RESTLESS = 0, 1, 2, 3
-
-
-class Law(NamedTuple):
-    """Relaxation and retardation spectrum of a medium, and matrices that convert their internal variables.
-
-    The symbols are defined in the module docstring.
-
-    viscosity, relaxed : η of the parallel dashpot and G∞ of the parallel spring
-    moduli, rates : moduli G_b and rates r_b of the Maxwell branches, shape (branches,)
-    instantaneous, fluidity : J₀ of the spring and φ₀ of the dashpot in series
-    flows, decays : J_j λ_j and rates λ_j of the Kelvin-Voigt elements with compliances J_j, shape (elements,)
-    remainders : matrix G_b r_b/(r_b − λ_j), which converts internal variables w_b of branches to remainders ρ_j of
-        elements, shape (branches, elements)
-    branches : matrix J_j λ_j/(r_b − λ_j), which converts remainders ρ_j to internal variables w_b, shape (elements,
-        branches)
-
-    Both matrices are summed over their first index: whole rows, without gaps in memory, are added quickly.
-    """
-
-    viscosity: float
-    relaxed: float
-    moduli: Array
-    rates: Array
-    instantaneous: float
-    fluidity: float
-    flows: Array
-    decays: Array
-    remainders: Array
-    branches: Array
 
 
 class RowMotion(NamedTuple):
@@ -176,27 +147,8 @@ class _State(NamedTuple):
     receding: Array
 
 
-def law_of(relaxation: RelaxationSpectrum, retardation: RetardationSpectrum) -> Law:
-    """Return the Law of a medium with the given spectra."""
-    rates, decays = 1 / relaxation.times, 1 / retardation.times
-    flows = retardation.compliances * decays
-    if relaxation.viscosity:
-        remainders, branches = np.zeros((0, decays.size)), np.zeros((decays.size, 0))
-    else:
-        apart = rates[:, None] - decays
-        # If a relaxation rate equals a retardation rate within rounding, the modulus of the branch is negligible, and
-        # its coefficients are set to 0.
-        inverse = np.divide(1.0, apart, out=np.zeros_like(apart), where=apart != 0)
-        remainders = (relaxation.moduli * rates)[:, None] * inverse
-        branches = np.ascontiguousarray((flows * inverse).T)
-    return Law(
-        float(relaxation.viscosity), float(relaxation.relaxed_modulus), np.ascontiguousarray(relaxation.moduli), rates,
-        float(retardation.instantaneous_compliance), float(retardation.fluidity), flows, decays, remainders, branches,
-    )  # fmt: skip
-
-
 def move_row(
-    gaps: Array, weights: Array, limit: float, law: Law, times: Array, load: Array, *, by_depth: bool
+    gaps: Array, weights: Array, limit: float, spectrum: Spectrum, times: Array, load: Array, *, by_depth: bool
 ) -> tuple[RowMotion, int, float]:
     """Return the motion of a row of springs, how it ended (SETTLED, BEYOND, INFINITE or RESTLESS), and its end time.
 
@@ -211,7 +163,7 @@ def move_row(
     released at the same time without end, which should not happen.
     """
     with uninterrupted():
-        *motion, ended, until = _march(gaps, weights, limit, law, times - times[0], load, by_depth)
+        *motion, ended, until = _march(gaps, weights, limit, spectrum, times - times[0], load, by_depth)
     motion = RowMotion(*motion)
     return motion._replace(receding_from=motion.receding_from + times[0]), ended, until + times[0]
 
@@ -333,7 +285,7 @@ def _increasing_zero(a, b, close, value, slope, bend, first, second, rates):
 
 
 @njit(inner=True)
-def _kept_since(law, state, t, i):
+def _kept_since(spectrum, state, t, i):
     """Return exp(−r_b (t − t_i)) for every branch b, where t_i is the time when spring i touched last.
 
     The result is the array state.kept. An event needs the same values several times, so they are computed only if the
@@ -342,70 +294,70 @@ def _kept_since(law, state, t, i):
     since = t - state.joined[i]
     if since != state.since[0]:
         state.since[0] = since
-        for b in range(law.rates.size):
-            state.kept[b] = exponential(law.rates[b] * since)
+        for b in range(spectrum.rates.size):
+            state.kept[b] = exponential(spectrum.rates[b] * since)
     return state.kept
 
 
 @njit(inner=True)
-def _release(row, law, state, t, u, force, rate, count, by_depth, first):
+def _release(row, spectrum, state, t, u, force, rate, count, by_depth, first):
     """Return value, slope and rounding error of −φ, the tension of the last spring in contact.
 
     The spring is released when −φ becomes positive. To find this time, `_first_crossing` also needs the amplitudes of
     the exponentials in −φ; they are written to `first`.
     """
     top, gap = count - 1, row.gaps[count - 1]
-    kept = _kept_since(law, state, t, top)
+    kept = _kept_since(spectrum, state, t, top)
     if by_depth:
-        value = law.relaxed * (u - gap) + law.viscosity * rate
-        size = law.relaxed * (abs(u) + gap) + abs(law.viscosity * rate)
-        slope = law.relaxed * rate
-        for b in range(law.rates.size):
+        value = spectrum.relaxed * (u - gap) + spectrum.viscosity * rate
+        size = spectrum.relaxed * (abs(u) + gap) + abs(spectrum.viscosity * rate)
+        slope = spectrum.relaxed * rate
+        for b in range(spectrum.rates.size):
             own = state.common[b] + state.offset[top, b] * kept[b]
-            value += law.moduli[b] * own
-            size += law.moduli[b] * (abs(own) + abs(state.common[b]))
-            first[b] = -law.moduli[b] * (rate - law.rates[b] * own)
+            value += spectrum.moduli[b] * own
+            size += spectrum.moduli[b] * (abs(own) + abs(state.common[b]))
+            first[b] = -spectrum.moduli[b] * (rate - spectrum.rates[b] * own)
     else:
         stiffness, centre = row.stiffness[count], row.moment[count] / row.stiffness[count]
-        value = force / stiffness + law.relaxed * (centre - gap)
-        size = abs(force / stiffness) + law.relaxed * (centre + gap)
+        value = force / stiffness + spectrum.relaxed * (centre - gap)
+        size = abs(force / stiffness) + spectrum.relaxed * (centre + gap)
         slope = rate / stiffness
-        for b in range(law.rates.size):
+        for b in range(spectrum.rates.size):
             own = (state.offset[top, b] - state.total[top, b] / stiffness) * kept[b]
-            value += law.moduli[b] * own
-            size += law.moduli[b] * abs(own)
-            first[b] = law.moduli[b] * law.rates[b] * own
+            value += spectrum.moduli[b] * own
+            size += spectrum.moduli[b] * abs(own)
+            first[b] = spectrum.moduli[b] * spectrum.rates[b] * own
     return -value, -slope, _ROUNDING * size
 
 
 @njit(inner=True)
-def _gap_now(state, law, gap, t, i):
+def _gap_now(state, spectrum, gap, t, i):
     """Return the depth g + y at which an indenter would touch the free spring i at time t."""
     since = t - state.left[i]
-    for j in range(law.decays.size):
+    for j in range(spectrum.decays.size):
         if state.remainder[i, j] != 0:
-            _, mean = decay(law.decays[j] * since)
-            gap += law.flows[j] * state.remainder[i, j] * since * mean
+            _, mean = decay(spectrum.decays[j] * since)
+            gap += spectrum.flows[j] * state.remainder[i, j] * since * mean
     return gap + state.rest[i]
 
 
 @njit(inner=True)
-def _remainders_in_contact(row, law, state, t, u, force, count, remainders):
+def _remainders_in_contact(row, spectrum, state, t, u, force, count, remainders):
     """Set `remainders` in place to the R_j of the springs in contact; the R_j are defined in the module docstring."""
     stiffness, top = row.stiffness[count], count - 1
-    if law.viscosity > 0:
-        remainders[:] = force - law.relaxed * (stiffness * u - row.moment[count])
+    if spectrum.viscosity > 0:
+        remainders[:] = force - spectrum.relaxed * (stiffness * u - row.moment[count])
         return
     remainders[:] = 0.0
-    kept = _kept_since(law, state, t, top)
-    for b in range(law.rates.size):
+    kept = _kept_since(spectrum, state, t, top)
+    for b in range(spectrum.rates.size):
         variable = stiffness * state.common[b] + state.total[top, b] * kept[b]
-        for j in range(law.decays.size):
-            remainders[j] += law.remainders[b, j] * variable
+        for j in range(spectrum.decays.size):
+            remainders[j] += spectrum.remainders[b, j] * variable
 
 
 @njit(inner=True)
-def _let_go(row, law, state, t, u, count):
+def _let_go(row, spectrum, state, t, u, count):
     """Release the last of `count` springs in contact and store its state.
 
     Return the new number of springs in contact.
@@ -414,21 +366,21 @@ def _let_go(row, law, state, t, u, count):
     if np.isnan(state.receding[0]):
         state.receding[0] = t
     state.left[top], state.rest[top] = t, u - row.gaps[top]
-    if law.viscosity > 0:
-        for j in range(law.decays.size):
-            state.remainder[top, j] = -law.relaxed * (u - row.gaps[top])
+    if spectrum.viscosity > 0:
+        for j in range(spectrum.decays.size):
+            state.remainder[top, j] = -spectrum.relaxed * (u - row.gaps[top])
         return top
     state.remainder[top, :] = 0.0
-    kept = _kept_since(law, state, t, top)
-    for b in range(law.rates.size):
+    kept = _kept_since(spectrum, state, t, top)
+    for b in range(spectrum.rates.size):
         own = state.common[b] + state.offset[top, b] * kept[b]
-        for j in range(law.decays.size):
-            state.remainder[top, j] += law.remainders[b, j] * own
+        for j in range(spectrum.decays.size):
+            state.remainder[top, j] += spectrum.remainders[b, j] * own
     return top
 
 
 @njit(inner=True)
-def _touch(row, law, state, t, u, force, count, by_depth):
+def _touch(row, spectrum, state, t, u, force, count, by_depth):
     """Add the first free spring to the `count` springs in contact, and return the new number of springs in contact.
 
     The stored offset of the spring is chosen so that the formula of `_release` gives it a force of exactly zero.
@@ -436,51 +388,51 @@ def _touch(row, law, state, t, u, force, count, by_depth):
     """
     i, gap, stiffness = count, row.gaps[count], row.stiffness[count]
     state.joined[i], state.most[0] = t, max(state.most[0], count + 1)
-    if law.viscosity > 0:
+    if spectrum.viscosity > 0:
         return count + 1
     if i == 0:
         state.common[:] = 0.0  # no spring is in contact: the common variables may start from any value
     from_balance = not by_depth and i > 0
-    excess = law.relaxed * (u - gap)
+    excess = spectrum.relaxed * (u - gap)
     if from_balance:
-        excess = force / stiffness + law.relaxed * (row.moment[count] / stiffness - gap)
+        excess = force / stiffness + spectrum.relaxed * (row.moment[count] / stiffness - gap)
     state.offset[i, :] = 0.0
-    for j in range(law.decays.size):
+    for j in range(spectrum.decays.size):
         if state.remainder[i, j] != 0:
-            remainder = state.remainder[i, j] * exponential(law.decays[j] * (t - state.left[i]))
-            for b in range(law.rates.size):
-                state.offset[i, b] += law.branches[j, b] * remainder
-    kept = _kept_since(law, state, t, max(i - 1, 0))
-    for b in range(law.rates.size):
+            remainder = state.remainder[i, j] * exponential(spectrum.decays[j] * (t - state.left[i]))
+            for b in range(spectrum.rates.size):
+                state.offset[i, b] += spectrum.branches[j, b] * remainder
+    kept = _kept_since(spectrum, state, t, max(i - 1, 0))
+    for b in range(spectrum.rates.size):
         own = state.offset[i, b]
         state.offset[i, b] = own - state.common[b]
         before = state.total[i - 1, b] * kept[b] if i > 0 else 0.0
         state.total[i, b] = before
-        excess += law.moduli[b] * (state.offset[i, b] - before / stiffness if from_balance else own)
-    excess /= law.moduli.sum()
-    for b in range(law.rates.size):
+        excess += spectrum.moduli[b] * (state.offset[i, b] - before / stiffness if from_balance else own)
+    excess /= spectrum.moduli.sum()
+    for b in range(spectrum.rates.size):
         state.offset[i, b] -= excess
         state.total[i, b] += row.weights[i] * state.offset[i, b]
     return count + 1
 
 
 @njit(inner=True)
-def _carried(row, law, state, t, u, count):
+def _carried(row, spectrum, state, t, u, count):
     """Return the force of the springs in contact, computed from their deflections and internal variables.
 
     The force of a parallel dashpot is not included.
     """
     stiffness, moment = row.stiffness[count], row.moment[count]
-    force = law.relaxed * (stiffness * u - moment)
-    kept = _kept_since(law, state, t, count - 1)
-    for b in range(law.rates.size):
+    force = spectrum.relaxed * (stiffness * u - moment)
+    kept = _kept_since(spectrum, state, t, count - 1)
+    for b in range(spectrum.rates.size):
         variable = stiffness * state.common[b] + state.total[count - 1, b] * kept[b]
-        force += law.moduli[b] * variable
+        force += spectrum.moduli[b] * variable
     return force
 
 
 @njit(inner=True)
-def _balanced(row, law, state, t, u, force, count):
+def _balanced(row, spectrum, state, t, u, force, count):
     """Change the depth slightly, so that the springs in contact carry exactly the force, and return the new depth.
 
     The common variables change by the same step, in place. This correction is needed because the force of a released
@@ -490,15 +442,17 @@ def _balanced(row, law, state, t, u, force, count):
     The depth is returned unchanged in two cases: in a fluid without a parallel spring, where the force does not depend
     on the depth itself, and with a parallel dashpot, where the depth follows from the force.
     """
-    if law.viscosity > 0 or law.relaxed == 0:
+    if spectrum.viscosity > 0 or spectrum.relaxed == 0:
         return u
-    step = (force - _carried(row, law, state, t, u, count)) / (row.stiffness[count] * (law.relaxed + law.moduli.sum()))
+    step = (force - _carried(row, spectrum, state, t, u, count)) / (
+        row.stiffness[count] * (spectrum.relaxed + spectrum.moduli.sum())
+    )
     state.common[:] += step
     return u + step
 
 
 @njit(inner=True)
-def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
+def _observe(row, spectrum, state, t, u, force, rate, count, by_depth, remainders):
     """Return force and velocity at time t.
 
     Under a prescribed force, `remainders` is set to the R_j in place. In a medium with a parallel dashpot, it keeps the
@@ -509,24 +463,24 @@ def _observe(row, law, state, t, u, force, rate, count, by_depth, remainders):
     if by_depth:
         if count == 0:
             return 0.0, rate
-        force = _carried(row, law, state, t, u, count) + law.viscosity * stiffness * rate
+        force = _carried(row, spectrum, state, t, u, count) + spectrum.viscosity * stiffness * rate
         return max(force, 0.0), rate
-    if law.viscosity == 0:
-        _remainders_in_contact(row, law, state, t, u, force, count, remainders)
-    flow = law.instantaneous * rate + law.fluidity * force
-    for j in range(law.decays.size):
-        flow += law.flows[j] * remainders[j]
+    if spectrum.viscosity == 0:
+        _remainders_in_contact(row, spectrum, state, t, u, force, count, remainders)
+    flow = spectrum.instantaneous * rate + spectrum.fluidity * force
+    for j in range(spectrum.decays.size):
+        flow += spectrum.flows[j] * remainders[j]
     return force, flow / stiffness
 
 
 @njit(inner=True)
-def _gap_of_next(row, law, state, t, count):
+def _gap_of_next(row, spectrum, state, t, count):
     """Return the depth at which an indenter would touch the first free spring at time t; row.limit if none is free."""
-    return _gap_now(state, law, row.gaps[count], t, count) if count < row.gaps.size else row.limit
+    return _gap_now(state, spectrum, row.gaps[count], t, count) if count < row.gaps.size else row.limit
 
 
 @njit(inner=True)
-def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts):
+def _jump(row, spectrum, state, t, u, force, count, target, by_depth, release_amounts):
     """Change the load in a step at time t: the depth to `target` if `by_depth`, otherwise the force to `target`.
 
     Return the depth and the force after the step, the number of springs in contact, and how the step ended:
@@ -539,32 +493,32 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts
     u, force, count : depth, force and number of springs in contact before the step
     release_amounts : work array for the argument `first` of `_first_crossing`, changed in place
     """
-    if law.viscosity > 0 and not by_depth:
+    if spectrum.viscosity > 0 and not by_depth:
         # The dashpot keeps the indenter in place. Release the springs that the new force would pull.
         while count > 1:
-            value, _, rounding = _release(row, law, state, t, u, target, 0.0, count, by_depth, release_amounts)
+            value, _, rounding = _release(row, spectrum, state, t, u, target, 0.0, count, by_depth, release_amounts)
             if value <= rounding:
                 break
-            count = _let_go(row, law, state, t, u, count)
+            count = _let_go(row, spectrum, state, t, u, count)
         return u, target, count, SETTLED
-    if law.viscosity > 0:
+    if spectrum.viscosity > 0:
         # The dashpot keeps the surface in place. If the indenter steps up, all springs are released. If it steps down
         # into the surface, the force is infinite.
         rises = count > 0 and target > u
         while count > 0 and target < u:
-            count = _let_go(row, law, state, t, u, count)
-        overlap = target - _gap_of_next(row, law, state, t, count)
+            count = _let_go(row, spectrum, state, t, u, count)
+        overlap = target - _gap_of_next(row, spectrum, state, t, count)
         return target, force, count, INFINITE if rises or overlap > _ROUNDING * abs(target) else SETTLED
-    modulus = law.relaxed + law.moduli.sum()
+    modulus = spectrum.relaxed + spectrum.moduli.sum()
     # Move elastically from the old load to the new load. On the way, springs touch or are released, one after another.
     for _ in range(_MOST_AT_ONCE * row.gaps.size + 8):
         rises = target > (u if by_depth else force)
         step, reaches = 0.0, True
         if rises:
-            step = max(_gap_of_next(row, law, state, t, count) - u, 0.0)
+            step = max(_gap_of_next(row, spectrum, state, t, count) - u, 0.0)
             reaches = step >= target - u if by_depth else row.stiffness[count] * modulus * step >= target - force
         elif count > (0 if by_depth else 1):
-            value, _, _ = _release(row, law, state, t, u, force, 0.0, count, by_depth, release_amounts)
+            value, _, _ = _release(row, spectrum, state, t, u, force, 0.0, count, by_depth, release_amounts)
             step = min(value, 0.0) / modulus
             reaches = step <= target - u if by_depth else row.stiffness[count] * modulus * step <= target - force
         if reaches:
@@ -573,25 +527,25 @@ def _jump(row, law, state, t, u, force, count, target, by_depth, release_amounts
         u = target if by_depth and reaches else u + step
         force = target if reaches else force + row.stiffness[count] * modulus * step
         if reaches and not by_depth:
-            u = _balanced(row, law, state, t, u, force, count)
+            u = _balanced(row, spectrum, state, t, u, force, count)
         if reaches:
             return u, force, count, SETTLED
         if rises and count == row.gaps.size:
             return u, force, count, BEYOND
         if rises:
-            count = _touch(row, law, state, t, u, force, count, by_depth)
+            count = _touch(row, spectrum, state, t, u, force, count, by_depth)
         else:
-            count = _let_go(row, law, state, t, u, count)
+            count = _let_go(row, spectrum, state, t, u, count)
     return u, force, count, RESTLESS
 
 
 @njit(inner=True)
-def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders, until, touch_amounts, drive):
+def _next_touch(row, spectrum, state, t, u, force, rate, count, by_depth, remainders, until, touch_amounts, drive):
     """Return the time from now until the indenter touches the first free spring; inf if it is longer than `until`.
 
     touch_amounts, drive : work arrays for the arguments `first` and `second` of `_first_crossing`, changed in place
     """
-    reached = _gap_of_next(row, law, state, t, count)
+    reached = _gap_of_next(row, spectrum, state, t, count)
     if not np.isfinite(reached):
         return np.inf
     slope, bend = rate, 0.0
@@ -599,22 +553,22 @@ def _next_touch(row, law, state, t, u, force, rate, count, by_depth, remainders,
     drive[:] = 0.0
     if not by_depth:
         stiffness = row.stiffness[count]
-        slope = (law.instantaneous * rate + law.fluidity * force) / stiffness
-        bend = 0.5 * law.fluidity * rate / stiffness
-        for j in range(law.decays.size):
-            touch_amounts[j] = law.flows[j] * remainders[j] / stiffness
-            drive[j] = law.flows[j] * rate / stiffness
+        slope = (spectrum.instantaneous * rate + spectrum.fluidity * force) / stiffness
+        bend = 0.5 * spectrum.fluidity * rate / stiffness
+        for j in range(spectrum.decays.size):
+            touch_amounts[j] = spectrum.flows[j] * remainders[j] / stiffness
+            drive[j] = spectrum.flows[j] * rate / stiffness
     if count < row.gaps.size:
-        for j in range(law.decays.size):
+        for j in range(spectrum.decays.size):
             if state.remainder[count, j] != 0:
-                kept = exponential(law.decays[j] * (t - state.left[count]))
-                touch_amounts[j] -= law.flows[j] * state.remainder[count, j] * kept
+                kept = exponential(spectrum.decays[j] * (t - state.left[count]))
+                touch_amounts[j] -= spectrum.flows[j] * state.remainder[count, j] * kept
     rounding = _ROUNDING * (abs(u) + (row.gaps[count] if count < row.gaps.size else 0.0))
-    return _first_crossing(until, rounding, u - reached, slope, bend, touch_amounts, drive, law.decays)
+    return _first_crossing(until, rounding, u - reached, slope, bend, touch_amounts, drive, spectrum.decays)
 
 
 @njit(inner=True)
-def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
+def _move(row, spectrum, state, end, u, force, rate, count, by_depth, remainders, s):
     """Advance the motion of all springs by a time s without events, and return the new depth.
 
     The common variables and the R_j (`remainders`) are changed in place.
@@ -623,34 +577,34 @@ def _move(row, law, state, end, u, force, rate, count, by_depth, remainders, s):
         spring that touches at this time decays from the same rounded time
     """
     if by_depth:
-        for b in range(law.rates.size):
-            x = law.rates[b] * s
+        for b in range(spectrum.rates.size):
+            x = spectrum.rates[b] * s
             kept, mean = decay(x)
             state.common[b] = state.common[b] * kept + rate * s * mean
         return u + rate * s
     stiffness = row.stiffness[count]
-    rise = s * (law.instantaneous * rate + law.fluidity * (force + 0.5 * rate * s))
-    for j in range(law.decays.size):
-        x = law.decays[j] * s
+    rise = s * (spectrum.instantaneous * rate + spectrum.fluidity * (force + 0.5 * rate * s))
+    for j in range(spectrum.decays.size):
+        x = spectrum.decays[j] * s
         kept, mean = decay(x)
-        rise += law.flows[j] * (remainders[j] * s * mean + rate * s * s * _second_mean(x, mean))
+        rise += spectrum.flows[j] * (remainders[j] * s * mean + rate * s * s * _second_mean(x, mean))
         remainders[j] = remainders[j] * kept + rate * s * mean
-    for b in range(law.rates.size):
-        state.common[b] = law.fluidity * (force + rate * s) / law.rates[b]
-    for j in range(law.decays.size):
-        for b in range(law.rates.size):
-            state.common[b] += law.branches[j, b] * remainders[j]
-    kept = _kept_since(law, state, end, count - 1)
-    for b in range(law.rates.size):
+    for b in range(spectrum.rates.size):
+        state.common[b] = spectrum.fluidity * (force + rate * s) / spectrum.rates[b]
+    for j in range(spectrum.decays.size):
+        for b in range(spectrum.rates.size):
+            state.common[b] += spectrum.branches[j, b] * remainders[j]
+    kept = _kept_since(spectrum, state, end, count - 1)
+    for b in range(spectrum.rates.size):
         state.common[b] = (state.common[b] - state.total[count - 1, b] * kept[b]) / stiffness
     return u + rise / stiffness
 
 
 @njit
-def _march(gaps, weights, limit, law, times, load, by_depth):
+def _march(gaps, weights, limit, spectrum, times, load, by_depth):
     """Return the fields of a RowMotion, how the motion ended, and when; see `move_row`. The first time is 0."""
     springs, samples = gaps.size, times.size
-    branches, elements = law.rates.size, law.decays.size
+    branches, elements = spectrum.rates.size, spectrum.decays.size
     row = _Row(gaps, weights, np.zeros(springs + 1), np.zeros(springs + 1), limit)
     for i in range(springs):
         row.stiffness[i + 1], row.moment[i + 1] = row.stiffness[i] + weights[i], row.moment[i] + weights[i] * gaps[i]
@@ -661,36 +615,50 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
     )  # fmt: skip
     depth, force, velocity = np.full(samples, np.nan), np.full(samples, np.nan), np.full(samples, np.nan)
     in_contact, deflection, largest = np.zeros(samples, np.int64), np.zeros(samples), np.ones(samples, np.bool_)
-    fastest = law.rates.max() if branches else 0.0
+    fastest = spectrum.rates.max() if branches else 0.0
     release_amounts, none = np.zeros(branches), np.zeros(branches)
     touch_amounts, drive, remainders = np.zeros(elements), np.zeros(elements), np.zeros(elements)
     t, u, f, rate, count, ended, until = 0.0, 0.0, 0.0, 0.0, 0, SETTLED, times[-1]
     if not by_depth:
-        u, count = gaps[0], _touch(row, law, state, t, gaps[0], f, 0, by_depth)
+        u, count = gaps[0], _touch(row, spectrum, state, t, gaps[0], f, 0, by_depth)
 
     for k in range(samples):
         last, before = (times[k - 1], load[k - 1]) if k else (times[0], 0.0)
         length, rate = times[k] - last, 0.0
         if length == 0:
             remainders += load[k] - f
-            u, f, count, ended = _jump(row, law, state, t, u, f, count, load[k], by_depth, release_amounts)
-            if law.viscosity > 0 and not by_depth:
-                _remainders_in_contact(row, law, state, t, u, f, count, remainders)
+            u, f, count, ended = _jump(row, spectrum, state, t, u, f, count, load[k], by_depth, release_amounts)
+            if spectrum.viscosity > 0 and not by_depth:
+                _remainders_in_contact(row, spectrum, state, t, u, f, count, remainders)
         else:
             rate, f = (load[k] - before) / length, before
             # `passed` is the time since the start of the interval. Soon after the start it distinguishes times that are
             # equal in t within rounding.
             passed, started, events, at, pauses = 0.0, False, 0, 0.0, 0
             while True:
-                now, speed = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
+                now, speed = _observe(row, spectrum, state, t, u, f, rate, count, by_depth, remainders)
                 touch = _next_touch(
-                    row, law, state, t, u, f, rate, count, by_depth, remainders, length - passed, touch_amounts, drive
+                    row,
+                    spectrum,
+                    state,
+                    t,
+                    u,
+                    f,
+                    rate,
+                    count,
+                    by_depth,
+                    remainders,
+                    length - passed,
+                    touch_amounts,
+                    drive,
                 )
                 release = np.inf
                 if count > (0 if by_depth else 1):
-                    value, slope, rounding = _release(row, law, state, t, u, f, rate, count, by_depth, release_amounts)
+                    value, slope, rounding = _release(
+                        row, spectrum, state, t, u, f, rate, count, by_depth, release_amounts
+                    )
                     end = min(length - passed, touch)
-                    release = _first_crossing(end, rounding, value, slope, 0.0, release_amounts, none, law.rates)
+                    release = _first_crossing(end, rounding, value, slope, 0.0, release_amounts, none, spectrum.rates)
                 event = min(touch, release)
                 if events > _MOST_AT_ONCE * springs + 8:
                     # A spring whose force is zero within rounding touches and is released again and again. Move on for
@@ -712,13 +680,13 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                     # depth this is done only in media with a parallel dashpot, whose force jumps with the velocity. In
                     # other media the fast branches that replace a springpot may release springs soon after the sample,
                     # although not at the sample.
-                    if law.viscosity > 0 or not by_depth:
+                    if spectrum.viscosity > 0 or not by_depth:
                         force[k - 1], in_contact[k - 1] = now, count
                         deflection[k - 1] = row.stiffness[count] * depth[k - 1] - row.moment[count]
                         largest[k - 1] = count >= state.most[0]
                 passed = length if arrives else passed + s
                 t = times[k] if arrives else last + passed
-                u = _move(row, law, state, t, u, f, rate, count, by_depth, remainders, s)
+                u = _move(row, spectrum, state, t, u, f, rate, count, by_depth, remainders, s)
                 # Interpolate from the end of the interval with the smaller load. So a load that approaches zero keeps
                 # its digits.
                 f = before + rate * passed if abs(before) < abs(load[k]) else load[k] - rate * (length - passed)
@@ -732,21 +700,21 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
                 events = events + 1 if passed == at else 1
                 at = passed
                 if release < touch:
-                    count = _let_go(row, law, state, t, u, count)
+                    count = _let_go(row, spectrum, state, t, u, count)
                     if count > 0 and not by_depth:
-                        u = _balanced(row, law, state, t, u, f, count)
-                    if count > 0 and law.viscosity > 0 and not by_depth:
-                        _remainders_in_contact(row, law, state, t, u, f, count, remainders)
+                        u = _balanced(row, spectrum, state, t, u, f, count)
+                    if count > 0 and spectrum.viscosity > 0 and not by_depth:
+                        _remainders_in_contact(row, spectrum, state, t, u, f, count, remainders)
                 elif count == springs:
                     ended = BEYOND
                 else:
                     if not by_depth:
-                        u = _balanced(row, law, state, t, u, f, count)
-                    if law.viscosity > 0 and not by_depth:
+                        u = _balanced(row, spectrum, state, t, u, f, count)
+                    if spectrum.viscosity > 0 and not by_depth:
                         remainders += (
-                            weights[count] * state.remainder[count] * np.exp(-law.decays * (t - state.left[count]))
+                            weights[count] * state.remainder[count] * np.exp(-spectrum.decays * (t - state.left[count]))
                         )
-                    count = _touch(row, law, state, t, u, f, count, by_depth)
+                    count = _touch(row, spectrum, state, t, u, f, count, by_depth)
                 if ended != SETTLED:
                     break
             if by_depth and ended == SETTLED:
@@ -756,17 +724,17 @@ def _march(gaps, weights, limit, law, times, load, by_depth):
             break
         # Record the state at this sample. If the load has a kink or a step here, this is the state just before it. The
         # start of the next interval overwrites the velocity, and also force and contact if they change there.
-        force[k], velocity[k] = _observe(row, law, state, t, u, f, rate, count, by_depth, remainders)
+        force[k], velocity[k] = _observe(row, spectrum, state, t, u, f, rate, count, by_depth, remainders)
         depth[k], in_contact[k], largest[k] = u, count, count >= state.most[0]
         deflection[k] = row.stiffness[count] * u - row.moment[count]
 
     pressures, surface = np.zeros(springs), np.full(springs, u)
     for i in range(count, springs):
-        surface[i] = _gap_now(state, law, gaps[i], t, i)
+        surface[i] = _gap_now(state, spectrum, gaps[i], t, i)
     for i in range(count):
-        pressures[i] = law.relaxed * (u - gaps[i]) + law.viscosity * velocity[-1]
+        pressures[i] = spectrum.relaxed * (u - gaps[i]) + spectrum.viscosity * velocity[-1]
         for b in range(branches):
-            own = state.common[b] + state.offset[i, b] * np.exp(-law.rates[b] * (t - state.joined[i]))
-            pressures[i] += law.moduli[b] * own
+            own = state.common[b] + state.offset[i, b] * np.exp(-spectrum.rates[b] * (t - state.joined[i]))
+            pressures[i] += spectrum.moduli[b] * own
     pressures = np.maximum(pressures, 0.0)
     return depth, force, velocity, in_contact, deflection, largest, state.receding[0], pressures, surface, ended, until

@@ -7,12 +7,12 @@ from support.media import SPRINGS_AND_DASHPOTS
 from support.small_motion import SpringsAndDashpots, row_of_springs, small_motion
 from viscorough import Springpot
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
-from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum
-from viscorough.viscous.unilateral import BEYOND, INFINITE, SETTLED, law_of, move_row
+from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, spectrum_of
+from viscorough.viscous.unilateral import BEYOND, INFINITE, SETTLED, move_row
 
 
 def moved(gaps, weights, medium, times, load, *, by_depth, limit=np.inf):
-    law = law_of(medium.relaxation, medium.retardation)
+    law = spectrum_of(medium.relaxation, medium.retardation)
     motion, ended, _ = move_row(gaps, weights, limit, law, times, load, by_depth=by_depth)
     assert ended == SETTLED
     return motion
@@ -140,11 +140,11 @@ def test_newtonian_surface_does_not_recover():
 
 def test_motion_ends_at_the_last_depth_and_at_infinite_forces():
     gaps, times = np.array([0.0, 0.5]), np.array([0.0, 1.0])
-    law = law_of(*(getattr(SPRINGS_AND_DASHPOTS["solid"], name) for name in ("relaxation", "retardation")))
+    law = spectrum_of(*(getattr(SPRINGS_AND_DASHPOTS["solid"], name) for name in ("relaxation", "retardation")))
     motion, ended, until = move_row(gaps, np.ones(2), 0.8, law, times, np.array([0.0, 1.0]), by_depth=True)
     assert (ended, until) == (BEYOND, pytest.approx(0.8, rel=1e-12))
     assert np.isnan(motion.depth[1])
-    dashpot = law_of(*(getattr(SPRINGS_AND_DASHPOTS["newtonian"], name) for name in ("relaxation", "retardation")))
+    dashpot = spectrum_of(*(getattr(SPRINGS_AND_DASHPOTS["newtonian"], name) for name in ("relaxation", "retardation")))
     step = np.array([0.0, 0.0, 1.0])
     _, ended, until = move_row(gaps, np.ones(2), np.inf, dashpot, times[[0, 1, 1]], step, by_depth=True)
     assert (ended, until) == (INFINITE, 1.0)

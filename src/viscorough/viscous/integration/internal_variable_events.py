@@ -28,7 +28,7 @@ The contact grows as long as Z grows. This module uses neither the correspondenc
 compliance of the medium, so that it is an independent check of both.
 """
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy.linalg import lapack
@@ -40,11 +40,14 @@ from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Array, Integers
 from viscorough.media.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
 from viscorough.media.load import Load
-from viscorough.media.medium import Medium, RelaxationSpectrum
+from viscorough.media.medium import Medium
 from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.events import march_events
 from viscorough.viscous.integration.internal_variables import check_overflow, checked_input
+
+if TYPE_CHECKING:
+    from viscorough.media.spectra import RelaxationSpectrum
 
 
 def integrate_events(
@@ -99,7 +102,7 @@ class _Modes(NamedTuple):
     rates: Array
 
 
-def _modes(relaxation: RelaxationSpectrum) -> _Modes:
+def _modes(relaxation: "RelaxationSpectrum") -> _Modes:
     """Return the coefficients of the equations of motion of a medium.
 
     The medium has either a parallel dashpot or Maxwell branches, and may have a parallel spring.

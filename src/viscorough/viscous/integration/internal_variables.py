@@ -11,7 +11,7 @@ with the elastic problem, which holds only while the contact grows. So elements 
 then recovers there.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -22,10 +22,13 @@ from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Array, Integers, Mask, Progress
 from viscorough.media.kinds import medium_of
 from viscorough.media.load import Load
-from viscorough.media.medium import Medium, RelaxationSpectrum
+from viscorough.media.medium import Medium
 from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter, check_indenter
 from viscorough.viscous.integration.elements import MapElements, elements_of_map
+
+if TYPE_CHECKING:
+    from viscorough.media.spectra import RelaxationSpectrum
 
 # Largest number of iterations of the active-set method. In one iteration, a contact set of n elements may grow by up to
 # n + _ADDED_AT_ONCE elements.
@@ -78,7 +81,7 @@ def integrate_steps(
     return Motion(*moved, indenter.length_unit, float(receding)), last_pressure
 
 
-def checked_input(indenter: Indenter, medium: Any, load: Load) -> tuple[RelaxationSpectrum, float, Array, Array]:
+def checked_input(indenter: Indenter, medium: Any, load: Load) -> "tuple[RelaxationSpectrum, float, Array, Array]":
     """Check the arguments of `march`, and return relaxation spectrum, area, times and values of the load.
 
     Forces in N are divided by the area, in m², to convert them to consistent units. Times and values have the shape
@@ -127,7 +130,7 @@ class _State:
     by_depth : whether the load is a depth instead of a force
     """
 
-    def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum, *, by_depth: bool) -> None:
+    def __init__(self, elements: MapElements, relaxation: "RelaxationSpectrum", *, by_depth: bool) -> None:
         self._elements, self._relaxation, self._by_depth = elements, relaxation, by_depth
         self.depth = 0.0
         self.motion: Array = np.zeros(elements.count)

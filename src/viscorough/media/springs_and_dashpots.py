@@ -1,0 +1,69 @@
+"""Base class of media that consist of springs and dashpots, with J and ψ from their spectra."""
+
+from abc import abstractmethod
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscorough.basics.types import Array
+from viscorough.media.medium import Medium, checked_times
+from viscorough.media.spectra import RelaxationSpectrum, RetardationSpectrum, retardation_spectrum
+
+
+class SpringsAndDashpots(Medium):
+    """Base class of media of springs and dashpots. They have the spectra `relaxation` and `retardation`."""
+
+    @property
+    @abstractmethod
+    def relaxation(self) -> RelaxationSpectrum: ...
+
+    @cached_property
+    def retardation(self) -> RetardationSpectrum:
+        return retardation_spectrum(self.relaxation)
+
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """Return the creep compliance J at times t ≥ 0, an array of any shape. At time 0 this is J(0+)."""
+        time = checked_times(time)
+        instantaneous, fluidity, compliances, times = self.retardation
+        delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
+        return instantaneous + np.multiply(fluidity, time) + delayed
+
+    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
+        """Return dJ/dt at times t ≥ 0, an array of any shape."""
+        time = checked_times(time)
+        _, fluidity, compliances, times = self.retardation
+        return fluidity + (compliances / times * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
+
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`."""
+        instantaneous, fluidity, compliances, times = self.retardation
+        length, before = np.subtract(end, start), np.divide.outer(start, times)
+        x = np.divide.outer(length, times)
+        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-before) * np.expm1(-x))
+        return (instantaneous + 0.5 * fluidity * np.add(start, end)) * length + delayed.sum(axis=-1)
+
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
+        """Return the relaxation modulus ψ at times t ≥ 0, an array of any shape. At time 0 this is ψ(0+).
+
+        The pulse η δ(t) of a parallel dashpot is left out.
+        """
+        time = checked_times(time)
+        _, relaxed, moduli, times = self.relaxation
+        return relaxed + (moduli * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
+
+    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """Return the integral ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`, without the pulse η δ(t) of a dashpot."""
+        _, relaxed, moduli, times = self.relaxation
+        length = np.subtract(end, start)
+        decayed = -np.expm1(-np.divide.outer(length, times)) * np.exp(-np.divide.outer(start, times))
+        return relaxed * length + (moduli * times * decayed).sum(axis=-1)
+
+    def _check_spectra(self) -> None:
+        """Raise ValueError unless all numbers in both spectra, and the inverse of their times, are finite."""
+        with np.errstate(all="ignore"):
+            rates = 1 / self.relaxation.times, 1 / self.retardation.times
+            values = np.hstack([*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates])
+        if not np.isfinite(values).all():
+            name = type(self).__name__
+            raise ValueError(f"{name}: its values are too far apart for double precision; closer ones are allowed")

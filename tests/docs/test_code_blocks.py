@@ -32,7 +32,7 @@ FILES = {
 # Blocks that other tests read: directives of the website, the citation, and settings (below).
 ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{eval-rst}", "yaml"}
 # Blocks that are parts of a workflow, or need a package that is not installed here.
-ALONE = ("  tabulate_departures:", "  departures:", "module viscorough:", "import nanite")
+ALONE = ("rule tabulate_departures:", "use rule plot_surfaces as", "module viscorough:", "import nanite")
 
 
 @pytest.fixture(autouse=True)

@@ -6,13 +6,12 @@ import conf
 import pytest
 
 from support.documentation import MAKEFILES, PAGES, ROOT, anchors, links, prose, read
-from support.workflow import FIGURES, RESULTS, TABLES, TARGETS
+from support.workflow import FIGURES, RULE_FILES, RULES, TABLES
 from viscorough.cli import cli
 from viscorough_study.run.cases import POOLS
 
-WORKFLOW = "\n".join(read(path) for path in [ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
-RULES = TARGETS | set(RESULTS["tables"]) | {f"plot_{name}" for name in RESULTS["figures"]}
-RULES |= set(re.findall(r"^rule (\w+):", WORKFLOW, re.MULTILINE)) | {"tabulate_departures", "plot_departures"}
+WORKFLOW = "\n".join(map(read, RULE_FILES))
+NAMED = {*RULES, "tabulate_departures", "plot_departures"}
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 
 
@@ -83,5 +82,5 @@ def test_everything_that_a_page_names_exists(page):
         assert (ROOT / path).exists() or f"\n`{path}`:\n" in text, path
     for command in re.findall(r"`snakemake ([^`]*)`", text):
         for word in command.split():
-            assert word in RULES or not re.fullmatch(r"[a-z_]+\w*", word), word
+            assert word in NAMED or not re.fullmatch(r"[a-z_]+\w*", word), word
             assert (ROOT / word).exists() or not word.startswith(("config/", "profiles/")), word

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from support.study import SHOWN
-from support.workflow import RESULTS, ROOT
+from support.workflow import FIGURES, ROOT
 from viscorough.law.calibrated_law import CONSTANTS, interface_velocity, penetration_law
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.ensembles.averages import abscissa
@@ -21,9 +21,7 @@ COMBINATIONS = {
 }
 X = abscissa(1e-4, 30, 20)
 ELEMENTS = 33
-MODULES = {  # modules of the figures of the report, by file name
-    figure.get("file", name): figure.get("module", name) for name, figure in RESULTS["figures"].items()
-}
+MODULES = {file: rule.removeprefix("plot_") for file, rule in FIGURES.items()}  # modules of the figures
 
 
 def case_of(hurst, name):

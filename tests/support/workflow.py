@@ -18,12 +18,27 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 TEST = ("--configfile", "config/test.yaml")
-RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="utf-8"))
-TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, table in rule["tables"].items()}
-FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their file names
+RULE_FILES = [ROOT / "workflow/Snakefile", *sorted((ROOT / "workflow/rules").glob("*.smk"))]
+
+
+def read_rules():
+    """Return {name of a rule: the text of its definition}."""
+    text = "\n".join(path.read_text(encoding="utf-8") for path in RULE_FILES)
+    _, *parts = re.split(r"^(?:rule|use rule \w+ as) (\w+)(?: with)?:$", text, flags=re.MULTILINE)
+    return dict(zip(parts[::2], parts[1::2], strict=True))
+
+
+def made_files(pattern):
+    """Return {name of a file: rule that makes it}; pattern : regular expression with a group for the name"""
+    outputs = {name: re.search(r"    output:\n(?:        .*\n)+", text) for name, text in RULES.items()}
+    return {file: rule for rule, output in outputs.items() if output for file in re.findall(pattern, output[0])}
+
+
+RULES = read_rules()
+TABLES = made_files(r"results/tables/(\w+)\.csv")  # {table: its rule}
+FIGURES = made_files(r"results/figures/(\w+)\.{format}")  # {file: its rule}
 HANGS = 3000  # seconds after which a run counts as hanging: ten times the longest run on a busy machine
-TARGETS = {"all", "curves", "figures", "tables", "validation", "speed", "stability", "sizes"}
-TARGETS |= {"costs", "measured", *(f"figure_{number}" for number in range(1, 5))}
+TARGETS = {name for name, text in RULES.items() if "    output:\n" not in text and "    script:\n" not in text}
 
 
 def copy_project(folder):

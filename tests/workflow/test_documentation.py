@@ -37,18 +37,18 @@ def test_every_netcdf_file_is_described(finished):
 
 
 def test_extension_works_as_described(finished):
-    """The test adds the table and the figure of docs/extending.md, with its files and entries."""
+    """The test adds the table and the figure of docs/extending.md, with its files and rules."""
     copy_sources(finished)
     page = ROOT / "docs/extending.md"
     files = named_files(page)
-    registry = finished / "workflow/results.yaml"
-    for kind, name in (("tables", "tabulate_departures"), ("figures", "departures")):
-        (entry,) = re.findall(rf"```text\n(  {name}:\n.*?)```", read(page), re.DOTALL)
-        registry.write_text(registry.read_text(encoding="utf-8").replace(f"\n{kind}:\n", f"\n{kind}:\n{entry}"))
-    assert len(files) == 3
+    for name, rule in (("fits", "rule tabulate_departures:"), ("figures", "use rule plot_surfaces as plot_departures")):
+        (text,) = re.findall(rf"```text\n({rule}.*?)```", read(page), re.DOTALL)
+        with open(finished / f"workflow/rules/{name}.smk", "a", encoding="utf-8") as rules:
+            rules.write(f"\n\n{text}")
+    assert len(files) == 4
     for path, text in files.items():
         (finished / path).write_text(text, encoding="utf-8")
-    snakemake(finished, *TEST, "--", "plot_departures")
+    snakemake(finished, *TEST, "--", "results/figures/departures.png")
     table = pd.read_csv(finished / "results/tables/departures.csv")
     assert set(table["hurst"]) <= {0.4, 0.9}
     assert len(table) > 0

@@ -10,13 +10,13 @@ import tomllib
 import pytest
 import yaml
 
-from support.workflow import RESULTS, ROOT, TEST, copy_project, jobs, plan, snakemake
+from support.workflow import ROOT, RULES, TEST, copy_project, jobs, plan, snakemake
 
 
 def test_slurm_profile_gives_timed_jobs_a_node(tmp_path, finished_once):
     """Timed jobs have a node to themselves. The jobs equal those of a local run, except for the executor."""
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
-    timed = {name for name, rule in RESULTS["tables"].items() if "alone" in rule}
+    timed = {name for name, text in RULES.items() if "threads: ALL_CORES" in text}
     assert timed == set(profile["set-threads"])
     assert {profile["set-resources"][name]["slurm_extra"] for name in timed} == {"'--exclusive'"}
     assert profile.pop("executor") == "slurm"
@@ -27,21 +27,26 @@ def test_slurm_profile_gives_timed_jobs_a_node(tmp_path, finished_once):
 
 
 def test_rules_scripts_logs_and_benchmarks_share_their_names():
-    """Rules of loops, for figures and for further tables, have common scripts."""
-    found = {}
-    for path in sorted((ROOT / "workflow/rules").glob("*.smk")):
-        parts = re.split(r"^(?:rule|use rule (\w+) as) (\w+)", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
-        for base, name, text in zip(parts[1::3], parts[2::3], parts[3::3], strict=True):
-            script = re.search(r'"\.\./scripts/(\w+)\.py"', text)
-            if script or base:
-                found[name] = script and script[1]
-                assert script is None or script[1] == name
-                assert f'"results/logs/{name}' in text, name
-                assert f'"results/benchmarks/{name}' in text, name
-    scripts = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "workflow/scripts").glob("*.py")}
-    assert set(filter(None, found.values())) == set(scripts) - {"plot", "tabulate"}
-    assert max(text.count("\n") for text in scripts.values()) <= 40
-    assert {name for name, rule in RESULTS["tables"].items() if "function" not in rule} <= set(scripts)
+    """Figures share one script. A rule that is derived from another one has its log and its benchmark."""
+    scripts = {}
+    for name, text in RULES.items():
+        if '"results/logs/' in text:
+            assert f'"results/logs/{name}' in text, name
+            assert f'"results/benchmarks/{name}' in text, name
+            assert "source=" in text, name
+        if script := re.search(r'"\.\./scripts/(\w+)\.py"', text):
+            scripts[name] = script[1]
+    assert {name: script for name, script in scripts.items() if name != script} == {"plot_surfaces": "plot"}
+    files = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "workflow/scripts").glob("*.py")}
+    assert set(scripts.values()) == set(files)
+    assert max(text.count("\n") for text in files.values()) <= 40
+
+
+def test_every_rule_is_found_by_its_name(unmade):
+    """Snakemake lists no rule that a loop or a function made."""
+    listed = snakemake(unmade, "--list", cores=None)
+    names = set(re.findall(r"^(\w+)(?: \(.*\))?$", listed, re.MULTILINE))
+    assert names == set(RULES)
 
 
 def test_lock_files_agree_with_each_other():

@@ -79,7 +79,7 @@ def test_costs_count_only_the_run_under_any_prefix(finished, tmp_path):
     (tmp_path / "results").rename(tmp_path / "rough/results")
     settings = merged(read_settings("config"), read_settings("test"))
     (tmp_path / "Snakefile").write_text(WITH_PREFIX.format(snakefile=ROOT / "workflow/Snakefile", settings=settings))
-    options = ("--rerun-triggers", "mtime", "--forcerun", "tabulate_rule_costs", "--", "costs")
+    options = ("--rerun-triggers", "mtime", "--forcerun", "tabulate_rule_costs", "--", "tabulate_rule_costs")
     assert plan(tmp_path, *options) == {"tabulate_rule_costs": 1}
     snakemake(tmp_path, *options)
     costs = pd.read_csv(tmp_path / "rough/results/tables/rule_costs.csv").set_index("rule")["jobs"]
@@ -101,7 +101,7 @@ def test_study_comes_from_the_checkout_of_the_workflow(tmp_path):
     (tmp_path / "site").mkdir()
     (tmp_path / "site/viscorough").symlink_to(ROOT / "src/viscorough")
     (tmp_path / "Snakefile").write_text(
-        f'include: "{ROOT}/workflow/rules/start.smk"\ninclude: "{ROOT}/workflow/rules/common.smk"\nimport viscorough\n'
+        f'include: "{ROOT}/workflow/rules/common.smk"\nimport viscorough\n'
         'print(os.environ["PYTHONPATH"], viscorough.__file__, cases.__file__, sep="\\n")\n'
         "rule all:\n    shell: 'true'\n"
     )

@@ -21,7 +21,7 @@ from support.workflow import (
 from viscorough_study.ensembles.surface_files import read_surfaces
 
 LAST = {"tabulate_rule_costs", "make_page"}  # these rules run again after any change
-BOUNDARY_ELEMENTS = {"indent_surfaces", "compare_direct", "compare_reduction", "validate", "measure_methods"}
+BOUNDARY_ELEMENTS = {"indent_surfaces", "compare_direct", "compare_reduction", "compare_exact", "measure_methods"}
 BOUNDARY_ELEMENTS |= {"map_failures", "compare_level_placement", "measure_surfaces", "vary_settings"}
 BOUNDARY_ELEMENTS |= {"compare_histories"}
 
@@ -55,7 +55,14 @@ def add_line(path, line):
 FEW_STEPS = {"media": {"force": 2e-4}, "verdicts": {"draws": 3}, "interface": {"plateau": 0.1}}
 FEW_STEPS |= {"methods": {"levels": 3, "scenes": {"elements": 31}}, "validation": {"elements": [17, 31]}}
 FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
-OF_FEW_STEPS = {"compute_media", "measure_plateaus", "judge_claims", "fit_interface", "measure_methods", "validate"}
+OF_FEW_STEPS = {
+    "compute_media",
+    "measure_plateaus",
+    "judge_claims",
+    "fit_interface",
+    "measure_methods",
+    "compare_exact",
+}
 OF_FEW_STEPS |= {"compare_level_placement", "map_failures", "vary_settings", "compare_direct", "compare_histories"}
 FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
 OF_CONVENTIONS = FITS | {
@@ -105,7 +112,7 @@ def test_further_exponent_reruns_only_its_dependents(finished_once, tmp_path):
     assert cases == {"h06000", "h06000_longer_period"}
     planned = jobs(text)
     assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (2, 2, 2)
-    assert "validate" not in planned
+    assert "compare_exact" not in planned
 
 
 KNOWN = read_settings("test")["discs"]["combinations"]
@@ -163,7 +170,7 @@ def test_comments_rerun_nothing(editable):
     ("files", "directly"),
     [
         (["src/viscorough/contact/halfspace/column_fft.py"], BOUNDARY_ELEMENTS | {"generate_discs"}),  # temporary files
-        (["workflow/scripts/check_validation.py"], {"check_validation"}),
+        (["workflow/scripts/require_accuracy.py"], {"require_accuracy"}),
         (
             [f"src/viscorough_study/{module}.py" for module in ("comparisons/direct_integration", "figures/exponent")],
             {"compare_direct", "plot_exponent"},

@@ -15,13 +15,16 @@ def test_every_scale_has_a_plan(unmade, name, indent_surfaces, reduce_lines):
     assert planned.pop("generate_discs") == indent_surfaces
     assert planned.pop("aggregate_curves") == 4
     assert set(planned.values()) == {1}
-    assert {"check_validation", "fit_power_laws", "judge_claims", "make_page"} < set(planned)
+    assert {"require_accuracy", "fit_power_laws", "judge_claims", "make_page"} < set(planned)
     assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (110 if name == "config" else 300)
 
 
 def test_figure_plans_only_the_jobs_it_needs(unmade):
     assert plan(unmade, *TEST, "--", "figure_1") == {"generate_examples": 1, "plot_surfaces": 1}
-    assert plan(unmade, *TEST, "--", "plot_surfaces") == {"generate_examples": 1, "plot_surfaces": 1}
+    assert plan(unmade, *TEST, "--", "results/figures/fig1_surfaces.pdf") == {
+        "generate_examples": 1,
+        "plot_surfaces": 1,
+    }
 
 
 def test_other_targets_are_made_together_with_the_default(finished):

@@ -1,25 +1,111 @@
-"""Define functions and constants for the rules; code that does not depend on Snakemake is in viscorough_study."""
+"""Prepare the run, and define functions and constants for the rules.
+
+The first part finds the project, checks packages and folders, and sets the environment of the jobs. It comes before the
+imports of this project's packages. Code that does not depend on Snakemake is in viscorough_study.
+"""
 
 import hashlib
-import re
+import importlib.util
+import os
+import sys
 from functools import cache
+from pathlib import Path
 
+import yaml
 from snakemake.io import apply_wildcards, get_wildcard_names
+
+# Folder of this workflow, found from this file: a workflow that uses this workflow as a module is in another folder.
+# `workflow.source_path` does not serve, since it returns the path of a copy of the file.
+WORKFLOW = Path(workflow.current_basedir).parent
+PROJECT = WORKFLOW.parent
+# A timed job requests this number of threads, which Snakemake reduces to the number of --cores, so that no other job
+# runs at the same time. `workflow.cores` would make --unlock, --summary, --rulegraph and --report fail without --cores.
+ALL_CORES = 10**6
+
+
+# ---- before the imports of this project's packages
+
+
+def end_run(message, place=""):
+    """End Snakemake with a message of one line; a WorkflowError would show three more lines about this file.
+
+    place : words after "Error" that say where the error is
+    """
+    raise SystemExit(f"{f'Error {place}'.strip()}: {message}")
+
+
+def read_yaml(path):
+    """Return the content of a file of the project."""
+    return yaml.load((PROJECT / path).read_text(encoding="utf-8"), yaml.CSafeLoader)
+
+
+def use_packages_of_checkout():
+    """Make sure that rules and jobs use the packages of this checkout, or end the run with one line.
+
+    Without this check, a Snakemake that is installed in another checkout would use the packages of the other checkout,
+    and edits in src/ of this checkout would have no effect. A copy of the workflow without src/ uses installed packages
+    of the same version.
+    """
+    if special := sorted(set(sys.executable) & set(" \t\n'\"\\$`&;|<>()*?[]")):
+        end_run(
+            f"{sys.executable}: the path of the Python interpreter has {' '.join(map(repr, special))}, and no job can "
+            "start, since Snakemake does not quote it; move the folder to a path without"
+        )
+    source = PROJECT / "src"
+    if not (source / "viscorough_study").is_dir():
+        from viscorough import __version__
+
+        required = read_yaml("CITATION.cff")["version"]
+        if __version__ != required:
+            end_run(
+                f"{PROJECT}: viscorough {__version__} is installed; version {required} is needed, as in CITATION.cff"
+            )
+        return
+    if importlib.util.find_spec("viscorough_study") is None:  # an installed library comes without the study
+        sys.path.insert(0, str(source))
+        # Python finds the packages in jobs by this variable.
+        os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, [sys.path[0], os.environ.get("PYTHONPATH")])))
+    for package in ("viscorough", "viscorough_study"):
+        found = Path(importlib.util.find_spec(package).origin).parent
+        if not found.samefile(source / package):
+            end_run(
+                f"this Snakemake uses {package} of {found.parent}, not of this checkout, {source}; run `make environment` "
+                f"in {PROJECT}, and then {PROJECT}/.venv/bin/snakemake"
+            )
+
+
+def check_folder():
+    """End the run with one line unless Snakemake and its jobs can write into the working directory."""
+    for folder in map(Path, (".", ".snakemake", "results")):
+        if folder.is_dir() and not os.access(folder, os.W_OK | os.X_OK):
+            end_run(
+                f"{folder.resolve()}: the folder cannot be written; make it writable, or let "
+                "`snakemake --directory FOLDER` write all results to another folder"
+            )
+
+
+use_packages_of_checkout()
+check_folder()
+
+# Use one thread per job, since jobs run side by side. Numba reads only its own variable, not OMP_NUM_THREADS.
+os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
+# By default, glibc returns the memory of a large array to the system when it is freed, and requests it again page by
+# page for the next array.
+os.environ.update(MALLOC_MMAP_THRESHOLD_=str(2**25), MALLOC_TRIM_THRESHOLD_=str(10**9))
+os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # use large pages of memory, if the system has them
 
 from viscorough.io.atomic import path_named
 from viscorough_study.run import cases
 from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
 from viscorough_study.run.paper_data import read_paper, read_records
-from viscorough_study.run.registry import Registry
 from viscorough_study.run.scans import scans
 from viscorough_study.run.settings import complete_settings, source_of
 from viscorough_study.run.source_digest import SourceDigests
+from viscorough_study.run.stale_locks import remove_stale_locks
 
-# A timed job requests this number of threads, which Snakemake reduces to the number of --cores, so that no other job
-# runs at the same time. `workflow.cores` would make --unlock, --summary, --rulegraph and --report fail without --cores.
-ALL_CORES = 10**6
+if workflow.is_main_process:  # false in the processes of jobs
+    remove_stale_locks()
 
-REGISTRY = Registry(read_yaml("workflow/results.yaml"))
 SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1], ".snakemake/sources.json")
 
 
@@ -47,18 +133,32 @@ def without(section, *names):
     return {name: value for name, value in config[section].items() if name not in names}
 
 
-# ---- other data of the project
+# ---- source code and other data of the project, for params
+
+
+def digest(script, figure=None):
+    """Return a digest of the source code that a job uses, so that a change of this code reruns the job.
+
+    The param `source` of every rule with a script is this digest. It replaces Snakemake's trigger `code`, which
+    profiles/default switches off: that trigger does not see changes of the modules that a script imports, and it reruns
+    a job when only comments have changed.
+
+    script : name of the script in workflow/scripts
+    figure : name of the module in viscorough_study.figures that the script imports by name
+    """
+    modules = [f"viscorough_study.figures.{figure}"] if figure else []
+    return SOURCES.digest(WORKFLOW / "scripts" / f"{script}.py", *modules)
+
+
+def text_digests(paths):
+    """Return digests of text files, for params; as inputs, the files would have paths that depend on the folder."""
+    return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in paths]
 
 
 @cache
 def paper(name):
     """Return the content of a file in resources/paper; name : name of the file without suffix."""
     return read_paper(PROJECT / "resources" / "paper", name)
-
-
-def text_digests(paths):
-    """Return digests of text files, for params; as inputs, the files would have paths that depend on the folder."""
-    return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in paths]
 
 
 # ---- inputs, params and memory of jobs, by case and by pool
@@ -82,17 +182,20 @@ def indentation_memory(wildcards):
     return cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
 
 
-# ---- report
+# ---- report and costs
 
 
-def chapter(name):
-    """Return a function that returns the category of a result. Only a report calls it; it requires current results."""
+def category(name):
+    """Return a function that returns a category of the report. Only a report calls it; it requires current results.
 
-    def category(wildcards):
+    name : name of the category; the report sorts categories by name
+    """
+
+    def checked(wildcards):
         require_current()
-        return REGISTRY.chapters[name]
+        return name
 
-    return category
+    return checked
 
 
 def require_current():
@@ -104,45 +207,17 @@ def require_current():
         )
 
 
-def figure_files(target):
-    """Return the files of all figures that belong to a target, from the rules that draw them."""
-    names = (name for name, figure in REGISTRY.figures.items() if figure["target"] == target)
-    return [getattr(rules, f"plot_{name}").output for name in names]
+def benchmark_files(without=()):
+    """Return {rule: benchmark files of its jobs} of all rules defined so far, for the jobs that the settings need.
 
-
-def table_files(target):
-    """Return the files of all tables that belong to a target."""
-    return expand("results/tables/{table}.{kind}", table=REGISTRY.tables(target), kind=("csv", "nc"))
-
-
-# ---- all rules
-
-
-def own_rules():
-    """Return the rules of this workflow; another workflow that uses it as a module may have further rules."""
-    return [member for member in workflow.rules if path_of(member.basedir).is_relative_to(WORKFLOW)]
-
-
-def benchmark_files(counted):
-    """Return {rule: benchmark files of its jobs} of the rules `counted`, for the jobs that the settings need."""
-    jobs, files = cases.pool_jobs(CASES), {}
-    for member in counted:
-        if pattern := member.benchmark:
-            described = [job for job in jobs if get_wildcard_names(pattern) <= job.keys()]
-            files[member.name] = sorted({apply_wildcards(pattern, job) for job in described})
-    return files
-
-
-def add_digests(rules):
-    """Give every rule with a script an unnamed parameter, the digest of the source code that the script uses.
-
-    The digest replaces Snakemake's trigger `code`, which profiles/default switches off. That trigger sees changes of a
-    script but not of the modules that it imports, and it reruns a job when only comments have changed.
-
-    Every rule without a docstring gets its message as docstring, which --list shows.
+    without : rules that are left out
     """
-    for member in rules:
-        member.docstring = member.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", member.message or "")
-        if member.script:
-            functions = dict(member.params).get("functions", {})  # functions that the script imports by name
-            member.set_params(SOURCES.digest(WORKFLOW / "rules" / member.script, *functions.values()))
+    # Snakemake has no public list of the rules. Another workflow that uses this workflow as a module may have further
+    # rules, which are in another folder.
+    own = [rule for rule in workflow.rules if rule.benchmark and Path(rule.basedir).is_relative_to(WORKFLOW)]
+    jobs = [job | {"format": "png"} for job in cases.pool_jobs(CASES)]
+    files = {}
+    for rule in (rule for rule in own if rule not in without):
+        described = [job for job in jobs if get_wildcard_names(rule.benchmark) <= job.keys()]
+        files[rule.name] = sorted({apply_wildcards(rule.benchmark, job) for job in described})
+    return files

@@ -1,43 +1,528 @@
-# Rules that draw Figures 1 to 4 of the paper and all other figures of workflow/results.yaml: as PNG for the report, and
-# as PDF for vector graphics.
+# Rules that draw the figures. The rule plot_NAME draws with the function plot_NAME in
+# src/viscorough_study/figures/NAME.py. All rules share the script plot.py; directives that a rule does not state are the
+# directives of the first rule. The report and the page show the figures as PNG files. To get a PDF file, name it:
+# `snakemake --cores 2 results/figures/fig4_exponent.pdf`.
 
-# {further argument of the functions that draw figures: its value}
-FIGURE_PARAMS = {
-    "combinations": {name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()},
-    "conventions": config["figures"],
-    "fraction_min": config["scaling"]["fraction_min"],
-    "hurst_range": paper("laws")["beta"]["hurst_range"],
-    "other_solvers": read_records(PROJECT / "resources/published/other_solvers.csv"),
-}
 
-for name, figure in REGISTRY.figures.items():
+rule plot_surfaces:
+    input:
+        examples="results/surfaces/examples.nc",
+    output:
+        path=report(
+            "results/figures/fig1_surfaces.{format}",
+            caption="../report/figures/fig1_surfaces.rst",
+            category=category("2 Figures of the paper"),
+            labels={"result": "1, surfaces", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_surfaces/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_surfaces/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        figure="surfaces",
+        source=digest("plot", figure="surfaces"),
+    message:
+        "Figure: 1, surfaces"
+    script:
+        "../scripts/plot.py"
 
-    rule:
-        name:
-            f"plot_{name}"
-        input:
-            **{argument: f"results/{path}" for argument, path in figure["input"].items()},
-        output:
-            png=report(
-                f"results/figures/{figure['file']}.png",
-                caption=f"../report/figures/{figure['file']}.rst",
-                category=chapter(figure["chapter"]),
-                labels={"result": figure["label"], "kind": "figure"},
-            ),
-            pdf=f"results/figures/{figure['file']}.pdf",
-        log:
-            f"results/logs/plot_{name}.log",
-        benchmark:
-            f"results/benchmarks/plot_{name}.tsv"
-        localrule: True
-        conda:
-            "../envs/viscorough.yaml"
-        resources:
-            mem_mb=1000,
-        params:
-            **{param: FIGURE_PARAMS[param] for param in figure["params"]},
-            functions=REGISTRY.figure_functions(name),
-        message:
-            f"Figure: {figure['label']}"
-        script:
-            "../scripts/plot.py"
+
+use rule plot_surfaces as plot_kinetics with:
+    input:
+        ensembles="results/ensembles/discs.nc",
+        scaling="results/tables/scaling.csv",
+    output:
+        path=report(
+            "results/figures/fig2_kinetics.{format}",
+            caption="../report/figures/fig2_kinetics.rst",
+            category=category("2 Figures of the paper"),
+            labels={"result": "2, kinetics", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_kinetics/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_kinetics/{format}.tsv"
+    params:
+        figure="kinetics",
+        options={
+            "combinations": {
+                name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()
+            },
+            "conventions": config["figures"],
+            "fraction_min": config["scaling"]["fraction_min"],
+        },
+        source=digest("plot", figure="kinetics"),
+    message:
+        "Figure: 2, kinetics"
+
+
+use rule plot_surfaces as plot_master_curve with:
+    input:
+        discs="results/ensembles/discs.nc",
+        lines="results/ensembles/lines.nc",
+        scaling="results/tables/scaling.csv",
+    output:
+        path=report(
+            "results/figures/fig3_master_curve.{format}",
+            caption="../report/figures/fig3_master_curve.rst",
+            category=category("2 Figures of the paper"),
+            labels={"result": "3, master curve", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_master_curve/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_master_curve/{format}.tsv"
+    params:
+        figure="master_curve",
+        options={
+            "conventions": config["figures"],
+            "fraction_min": config["scaling"]["fraction_min"],
+        },
+        source=digest("plot", figure="master_curve"),
+    message:
+        "Figure: 3, master curve"
+
+
+use rule plot_surfaces as plot_exponent with:
+    input:
+        scaling="results/tables/scaling.csv",
+    output:
+        path=report(
+            "results/figures/fig4_exponent.{format}",
+            caption="../report/figures/fig4_exponent.rst",
+            category=category("2 Figures of the paper"),
+            labels={"result": "4, exponent", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_exponent/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_exponent/{format}.tsv"
+    params:
+        figure="exponent",
+        options={
+            "conventions": config["figures"],
+            "hurst_range": paper("laws")["beta"]["hurst_range"],
+        },
+        source=digest("plot", figure="exponent"),
+    message:
+        "Figure: 4, exponent"
+
+
+use rule plot_surfaces as plot_conventions with:
+    input:
+        scaling="results/tables/scaling.csv",
+    output:
+        path=report(
+            "results/figures/conventions.{format}",
+            caption="../report/figures/conventions.rst",
+            category=category("4 Conventions and validation"),
+            labels={"result": "effect of the conventions", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_conventions/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_conventions/{format}.tsv"
+    params:
+        figure="conventions",
+        options={
+            "conventions": config["figures"],
+        },
+        source=digest("plot", figure="conventions"),
+    message:
+        "Figure: effect of the conventions"
+
+
+use rule plot_surfaces as plot_interface with:
+    input:
+        table="results/tables/interface.csv",
+        curves="results/tables/interface_curves.csv",
+        literature="results/tables/literature.csv",
+        periodic="results/tables/periodic.csv",
+    output:
+        path=report(
+            "results/figures/interface.{format}",
+            caption="../report/figures/interface.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "interface and punch in series", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_interface/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_interface/{format}.tsv"
+    params:
+        figure="interface",
+        source=digest("plot", figure="interface"),
+    message:
+        "Figure: interface and punch in series"
+
+
+use rule plot_surfaces as plot_direct with:
+    input:
+        table="results/tables/direct.csv",
+    output:
+        path=report(
+            "results/figures/direct.{format}",
+            caption="../report/figures/direct.rst",
+            category=category("3 Verdicts"),
+            labels={"result": "direct integration and both readings of the law", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_direct/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_direct/{format}.tsv"
+    params:
+        figure="direct",
+        source=digest("plot", figure="direct"),
+    message:
+        "Figure: direct integration and both readings of the law"
+
+
+use rule plot_surfaces as plot_reduction with:
+    input:
+        table="results/tables/reduction.csv",
+    output:
+        path=report(
+            "results/figures/reduction.{format}",
+            caption="../report/figures/reduction.rst",
+            category=category("3 Verdicts"),
+            labels={"result": "MDR, surface by surface", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_reduction/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_reduction/{format}.tsv"
+    params:
+        figure="reduction",
+        source=digest("plot", figure="reduction"),
+    message:
+        "Figure: MDR, surface by surface"
+
+
+use rule plot_surfaces as plot_mdr_lambda with:
+    input:
+        lambdas="results/tables/mdr_lambda.csv",
+        exponents="results/tables/mdr_exponents.csv",
+    output:
+        path=report(
+            "results/figures/mdr_lambda.{format}",
+            caption="../report/figures/mdr_lambda.rst",
+            category=category("3 Verdicts"),
+            labels={"result": "MDR, lambda and exponents", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_mdr_lambda/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_mdr_lambda/{format}.tsv"
+    params:
+        figure="mdr_lambda",
+        source=digest("plot", figure="mdr_lambda"),
+    message:
+        "Figure: MDR, lambda and exponents"
+
+
+use rule plot_surfaces as plot_validation with:
+    input:
+        table="results/tables/validation.csv",
+    output:
+        path=report(
+            "results/figures/validation.{format}",
+            caption="../report/figures/validation.rst",
+            category=category("4 Conventions and validation"),
+            labels={"result": "comparison with exact solutions", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_validation/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_validation/{format}.tsv"
+    params:
+        figure="validation",
+        source=digest("plot", figure="validation"),
+    message:
+        "Figure: comparison with exact solutions"
+
+
+use rule plot_surfaces as plot_speed with:
+    input:
+        one_surface="results/tables/one_surface.csv",
+        means="results/tables/mean_accuracy.csv",
+        methods="results/tables/methods.csv",
+    output:
+        path=report(
+            "results/figures/speed.{format}",
+            caption="../report/figures/speed.rst",
+            category=category("6 Speed and accuracy"),
+            labels={"result": "speed against accuracy", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_speed/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_speed/{format}.tsv"
+    params:
+        figure="speed",
+        options={
+            "other_solvers": read_records(PROJECT / "resources/published/other_solvers.csv"),
+        },
+        source=digest("plot", figure="speed"),
+    message:
+        "Figure: speed against accuracy"
+
+
+use rule plot_surfaces as plot_failures with:
+    input:
+        table="results/tables/failure_map.csv",
+        knobs="results/tables/failure_knobs.csv",
+    output:
+        path=report(
+            "results/figures/failures.{format}",
+            caption="../report/figures/failures.rst",
+            category=category("7 Where methods fail"),
+            labels={"result": "where methods fail", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_failures/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_failures/{format}.tsv"
+    params:
+        figure="failures",
+        source=digest("plot", figure="failures"),
+    message:
+        "Figure: where methods fail"
+
+
+use rule plot_surfaces as plot_failure_map with:
+    input:
+        table="results/tables/failure_map.csv",
+    output:
+        path=report(
+            "results/figures/failure_map.{format}",
+            caption="../report/figures/failure_map.rst",
+            category=category("7 Where methods fail"),
+            labels={"result": "every method in every stress-test case", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_failure_map/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_failure_map/{format}.tsv"
+    params:
+        figure="failure_map",
+        source=digest("plot", figure="failure_map"),
+    message:
+        "Figure: every method in every stress-test case"
+
+
+use rule plot_surfaces as plot_level_placement with:
+    input:
+        table="results/tables/level_placement.csv",
+    output:
+        path=report(
+            "results/figures/level_placement.{format}",
+            caption="../report/figures/level_placement.rst",
+            category=category("6 Speed and accuracy"),
+            labels={"result": "placement of levels", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_level_placement/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_level_placement/{format}.tsv"
+    params:
+        figure="level_placement",
+        source=digest("plot", figure="level_placement"),
+    message:
+        "Figure: placement of levels"
+
+
+use rule plot_surfaces as plot_media with:
+    input:
+        table="results/tables/media.csv",
+    output:
+        path=report(
+            "results/figures/media.{format}",
+            caption="../report/figures/media.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "kinetics in other media", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_media/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_media/{format}.tsv"
+    params:
+        figure="media",
+        source=digest("plot", figure="media"),
+    message:
+        "Figure: kinetics in other media"
+
+
+use rule plot_surfaces as plot_histories with:
+    input:
+        table="results/tables/histories.csv",
+    output:
+        path=report(
+            "results/figures/histories.{format}",
+            caption="../report/figures/histories.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "any history", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_histories/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_histories/{format}.tsv"
+    params:
+        figure="histories",
+        source=digest("plot", figure="histories"),
+    message:
+        "Figure: any history"
+
+
+use rule plot_surfaces as plot_sizes with:
+    input:
+        table="results/tables/sizes.csv",
+    output:
+        path=report(
+            "results/figures/sizes.{format}",
+            caption="../report/figures/sizes.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "exponents on grids from coarse to fine", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_sizes/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_sizes/{format}.tsv"
+    params:
+        figure="sizes",
+        options={
+            "conventions": config["figures"],
+        },
+        source=digest("plot", figure="sizes"),
+    message:
+        "Figure: exponents on grids from coarse to fine"
+
+
+use rule plot_surfaces as plot_collapse with:
+    input:
+        curves="results/tables/collapse_curves.csv",
+        collapse="results/tables/collapse.csv",
+        infinite="results/tables/infinite_grid.csv",
+    output:
+        path=report(
+            "results/figures/collapse.{format}",
+            caption="../report/figures/collapse.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "collapse of the curves of all grids", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_collapse/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_collapse/{format}.tsv"
+    params:
+        figure="collapse",
+        source=digest("plot", figure="collapse"),
+    message:
+        "Figure: collapse of the curves of all grids"
+
+
+use rule plot_surfaces as plot_measured with:
+    input:
+        groups="results/ensembles/measured.nc",
+        discs="results/ensembles/discs.nc",
+        scaling="results/tables/measured_fits.csv",
+        kinetics="results/tables/measured_kinetics.csv",
+    output:
+        path=report(
+            "results/figures/measured.{format}",
+            caption="../report/figures/measured.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "measured surfaces", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_measured/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_measured/{format}.tsv"
+    params:
+        figure="measured",
+        options={
+            "conventions": config["figures"],
+            "fraction_min": config["scaling"]["fraction_min"],
+        },
+        source=digest("plot", figure="measured"),
+    message:
+        "Figure: measured surfaces"
+
+
+# ---- targets
+
+
+rule figures:
+    """All figures."""
+    input:
+        expand(
+            "results/figures/{figure}.png",
+            figure=[
+                "fig1_surfaces",
+                "fig2_kinetics",
+                "fig3_master_curve",
+                "fig4_exponent",
+                "conventions",
+                "interface",
+                "direct",
+                "reduction",
+                "mdr_lambda",
+                "validation",
+                "speed",
+                "failures",
+                "level_placement",
+                "media",
+                "histories",
+                "sizes",
+                "collapse",
+            ],
+        ),
+
+
+rule figure_1:
+    """Figure 1 of the paper: surfaces."""
+    input:
+        "results/figures/fig1_surfaces.png",
+
+
+rule figure_2:
+    """Figure 2 of the paper: kinetics, and their collapse."""
+    input:
+        "results/figures/fig2_kinetics.png",
+
+
+rule figure_3:
+    """Figure 3 of the paper: velocity of discs and lines, and the paper's law."""
+    input:
+        "results/figures/fig3_master_curve.png",
+
+
+rule figure_4:
+    """Figure 4 of the paper: exponent over Hurst exponent."""
+    input:
+        "results/figures/fig4_exponent.png",
+
+
+rule speed:
+    """Speed against accuracy of every model and method, and the placement of levels."""
+    input:
+        "results/figures/speed.png",
+        "results/figures/level_placement.png",
+
+
+rule stability:
+    """Where methods fail, and the failure map."""
+    input:
+        "results/figures/failures.png",
+        "results/figures/failure_map.png",
+
+
+rule sizes:
+    """Exponents on grids from coarse to fine."""
+    input:
+        "results/figures/sizes.png",
+        "results/figures/collapse.png",

@@ -1,6 +1,5 @@
-# Rules for the fits that the verdicts and the figures of the paper need: β and ζ of every ensemble, λ of lines matched
-# to discs, and the interface. workflow/results.yaml has further tables, among them the fits on grids from coarse to
-# fine.
+# Rules that fit ensembles: β and ζ of every ensemble, λ of lines matched to discs, the interface, and the decades of
+# constant slope; further fits on grids from coarse to fine.
 
 
 rule fit_power_laws:
@@ -22,6 +21,7 @@ rule fit_power_laws:
     params:
         **config["scaling"],
         seed=config["seed"],
+        source=digest("fit_power_laws"),
     message:
         "Power laws in region (b): exponent beta, prefactor zeta, and lambda"
     script:
@@ -33,8 +33,8 @@ rule match_lambda:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
     output:
-        csv=expand("results/tables/{table}.csv", table=REGISTRY.table_rules["match_lambda"]["tables"]),
-        nc=expand("results/tables/{table}.nc", table=REGISTRY.table_rules["match_lambda"]["tables"]),
+        csv=["results/tables/mdr_lambda.csv", "results/tables/mdr_summary.csv", "results/tables/mdr_exponents.csv"],
+        nc=["results/tables/mdr_lambda.nc", "results/tables/mdr_summary.nc", "results/tables/mdr_exponents.nc"],
     log:
         "results/logs/match_lambda.log",
     benchmark:
@@ -48,6 +48,7 @@ rule match_lambda:
         fit=config["scaling"],
         conventions=chosen("figures", "rms_convention", "average"),
         seed=config["seed"],
+        source=digest("match_lambda"),
     message:
         "Lines that represent discs: lambda, and its residual error"
     script:
@@ -61,8 +62,8 @@ rule fit_interface:
         size_discs="results/ensembles/size_discs.nc",
         size_lines="results/ensembles/size_lines.nc",
     output:
-        csv=expand("results/tables/{table}.csv", table=REGISTRY.table_rules["fit_interface"]["tables"]),
-        nc=expand("results/tables/{table}.nc", table=REGISTRY.table_rules["fit_interface"]["tables"]),
+        csv=["results/tables/interface.csv", "results/tables/interface_curves.csv"],
+        nc=["results/tables/interface.nc", "results/tables/interface_curves.nc"],
     log:
         "results/logs/fit_interface.log",
     benchmark:
@@ -79,7 +80,175 @@ rule fit_interface:
             "seed": config["seed"],
         },
         rms_convention=config["figures"]["rms_convention"],
+        source=digest("fit_interface"),
     message:
         "Interface and punch in series"
     script:
         "../scripts/fit_interface.py"
+
+
+rule measure_plateaus:
+    input:
+        discs="results/ensembles/discs.nc",
+    output:
+        csv="results/tables/plateaus.csv",
+        nc="results/tables/plateaus.nc",
+    log:
+        "results/logs/measure_plateaus.log",
+    benchmark:
+        "results/benchmarks/measure_plateaus.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        **chosen("verdicts", "decades_min", "draws"),
+        control=next((case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength")), None),
+        rms_convention=config["figures"]["rms_convention"],
+        region=without("scaling", "stiffness_range", "resamples"),
+        half_width=config["scaling"]["slope_half_width"],
+        x_range=config["verdicts"]["plateau_range"],
+        tolerance=paper("claims")["power_law"]["tolerance"],
+        resamples=config["scaling"]["resamples"],
+        seed=config["seed"],
+        source=digest("measure_plateaus"),
+    message:
+        "Decades over which the slope is constant"
+    script:
+        "../scripts/measure_plateaus.py"
+
+
+rule compare_zeta_laws:
+    input:
+        discs="results/ensembles/discs.nc",
+    output:
+        csv="results/tables/zeta_laws.csv",
+        nc="results/tables/zeta_laws.nc",
+    log:
+        "results/logs/compare_zeta_laws.log",
+    benchmark:
+        "results/benchmarks/compare_zeta_laws.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        conventions=chosen("figures", "average", "rms_convention"),
+        hurst_mins=[0.0, paper("numbers")["agreement"]["beta_hurst_min"]["value"]],
+        fit=without("scaling", "resamples"),
+        resamples=config["scaling"]["resamples"],
+        seed=config["seed"],
+        source=digest("compare_zeta_laws"),
+    message:
+        "Laws of the prefactor by one measure"
+    script:
+        "../scripts/compare_zeta_laws.py"
+
+
+rule fit_sizes:
+    input:
+        discs="results/ensembles/size_discs.nc",
+        lines="results/ensembles/size_lines.nc",
+    output:
+        csv="results/tables/sizes.csv",
+        nc="results/tables/sizes.nc",
+    log:
+        "results/logs/fit_sizes.log",
+    benchmark:
+        "results/benchmarks/fit_sizes.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **config["scaling"],
+        windows=config["sizes"]["windows"],
+        seed=config["seed"],
+        source=digest("fit_sizes"),
+    message:
+        "Exponents on grids from coarse to fine"
+    script:
+        "../scripts/fit_sizes.py"
+
+
+rule tabulate_calibration:
+    input:
+        scaling="results/tables/scaling.csv",
+        sizes="results/tables/sizes.csv",
+    output:
+        csv="results/tables/calibration.csv",
+        nc="results/tables/calibration.nc",
+    log:
+        "results/logs/tabulate_calibration.log",
+    benchmark:
+        "results/benchmarks/tabulate_calibration.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        conventions=config["figures"],
+        across=config["discs"]["elements"],
+        source=digest("tabulate_calibration"),
+    message:
+        "Calibrated exponents and prefactors"
+    script:
+        "../scripts/tabulate_calibration.py"
+
+
+rule compare_grids:
+    input:
+        discs="results/ensembles/size_discs.nc",
+    output:
+        csv="results/tables/grid_dependence.csv",
+        nc="results/tables/grid_dependence.nc",
+    log:
+        "results/logs/compare_grids.log",
+    benchmark:
+        "results/benchmarks/compare_grids.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        elements_min=config["scaling"]["elements_min"],
+        rms_convention=config["figures"]["rms_convention"],
+        source=digest("compare_grids"),
+    message:
+        "Eq. 1 on grids from coarse to fine"
+    script:
+        "../scripts/compare_grids.py"
+
+
+rule fit_collapse:
+    input:
+        discs="results/ensembles/size_discs.nc",
+        lines="results/ensembles/size_lines.nc",
+    output:
+        csv=["results/tables/collapse.csv", "results/tables/infinite_grid.csv", "results/tables/collapse_curves.csv"],
+        nc=["results/tables/collapse.nc", "results/tables/infinite_grid.nc", "results/tables/collapse_curves.nc"],
+    log:
+        "results/logs/fit_collapse.log",
+    benchmark:
+        "results/benchmarks/fit_collapse.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        ranges=config["collapse"],
+        conventions=config["figures"],
+        tolerance=paper("claims")["beta"]["tolerance"],
+        fraction_min=config["scaling"]["fraction_min"],
+        seed=config["seed"],
+        source=digest("fit_collapse"),
+    message:
+        "Collapse of the curves of all grids, and the exponent of an infinitely fine grid"
+    script:
+        "../scripts/fit_collapse.py"

@@ -1,25 +1,136 @@
-# The rule that makes the page of the results, which is the last output of `all`. It is made from results only.
+# Rules that sum up the run: the time and memory of all rules, and the page of the results, which is the last output of
+# `all`. They use results only.
 
-# {file of a figure on the page: description for readers who cannot see the figure}. The report has their captions.
-PAGE_FIGURES = {
-    figure["file"]: figure["alternative"]
-    for figure in REGISTRY.figures.values()
-    if "alternative" in figure and (MEASURED or figure["target"] != "measured")
-}
-PAGE_TEXTS = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
-QUOTED = ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")
-PAGE_TEXTS += [PROJECT / name for name in QUOTED]
-PAGE_TABLES = [
-    "claims",
-    "scaling",
-    "one_surface",
-    "failure_map",
-    "rule_costs",
+# The rules of measured surfaces; their costs are left out if the settings name no surface.
+NEED_SCANS = [rules.press_measured.rule, rules.evaluate_measured.rule, rules.plot_measured.rule]
+
+
+rule tables:
+    """All tables, except the table of the costs of this run."""
+    input:
+        expand(
+            "results/tables/{table}.{kind}",
+            table=[
+                "scaling",
+                "mdr_lambda",
+                "mdr_summary",
+                "mdr_exponents",
+                "interface",
+                "interface_curves",
+                "claims",
+                "calibration",
+                "periodic",
+                "validation",
+                "reduction",
+                "direct",
+                "histories",
+                "plateaus",
+                "zeta_laws",
+                "literature",
+                "methods",
+                "one_surface",
+                "mean_accuracy",
+                "sufficient_models",
+                "level_placement",
+                "failure_map",
+                "failure_knobs",
+                "sizes",
+                "grid_dependence",
+                "collapse",
+                "infinite_grid",
+                "collapse_curves",
+                "media",
+            ],
+            kind=["csv", "nc"],
+        ),
+
+
+rule measured:
+    """Tables and figures of the measured surfaces that the settings name."""
+    input:
+        [
+            "results/tables/measured_contacts.csv",
+            "results/tables/measured_scans.csv",
+            "results/tables/measured_fits.csv",
+            "results/tables/measured_kinetics.csv",
+            "results/figures/measured.png",
+        ]
+        if MEASURED
+        else [],
+
+
+# Like all measured times, the costs differ from run to run.
+rule tabulate_rule_costs:
+    input:
+        rules.figures.input,
+        rules.tables.input,
+        rules.measured.input,
+        rules.require_accuracy.output,
+    output:
+        csv="results/tables/rule_costs.csv",
+        nc="results/tables/rule_costs.nc",
+    log:
+        "results/logs/tabulate_rule_costs.log",
+    benchmark:
+        "results/benchmarks/tabulate_rule_costs.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        benchmarks={"compile_kernels": [KERNELS_BENCHMARK]} | benchmark_files([] if MEASURED else NEED_SCANS),
+        source=digest("tabulate_rule_costs"),
+    message:
+        "Time and memory of every rule"
+    script:
+        "../scripts/tabulate_rule_costs.py"
+
+
+# Figures of the page; workflow/page/figures.yaml describes them for readers who cannot see them.
+PAGE_FIGURES = [
+    "fig1_surfaces",
+    "fig2_kinetics",
+    "fig3_master_curve",
+    "fig4_exponent",
+    "conventions",
+    "interface",
+    "direct",
+    "reduction",
+    "mdr_lambda",
+    "validation",
+    "speed",
+    "failures",
+    "level_placement",
     "media",
-    "literature",
-    "sufficient_models",
+    "histories",
+    "sizes",
+    "collapse",
 ]
-PAGE_TABLES += ["measured_scans", "measured_contacts", "measured_fits"] if MEASURED else []
+# {table whose numbers the page states: rule that makes the table}
+PAGE_TABLES = {
+    "claims": "judge_claims",
+    "scaling": "fit_power_laws",
+    "one_surface": "measure_surfaces",
+    "failure_map": "map_failures",
+    "rule_costs": "tabulate_rule_costs",
+    "media": "compute_media",
+    "literature": "tabulate_literature",
+    "sufficient_models": "choose_models",
+}
+if MEASURED:
+    PAGE_FIGURES.append("measured")
+    PAGE_TABLES["measured_scans"] = "evaluate_measured"
+    PAGE_TABLES["measured_contacts"] = "press_measured"
+    PAGE_TABLES["measured_fits"] = "evaluate_measured"
+# Further files that the page shows or quotes.
+PAGE_TEXTS = [
+    *sorted((WORKFLOW / "page").iterdir()),
+    *sorted((WORKFLOW / "report").rglob("*.rst")),
+    PROJECT / "resources/published/other_solvers.csv",
+    PROJECT / "docs/claims.csv",
+    PROJECT / "docs/rules.png",
+]
 
 
 rule make_page:
@@ -27,12 +138,12 @@ rule make_page:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
         tables=expand("results/tables/{table}.csv", table=PAGE_TABLES),
-        figures=expand("results/figures/{file}.png", file=PAGE_FIGURES),
+        figures=expand("results/figures/{figure}.png", figure=PAGE_FIGURES),
     output:
         page=report(
             "results/index.html",
             caption="../report/page.rst",
-            category=chapter("summary"),
+            category=category("1 Summary"),
             labels={"result": "questions and answers", "kind": "page"},
         ),
     log:
@@ -45,10 +156,10 @@ rule make_page:
     resources:
         mem_mb=1000,
     params:
-        text_digests(PAGE_TEXTS),
         claims=paper("claims"),
         numbers=paper("numbers"),
-        alternative=PAGE_FIGURES,
+        made_by=PAGE_TABLES,
+        source=[digest("make_page"), *text_digests(PAGE_TEXTS)],
     message:
         "The page of the results"
     script:

@@ -1,7 +1,7 @@
 # Rules that make the surfaces for boundary elements: generated discs and prepared measured surfaces, in files of the
 # same form. The files are temporary (`--notemp` keeps them). Each batch has a separate file: if batches shared a file,
 # adding a batch would make Snakemake compute the curves of all batches again. Lines are not stored
-# (rules/indentation.smk).
+# (rules/curves.smk).
 
 
 rule generate_discs:
@@ -19,6 +19,7 @@ rule generate_discs:
     params:
         ensembles=lambda wildcards: batch_ensembles(DISCS, wildcards.case, wildcards.batch),
         seed=config["seed"],
+        source=digest("generate_discs"),
     message:
         "Discs {wildcards.case}, realizations {wildcards.batch}"
     script:
@@ -39,13 +40,14 @@ use rule generate_discs as generate_examples with:
     params:
         ensembles=cases.example_discs(config),
         seed=config["seed"],
+        source=digest("generate_discs"),
     message:
         "Discs of Figure 1"
 
 
 rule prepare_measured:
     input:
-        # the parameter `digest` shows changes of the content, so the time of the file is ignored
+        # the param `source` shows changes of the content, so the time of the file is ignored
         heights=ancient(scan_value("file")),
     output:
         surfaces=temp("results/surfaces/measured/{scan}/0000-0000.nc"),
@@ -59,12 +61,12 @@ rule prepare_measured:
     resources:
         mem_mb=lambda wildcards: cases.measured_memory(MEASURED[wildcards.scan]),
     params:
-        scan_value("digest"),
         name=lambda wildcards: wildcards.scan,
         group=scan_value("group"),
         spacing=scan_value("spacing"),
         unit=scan_value("unit"),
         preparation=scan_value("preparation"),
+        source=lambda wildcards: [digest("prepare_measured"), MEASURED[wildcards.scan]["digest"]],
     message:
         "Measured surface {wildcards.scan}"
     script:

@@ -1,38 +1,23 @@
-# Rules for two verdicts: on the comparison with exact solutions, which must pass for `all`, and on the claims of the
-# paper.
-
-
-rule check_validation:
-    input:
-        table="results/tables/validation.csv",
-    output:
-        passed="results/tables/validation_passed.txt",
-    log:
-        "results/logs/check_validation.log",
-    benchmark:
-        "results/benchmarks/check_validation.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=500,
-    params:
-        order_margin=config["validation"]["order_margin"],
-    message:
-        "Verdict on the comparison with exact solutions"
-    script:
-        "../scripts/check_validation.py"
-
-
-# Names of the tables that decide about the claims.
-EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "zeta_laws")
-EVIDENCE += ("methods", "sizes", "grid_dependence", "histories")
+# The rule for the verdicts on the claims of the paper.
 
 
 rule judge_claims:
     input:
-        tables=expand("results/tables/{table}.csv", table=EVIDENCE),
         discs="results/ensembles/discs.nc",
+        tables=[
+            "results/tables/scaling.csv",
+            "results/tables/validation.csv",
+            "results/tables/direct.csv",
+            "results/tables/reduction.csv",
+            "results/tables/mdr_summary.csv",
+            "results/tables/mdr_exponents.csv",
+            "results/tables/plateaus.csv",
+            "results/tables/zeta_laws.csv",
+            "results/tables/methods.csv",
+            "results/tables/sizes.csv",
+            "results/tables/grid_dependence.csv",
+            "results/tables/histories.csv",
+        ],
     output:
         csv="results/tables/claims.csv",
         nc="results/tables/claims.nc",
@@ -56,6 +41,7 @@ rule judge_claims:
         limits=without("scaling", "stiffness_range", "resamples"),  # limits of region (b)
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
+        source=digest("judge_claims"),
     message:
         "Verdicts on the claims of the paper"
     script:

@@ -19,4 +19,4 @@ def main(curves, pool, *, groups, conventions, ensemble):
     write_dataset(pool_batches(batches, conventions, x), pool)
 
 
-run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))
+run_job(globals(), main)

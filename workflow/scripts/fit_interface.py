@@ -6,12 +6,11 @@ The fit gives the part of vt/h that the interface contributes, and the plateau o
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fits.interface import COLUMNS, CURVES, interface_tables
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import recorded, write_tables
 
-# {table: (columns, dimension in the NetCDF file, title)}
 TABLES = {
-    "interface": (COLUMNS, "ensemble", "Interface and punch in series"),
-    "interface_curves": (CURVES, "abscissa", "Curves of the interface alone"),
+    "interface": {"columns": COLUMNS, "dimension": "ensemble", "title": "Interface and punch in series"},
+    "interface_curves": {"columns": CURVES, "dimension": "abscissa", "title": "Curves of the interface alone"},
 }
 
 
@@ -24,9 +23,7 @@ def main(discs, lines, size_discs, size_lines, csv, nc, **settings):
     settings : further arguments of `interface_tables`
     """
     tables = interface_tables(*map(read_dataset, (discs, lines, size_discs, size_lines)), **settings)
-    for (name, (columns, dimension, title)), *paths in zip(TABLES.items(), csv, nc, strict=True):
-        described = {"columns": columns, "dimension": dimension, "title": title}
-        write_table(tables[name], *paths, **described, attributes=recorded(settings=settings))
+    write_tables(tables, csv, nc, TABLES, recorded(settings=settings))
 
 
-run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))
+run_job(globals(), main)

@@ -21,4 +21,4 @@ def main(discs, lines, csv, nc, **fit):
     write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title=title, attributes=attributes)
 
 
-run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))
+run_job(globals(), main)

@@ -25,4 +25,4 @@ def main(surfaces, *, ensembles, seed):
     write_surfaces(zip(settings, sizes, (discs(**ensemble) for ensemble in ensembles), strict=True), surfaces)
 
 
-run_job(globals(), lambda job: main(**job.output, **job.params))
+run_job(globals(), main)

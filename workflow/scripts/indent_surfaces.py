@@ -29,4 +29,4 @@ def main(surfaces, curves, *, indentation):
     netcdf.write(batch_of_curves(members, settings), curves)
 
 
-run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))
+run_job(globals(), main)

@@ -32,4 +32,4 @@ def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 
 
-run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))
+run_job(globals(), main)

@@ -1,15 +1,23 @@
 """Compare MDR lines with discs: the factor λ in the spectrum (Eq. 13), the error with one λ, and exponents β."""
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.comparisons import mdr_equivalence
+from viscorough_study.comparisons.mdr_equivalence import (
+    EXPONENT_COLUMNS,
+    LAMBDA_COLUMNS,
+    SUMMARY_COLUMNS,
+    mdr_tables,
+)
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import recorded, write_tables
 
-# {table: (dimension in the NetCDF file, title)}
 TABLES = {
-    "mdr_lambda": ("point", "MDR, lambda over the force"),
-    "mdr_summary": ("exponent", "MDR, residual error of a single lambda"),
-    "mdr_exponents": ("fit", "MDR, exponents in equal windows"),
+    "mdr_lambda": {"columns": LAMBDA_COLUMNS, "dimension": "point", "title": "MDR, lambda over the force"},
+    "mdr_summary": {
+        "columns": SUMMARY_COLUMNS,
+        "dimension": "exponent",
+        "title": "MDR, residual error of a single lambda",
+    },
+    "mdr_exponents": {"columns": EXPONENT_COLUMNS, "dimension": "fit", "title": "MDR, exponents in equal windows"},
 }
 
 
@@ -20,10 +28,8 @@ def main(discs, lines, csv, nc, **settings):
     csv, nc : lists of the CSV and NetCDF files to write, one for each table
     settings : further arguments of `mdr_tables`
     """
-    tables = mdr_equivalence.mdr_tables(read_dataset(discs), read_dataset(lines), **settings)
-    for (name, (dimension, title)), *paths in zip(TABLES.items(), csv, nc, strict=True):
-        described = {"columns": mdr_equivalence.TABLES[name], "dimension": dimension, "title": title}
-        write_table(tables[name], *paths, **described, attributes=recorded(settings=settings))
+    tables = mdr_tables(read_dataset(discs), read_dataset(lines), **settings)
+    write_tables(tables, csv, nc, TABLES, recorded(settings=settings))
 
 
-run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))
+run_job(globals(), main)

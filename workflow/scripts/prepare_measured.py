@@ -24,4 +24,4 @@ def main(heights, surfaces, *, name, group, **reading):
     write_surfaces([(settings, 1, [(realization, indenter)])], surfaces)
 
 
-run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))
+run_job(globals(), main)

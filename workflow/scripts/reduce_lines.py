@@ -29,4 +29,4 @@ def main(curves, *, ensembles, seed, until_x):
     netcdf.write(batch_of_curves(members, settings), curves)
 
 
-run_job(globals(), lambda job: main(**job.output, **job.params))
+run_job(globals(), main)

@@ -19,4 +19,4 @@ def main(csv, nc, *, benchmarks):
     write_table(table, csv, nc, columns=COLUMNS, dimension="rule", title=title, attributes=attributes)
 
 
-run_job(globals(), lambda job: main(**job.output, **job.params))
+run_job(globals(), main)

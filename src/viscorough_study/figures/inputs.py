@@ -1,7 +1,7 @@
 """Read the surfaces and ensembles that the figures show.
 
-Each function reads one argument of the functions that draw figures, and has the name of this argument. Its parameter
-`files` is {name of an argument: path of the file with this argument}. Base discs are the discs that all figures use.
+Each function reads one argument of the functions that draw figures, from the file with this path. Base discs are the
+discs that all figures use.
 """
 
 from viscorough.io.datasets import read_dataset
@@ -9,31 +9,31 @@ from viscorough_study.ensembles import pool
 from viscorough_study.ensembles.surface_files import read_surfaces
 
 
-def examples(files):
+def examples(path):
     """Read the example discs; return a list of (Hurst exponent, heights, spacing)."""
-    surfaces = read_surfaces(files["examples"])
+    surfaces = read_surfaces(path)
     return [(realization.hurst, indenter.heights, indenter.spacing) for _, realization, indenter in surfaces]
 
 
-def ensembles(files):
+def ensembles(path):
     """Read the curves of the base discs; return a list of ensembles, one for each Hurst exponent and combination.
 
     A combination is a choice of force, viscosity, diameter and rms height.
     """
-    return list(pool.ensembles(pool.select(read_dataset(files["ensembles"]), group="base"), "case").values())
+    return list(pool.ensembles(pool.select(read_dataset(path), group="base"), "case").values())
 
 
-def discs(files):
+def discs(path):
     """Read the curves of the base discs; return a list of ensembles, one for each Hurst exponent in ascending order."""
-    by_hurst = pool.ensembles(pool.select(read_dataset(files["discs"]), group="base"), "hurst")
+    by_hurst = pool.ensembles(pool.select(read_dataset(path), group="base"), "hurst")
     return [by_hurst[hurst] for hurst in sorted(by_hurst)]
 
 
-def lines(files):
+def lines(path):
     """Read the MDR lines; return a list of ensembles, one for each Hurst exponent."""
-    return list(pool.ensembles(read_dataset(files["lines"]), "hurst").values())
+    return list(pool.ensembles(read_dataset(path), "hurst").values())
 
 
-def groups(files):
+def groups(path):
     """Read the measured surfaces; return {name of a group of scans: ensemble of this group}."""
-    return pool.ensembles(read_dataset(files["groups"]), "group")
+    return pool.ensembles(read_dataset(path), "group")

@@ -2,11 +2,9 @@
 
 from pathlib import Path
 
-import yaml
-
 from viscorough_study.page import answers, content
 from viscorough_study.page.discussion import QUANTITIES, discussion
-from viscorough_study.page.results import read_published, read_results, table_origins
+from viscorough_study.page.results import read_published, read_results
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
@@ -15,17 +13,17 @@ from viscorough_study.verdicts.answer import answer
 from viscorough_study.verdicts.claims import findings
 
 
-def contents_of(project, discs, lines, *, tables, claims, numbers):
+def contents_of(project, discs, lines, *, tables, claims, numbers, made_by):
     """Return the variables for the template of the page, {name: content}.
 
-    project : folder of the project, which contains published numbers and verdicts, and the list of tables
+    project : folder of the project, which contains published numbers and verdicts
     discs, lines : NetCDF files with the loading curves of all discs and of all lines of the run (ensembles.pool)
     tables : paths of CSV files; a table has the name of its file without the suffix
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
+    made_by : {name of a table: Snakemake rule that made it}
     """
     tables = {Path(path).stem: path for path in tables}
-    registry = yaml.safe_load((project / "workflow/results.yaml").read_text("utf-8"))
-    results = read_results(tables, table_origins(registry["tables"]))
+    results = read_results(tables, made_by)
     published = read_published(project / "docs/claims.csv")
     conventions = results.settings["claims"]["conventions"]
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)

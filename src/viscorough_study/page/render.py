@@ -71,7 +71,7 @@ def caption(text, conventions):
     text : reStructuredText of the caption, with placeholders for conventions
     conventions : settings for choices that the paper leaves open; they replace the placeholders
     """
-    snakemake = {"params": {"conventions": conventions}}
+    snakemake = {"params": {"options": {"conventions": conventions}}}
     text = jinja2.Template(text, undefined=jinja2.StrictUndefined).render(snakemake=snakemake)
     parts = publish_parts(text, writer="html5", settings_overrides={"report_level": 2, "halt_level": 2})
     return Markup(re.sub(r'<(tt|span) class="docutils literal">(.*?)</\1>', r"<code>\2</code>", parts["body"]))

@@ -1,7 +1,7 @@
 """Read tables of results for the page, and keep numbers together with their place in a table.
 
 Every number that the page states in a sentence is a `Number`. The page contains, for each Number, its place in a table,
-the Snakemake rule that made the table, and the source file of the computation. A reader or a test can look these up.
+and the Snakemake rule that made the table, with its script. A reader or a test can look these up.
 """
 
 from dataclasses import dataclass, field
@@ -10,7 +10,6 @@ from pathlib import Path
 import pandas as pd
 
 from viscorough_study.run.tables import read_recorded, read_table
-from viscorough_study.verdicts.claims import JUDGES
 
 MAY_BE_EMPTY = ("convention", "reason", "setting")  # columns of texts; some of these texts may be empty
 # With these options, pandas.read_csv replaces only empty fields by nan, and keeps texts such as "none".
@@ -27,7 +26,7 @@ class Number:
     table, column : names of the table and of the column
     row : row of the cell, counted from 0 without the header; None for a number of rows
     counted : for a number of rows, the value that these rows have in the column; otherwise None
-    origin : text that names the Snakemake rule that made the table, and the source file of the computation
+    origin : text that names the Snakemake rule that made the table, and its script
     """
 
     value: float
@@ -55,16 +54,16 @@ class Number:
 
 @dataclass(frozen=True)
 class Results:
-    """The tables of a run, with the settings and the code that made them.
+    """The tables of a run, with the settings and the rules that made them.
 
     tables : {name: pandas.DataFrame}, indexed by the row of the CSV file
     settings : {name of a table: its recorded settings}; the settings are empty if none were recorded
-    origins : {name of a table: (Snakemake rule, source file)} from `table_origins`; some tables have no entry
+    made_by : {name of a table: Snakemake rule that made it}; some tables have no entry
     """
 
     tables: dict
     settings: dict
-    origins: dict = field(default_factory=dict)
+    made_by: dict = field(default_factory=dict)
 
     def rows(self, table, **chosen):
         """Return the rows of a table that have, in each column named in `chosen`, the given value."""
@@ -74,7 +73,7 @@ class Results:
     def number(self, table, row, column):
         """Return the Number in a row and a column of a table."""
         value = float(self.tables[table].at[row, column])
-        return Number(value, table, column, int(row), origin=self.origin(table, row))
+        return Number(value, table, column, int(row), origin=self.origin(table))
 
     def record(self, table, row):
         """Return one row of a table as a dict, {column: Number or text}."""
@@ -98,51 +97,22 @@ class Results:
         number = int((self.tables[table][column] == counted).sum())
         return Number(number, table, column, counted=counted, origin=self.origin(table))
 
-    def origin(self, table, row=None):
-        """Return a text that names the Snakemake rule that made a table, and the source file of the computation.
-
-        For a row of the table `claims`, the source file is the module that tests this claim. The text is empty if the
-        origin of the table is unknown.
-        """
-        if table not in self.origins:
-            return ""
-        rule, source = self.origins[table]
-        if table == "claims" and row is not None:
-            source = _source_file(JUDGES[self.tables[table].at[row, "claim"]].__module__)
-        return f"rule {rule}; computed in {source}"
+    def origin(self, table):
+        """Return a text that names the rule that made a table, and its script; empty if the rule is unknown."""
+        rule = self.made_by.get(table)
+        return f"rule {rule}, workflow/scripts/{rule}.py" if rule else ""
 
 
-def table_origins(registry):
-    """Return {table: (Snakemake rule that makes the table, source file of the computation)}.
-
-    If the registry names a function for the rule, the source file is the module of this function. Otherwise it is the
-    script of the rule.
-
-    registry : section `tables` of workflow/results.yaml
-    """
-    origins = {}
-    for rule, made in registry.items():
-        module = made["function"].rpartition(".")[0] if "function" in made else None
-        source = _source_file(module) if module else f"workflow/scripts/{rule}.py"
-        origins |= dict.fromkeys(made["tables"], (rule, source))
-    return origins
-
-
-def _source_file(module):
-    """Return the path of a module's source file, relative to the folder of the project."""
-    return f"src/{module.replace('.', '/')}.py"
-
-
-def read_results(tables, origins):
+def read_results(tables, made_by):
     """Read the Results of a run: tables from CSV files, and their settings from NetCDF files.
 
     tables : {name: path of the CSV file}; the NetCDF file has the same path, except for the suffix .nc
-    origins : {name of a table: (Snakemake rule, source file)} from `table_origins`
+    made_by : {name of a table: Snakemake rule that made it}
     """
     files = {name: Path(path).with_suffix(".nc") for name, path in tables.items()}
     settings = {name: read_recorded(file, "settings", missing={}) for name, file in files.items()}
     read = {name: read_table(path, **_ONLY_EMPTY_IS_MISSING) for name, path in tables.items()}
-    return Results({name: _with_empty_texts(table) for name, table in read.items()}, settings, origins)
+    return Results({name: _with_empty_texts(table) for name, table in read.items()}, settings, made_by)
 
 
 def read_published(path):

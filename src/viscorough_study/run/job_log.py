@@ -7,15 +7,19 @@ import traceback
 from viscorough.basics.errors import ConvergenceError
 
 
-def run_job(names, call):
-    """Set up the log of a Snakemake job and call `call` with the job; do nothing if Snakemake does not run the script.
+def run_job(names, main):
+    """Set up the log of a Snakemake job, and call the script's `main` with the files and params of the job.
+
+    Do nothing if Snakemake does not run the script.
 
     names : global names of the script, which contain `snakemake` in a job
-    call : function of the job
+    main : function of the named inputs, outputs and params of the rule. The param `source` is left out: it is the
+        digest of the source code, which only decides about reruns.
     """
     if job := names.get("snakemake"):
         log_to(job.log[0])
-        call(job)
+        params = {name: value for name, value in job.params.items() if name != "source"}
+        main(**job.input, **job.output, **params)
 
 
 def log_to(path):

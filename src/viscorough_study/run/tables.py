@@ -50,6 +50,18 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
         temporary.write_bytes(csv)
 
 
+def write_tables(tables, csv_paths, nc_paths, described, attributes):
+    """Write several tables with `write_table`.
+
+    tables : {name: table}
+    csv_paths, nc_paths : paths of the files, in the order of `described`
+    described : {name: {"columns": ..., "dimension": ..., "title": ...}}, arguments of `write_table`
+    attributes : further global attributes of all NetCDF files
+    """
+    for (name, description), *paths in zip(described.items(), csv_paths, nc_paths, strict=True):
+        write_table(tables[name], *paths, **description, attributes=attributes)
+
+
 def read_table(csv_path, **options):
     """Return the table in a CSV file that write_table wrote, read with options of pandas.read_csv.
 

@@ -1,9 +1,9 @@
 """Judge the paper's claims: make a table of verdicts, derive the verdict on each claim, and summarize in Markdown.
 
 A claim is tested in several cases, such as one case for each Hurst exponent. resources/paper/claims.yaml gives the
-statement, kind, criterion and tolerance of every claim, and the reason for the tolerance. The function that judges a
-claim has the name of the claim, and is in one of the modules of criteria (`MODULES`). It takes the evidence
-(verdicts.evidence.Evidence) and the tolerance, and yields the cases of the claim.
+statement, kind, criterion and tolerance of every claim, and the reason for the tolerance. `JUDGES` lists the functions
+that judge the claims. Such a function takes the evidence (verdicts.evidence.Evidence) and the tolerance, and yields the
+cases of the claim.
 
 Other random surfaces give other numbers, and a verdict must not depend on this choice. If a quantity has a 95 %
 interval, the claim is reproduced only if the whole interval lies within the tolerance, and not reproduced only if the
@@ -15,7 +15,6 @@ physics, and statements beyond the paper are not claims of the paper.
 """
 
 from collections import Counter
-from inspect import getmembers, isfunction, signature
 
 import numpy as np
 import pandas as pd
@@ -30,19 +29,50 @@ from viscorough_study.verdicts import (
 )
 from viscorough_study.verdicts.evidence import VERDICTS
 
-MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_criteria, mdr_criteria
-
-
-def _criteria(module):
-    """Return {claim: function that judges it} of a module.
-
-    These are the public functions whose first two arguments are `evidence` and `tolerance`.
-    """
-    public = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
-    return {name: f for name, f in public.items() if [*signature(f).parameters][:2] == ["evidence", "tolerance"]}
-
-
-JUDGES = {claim: criterion for module in MODULES for claim, criterion in _criteria(module).items()}
+# {claim: function that judges it}. The sentence of each claim is its `statement` in resources/paper/claims.yaml.
+JUDGES = {
+    "history": form_criteria.history,
+    "depth_over_rms": form_criteria.depth_over_rms,
+    "one_surface": form_criteria.one_surface,
+    "collapse": region_criteria.collapse,
+    "first_region": region_criteria.first_region,
+    "last_region": region_criteria.last_region,
+    "separation": region_criteria.separation,
+    "complete_contact": region_criteria.complete_contact,
+    "complete_contact_end": region_criteria.complete_contact_end,
+    "power_law": region_criteria.power_law,
+    "power_law_decades": region_criteria.power_law_decades,
+    "power_law_control": region_criteria.power_law_control,
+    "beta": law_criteria.beta,
+    "beta_lines": law_criteria.beta_lines,
+    "coincide": law_criteria.coincide,
+    "hurst_only": law_criteria.hurst_only,
+    "no_grid": law_criteria.no_grid,
+    "realizations": law_criteria.realizations,
+    "alpha_limit": law_criteria.alpha_limit,
+    "exponent_small_hurst": law_criteria.exponent_small_hurst,
+    "depth": law_criteria.depth,
+    "zeta_elastic": zeta_criteria.zeta_elastic,
+    "zeta_elastic_shape": zeta_criteria.zeta_elastic_shape,
+    "zeta_viscous": zeta_criteria.zeta_viscous,
+    "zeta_viscous_shape": zeta_criteria.zeta_viscous_shape,
+    "zeta_better": zeta_criteria.zeta_better,
+    "gamma": method_criteria.gamma,
+    "master_curve": law_criteria.master_curve,
+    "master_curve_shape": zeta_criteria.master_curve_shape,
+    "line_spectrum": method_criteria.line_spectrum,
+    "lambda_constant": mdr_criteria.lambda_constant,
+    "exact_correspondence": mdr_criteria.exact_correspondence,
+    "whole_curve": mdr_criteria.whole_curve,
+    "coincide_equal_windows": mdr_criteria.coincide_equal_windows,
+    "line_area": mdr_criteria.line_area,
+    "line_gap": mdr_criteria.line_gap,
+    "single_surface": mdr_criteria.single_surface,
+    "own_line": mdr_criteria.own_line,
+    "bodies_of_revolution": method_criteria.bodies_of_revolution,
+    "elements": method_criteria.elements,
+    "contact_problems": method_criteria.contact_problems,
+}
 KINDS = {
     "physics": "Physics",
     "identity": "Identities, which hold by the method or by construction (not counted)",

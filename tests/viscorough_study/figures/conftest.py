@@ -7,7 +7,7 @@ import pytest
 from support import figures as tables
 from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of, published
 from support.study import SHOWN, aggregate, pool_of
-from support.workflow import FIGURES
+from support.workflow import FIGURES, RULES
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
@@ -68,8 +68,7 @@ def drawn(discs, pooled, lines, scaling):
         "fig3_master_curve": (pooled, lines, scaling, SHOWN),
         "measured": ({"polished": pooled[0]}, pooled, group, tables.measured_kinetics(), SHOWN),
     }
-    params = {name: figure.get("params", []) for name, figure in FIGURES.items()}
-    shares = {name: {"fraction_min": 0.95} for name in params if "fraction_min" in params[name]}
+    shares = {name: {"fraction_min": 0.95} for name, rule in FIGURES.items() if "fraction_min" in RULES[rule]}
     with warnings.catch_warnings(action="error"):
         return {
             name: tables.plot(tables.MODULES[name], *given, **shares.get(name, {})) for name, given in arguments.items()

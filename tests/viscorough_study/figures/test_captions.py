@@ -10,7 +10,7 @@ import pytest
 from matplotlib.colors import to_hex
 
 from support.study import ROOT
-from support.workflow import FIGURES, read_settings
+from support.workflow import FIGURES, RULES, read_settings
 from viscorough_study.figures.failure_map import LETTERS
 
 REPORT = ROOT / "workflow" / "report"
@@ -102,11 +102,13 @@ def test_texts_of_the_report_can_be_filled_in():
 
     The settings may have changed since the figure was drawn, so captions do not use them; changed params redraw it.
     """
-    settings = read_settings("config")
+    conventions = {"conventions": read_settings("config")["figures"]}
     for path in REPORT.rglob("*.rst"):
-        params = FIGURES[path.stem].get("params", []) if path.parent.name == "figures" else []
+        has_conventions = path.stem in FIGURES and '"conventions": config["figures"]' in RULES[FIGURES[path.stem]]
         template = jinja2.Environment(undefined=jinja2.StrictUndefined).from_string(path.read_text(encoding="utf-8"))
-        assert "{" not in template.render(snakemake={"params": dict.fromkeys(params, settings["figures"])}), path
+        assert "{" not in template.render(snakemake={"params": {"options": conventions if has_conventions else {}}}), (
+            path
+        )
 
 
 def test_every_caption_belongs_to_a_result():

@@ -5,7 +5,7 @@ import pandas as pd
 
 from support.page import Page, number_in
 from viscorough_study.page.render import caption, number, percent
-from viscorough_study.page.results import Number, Results, read_results, table_origins
+from viscorough_study.page.results import Number, Results, read_results
 from viscorough_study.run.readable import readable
 from viscorough_study.run.tables import recorded, write_table
 
@@ -47,22 +47,13 @@ def test_results_give_numbers_with_their_table_cells(tmp_path):
 
 
 def test_captions_become_html_with_the_conventions_of_the_figures():
-    text = 'One x & ``setting``.\n\nMean: {{ snakemake.params.conventions["average"] }}.'
+    text = 'One x & ``setting``.\n\nMean: {{ snakemake.params.options["conventions"]["average"] }}.'
     html = caption(text, {"average": "geometric"})
     assert html.split("\n")[:2] == ["<p>One x &amp; <code>setting</code>.</p>", "<p>Mean: geometric.</p>"]
 
 
-def test_numbers_state_the_rule_and_the_source_file_of_their_table():
-    """The source file is the criterion's for a claim, and the script's for a rule without a function."""
-    function = "viscorough_study.fits.fit_table.scaling_table"
-    origins = table_origins(
-        {"judge_claims": {"tables": ["claims"]}, "fit": {"function": function, "tables": ["scaling"]}}
-    )
-    tables = {"claims": pd.DataFrame({"claim": ["beta"], "value": [0.4]}), "scaling": pd.DataFrame({"beta": [0.4]})}
-    results = Results(tables, {}, origins)
-    script, criterion = "workflow/scripts/judge_claims.py", "src/viscorough_study/verdicts/law_criteria.py"
-    assert results.count("claims", "claim", "beta").origin == f"rule judge_claims; computed in {script}"
-    assert results.number("claims", 0, "value").origin == f"rule judge_claims; computed in {criterion}"
-    number = results.number("scaling", 0, "beta")
+def test_numbers_state_the_rule_of_their_table_and_its_script():
+    results = Results({"scaling": pd.DataFrame({"beta": [0.4]})}, {}, {"scaling": "fit_power_laws"})
     place = "results/tables/scaling.csv, line 2, column beta"
-    assert number.attributes["title"] == f"{place}; rule fit; computed in src/viscorough_study/fits/fit_table.py"
+    origin = "rule fit_power_laws, workflow/scripts/fit_power_laws.py"
+    assert results.number("scaling", 0, "beta").attributes["title"] == f"{place}; {origin}"

@@ -66,7 +66,7 @@ def test_truncated_or_changed_table_is_refused(files, change):
     with refused(r"fits\.csv: not readable \(it does not match fits\.nc, which was written with it\); remove both"):
         read_table(csv)
     with refused(r"fits\.csv"):
-        load_script("plot").main({"table": str(csv)}, "a.png", "a.pdf", functions={"draw": "builtins.print"})
+        load_script("plot").main("a.png", figure="exponent", scaling=str(csv))
     nc.unlink()
     with refused(r"fits\.nc: not readable"):
         read_table(csv)

@@ -7,7 +7,7 @@ from viscorough_study.run.readable import readable
 
 
 @style.figure
-def plot_direct_integration(table):
+def plot_direct(table):
     """Draw the ratio of viscous to elastic depth, by direct integration and by Eq. 8, against the elements in contact.
 
     Each indenter has a panel. A text in the panel states the largest deviation of the ratio by direct integration

@@ -1,5 +1,5 @@
 # Rules that compute elastic loading curves: of surfaces by boundary elements, of lines by the method of dimensionality
-# reduction.
+# reduction. A further rule makes ensembles: it brings the realizations of all cases in a pool to common abscissae.
 
 
 rule indent_surfaces:
@@ -21,6 +21,7 @@ rule indent_surfaces:
         mem_mb=indentation_memory,
     params:
         indentation=lambda wildcards: CASES[wildcards.kind][wildcards.case]["indentation"],
+        source=digest("indent_surfaces"),
     message:
         "Boundary elements, {wildcards.kind} {wildcards.case}, realizations {wildcards.batch}"
     script:
@@ -43,7 +44,40 @@ rule reduce_lines:
         ensembles=lambda wildcards: batch_ensembles(LINES, wildcards.line, wildcards.batch),
         seed=config["seed"],
         until_x=lambda wildcards: LINES[wildcards.line]["until_x"],
+        source=digest("reduce_lines"),
     message:
         "Reduction of dimensionality, lines {wildcards.line}, realizations {wildcards.batch}"
     script:
         "../scripts/reduce_lines.py"
+
+
+rule aggregate_curves:
+    input:
+        curves=lambda wildcards: cases.pool_curves(CASES, wildcards.pool),
+    output:
+        pool="results/ensembles/{pool}.nc",
+    log:
+        "results/logs/aggregate_curves/{pool}.log",
+    benchmark:
+        "results/benchmarks/aggregate_curves/{pool}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=lambda wildcards: cases.pool_memory(CASES, wildcards.pool, config["ensemble"]),
+    params:
+        groups=lambda wildcards: cases.pool_groups(CASES, wildcards.pool),
+        conventions=lambda wildcards: cases.POOLS[wildcards.pool],
+        ensemble=config["ensemble"],
+        source=digest("aggregate_curves"),
+    message:
+        "Realizations on common abscissae: {wildcards.pool}"
+    script:
+        "../scripts/aggregate_curves.py"
+
+
+rule curves:
+    """The loading curves of all surfaces."""
+    input:
+        cases.pool_curves(CASES, "discs"),
+        cases.pool_curves(CASES, "lines"),

@@ -21,4 +21,4 @@ def main(table, passed, *, order_margin):
     Path(passed).write_text("\n".join(names) + "\n", encoding="utf-8")
 
 
-run_job(globals(), lambda job: main(**job.input, **job.output, **job.params))
+run_job(globals(), main)

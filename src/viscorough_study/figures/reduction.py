@@ -6,7 +6,7 @@ from viscorough_study.figures import style
 
 
 @style.figure
-def plot_mdr_comparison(table):
+def plot_reduction(table):
     """Draw ratios of MDR lines to discs with the same spectrum (a to d, f), and the correlation of their κ (e).
 
     Panel (a) shows the mean ratio of κ, and panel (b) the typical factor between κ of a line and of its disc. Further

@@ -1,0 +1,309 @@
+# Rules that compare: methods with exact solutions and with each other, models of one surface with boundary elements,
+# the results with the literature, other media, and measured surfaces.
+
+
+rule compare_exact:
+    output:
+        csv="results/tables/validation.csv",
+        nc="results/tables/validation.nc",
+    log:
+        "results/logs/compare_exact.log",
+    benchmark:
+        "results/benchmarks/compare_exact.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=4000,
+    params:
+        **config["validation"],
+        source=digest("compare_exact"),
+    message:
+        "Comparison with exact solutions"
+    script:
+        "../scripts/compare_exact.py"
+
+
+rule require_accuracy:
+    """End the run unless all comparisons with exact solutions have passed."""
+    input:
+        table="results/tables/validation.csv",
+    output:
+        passed="results/tables/validation_passed.txt",
+    log:
+        "results/logs/require_accuracy.log",
+    benchmark:
+        "results/benchmarks/require_accuracy.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        order_margin=config["validation"]["order_margin"],
+        source=digest("require_accuracy"),
+    message:
+        "Verdict on the comparison with exact solutions"
+    script:
+        "../scripts/require_accuracy.py"
+
+
+rule compare_periodic:
+    output:
+        csv="results/tables/periodic.csv",
+        nc="results/tables/periodic.nc",
+    log:
+        "results/logs/compare_periodic.log",
+    benchmark:
+        "results/benchmarks/compare_periodic.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **without("periodic", "hurst"),
+        hursts=config["periodic"]["hurst"],
+        seed=config["seed"],
+        source=digest("compare_periodic"),
+    message:
+        "The control of two springs: periodic contact of the same spectra"
+    script:
+        "../scripts/compare_periodic.py"
+
+
+rule compare_reduction:
+    output:
+        csv="results/tables/reduction.csv",
+        nc="results/tables/reduction.nc",
+    log:
+        "results/logs/compare_reduction.log",
+    benchmark:
+        "results/benchmarks/compare_reduction.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **chosen("discs", "elements", "realizations", "tolerance"),
+        **config["reduction"],
+        hursts=config["discs"]["hurst"],
+        seed=config["seed"],
+        source=digest("compare_reduction"),
+    message:
+        "Reduction of dimensionality against boundary elements, surface by surface"
+    script:
+        "../scripts/compare_reduction.py"
+
+
+rule compare_direct:
+    output:
+        csv="results/tables/direct.csv",
+        nc="results/tables/direct.nc",
+    log:
+        "results/logs/compare_direct.log",
+    benchmark:
+        "results/benchmarks/compare_direct.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **config["direct"],
+        hursts=config["discs"]["hurst"],
+        seed=config["seed"],
+        source=digest("compare_direct"),
+    message:
+        "Direct integration against both readings of the law"
+    script:
+        "../scripts/compare_direct.py"
+
+
+rule compare_histories:
+    output:
+        csv="results/tables/histories.csv",
+        nc="results/tables/histories.nc",
+    log:
+        "results/logs/compare_histories.log",
+    benchmark:
+        "results/benchmarks/compare_histories.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        hursts=config["discs"]["hurst"],
+        elements=config["direct"]["elements"],
+        seed=config["seed"],
+        source=digest("compare_histories"),
+    message:
+        "Any history of loading and unloading, against direct integration"
+    script:
+        "../scripts/compare_histories.py"
+
+
+rule tabulate_literature:
+    input:
+        scaling="results/tables/scaling.csv",
+        interface="results/tables/interface.csv",
+        reduction="results/tables/reduction.csv",
+    output:
+        csv="results/tables/literature.csv",
+        nc="results/tables/literature.nc",
+    log:
+        "results/logs/tabulate_literature.log",
+    benchmark:
+        "results/benchmarks/tabulate_literature.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        entries=read_yaml("resources/literature/stiffness.yaml"),
+        conventions=config["figures"],
+        source=digest("tabulate_literature"),
+    message:
+        "Results in the literature"
+    script:
+        "../scripts/tabulate_literature.py"
+
+
+rule compute_media:
+    input:
+        curves=cases.combination_curves(DISCS),
+    output:
+        csv="results/tables/media.csv",
+        nc="results/tables/media.nc",
+    log:
+        "results/logs/compute_media.log",
+    benchmark:
+        "results/benchmarks/compute_media.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **config["media"],
+        discs=cases.first_combination(config),
+        rms_convention=config["figures"]["rms_convention"],
+        source=digest("compute_media"),
+    message:
+        "Kinetics in other media"
+    script:
+        "../scripts/compute_media.py"
+
+
+rule map_failures:
+    output:
+        csv="results/tables/failure_map.csv",
+        nc="results/tables/failure_map.nc",
+    log:
+        "results/logs/map_failures.log",
+    benchmark:
+        "results/benchmarks/map_failures.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=4000,
+    params:
+        **config["stability"],
+        hurst_min=paper("numbers")["agreement"]["beta_hurst_min"]["value"],
+        seed=config["seed"],
+        source=digest("map_failures"),
+    message:
+        "Every method in every stress-test case"
+    script:
+        "../scripts/map_failures.py"
+
+
+rule vary_settings:
+    input:
+        discs="results/ensembles/discs.nc",
+        scaling="results/tables/scaling.csv",
+    output:
+        csv="results/tables/failure_knobs.csv",
+        nc="results/tables/failure_knobs.nc",
+    log:
+        "results/logs/vary_settings.log",
+    benchmark:
+        "results/benchmarks/vary_settings.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        across=config["stability"]["across"],
+        conventions=config["figures"],
+        seed=config["seed"],
+        source=digest("vary_settings"),
+    message:
+        "Error over the number of steps, the width of the box and the range of the power law"
+    script:
+        "../scripts/vary_settings.py"
+
+
+# Settings that determine the contacts of a measured surface. The digest changes with the content of its file.
+PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces", "young_modulus", "poisson_ratio")
+
+
+rule press_measured:
+    output:
+        csv="results/tables/measured_contacts.csv",
+        nc="results/tables/measured_contacts.nc",
+    log:
+        "results/logs/press_measured.log",
+    benchmark:
+        "results/benchmarks/press_measured.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=4000,
+    params:
+        scans=[{"name": name} | {key: scan[key] for key in PRESSED} for name, scan in MEASURED.items()],
+        source=digest("press_measured"),
+    message:
+        "Contacts of measured surfaces"
+    script:
+        "../scripts/press_measured.py"
+
+
+rule evaluate_measured:
+    input:
+        pool="results/ensembles/measured.nc",
+        curves=cases.pool_curves(CASES, "measured"),
+    output:
+        csv=[
+            "results/tables/measured_scans.csv",
+            "results/tables/measured_fits.csv",
+            "results/tables/measured_kinetics.csv",
+        ],
+        nc=[
+            "results/tables/measured_scans.nc",
+            "results/tables/measured_fits.nc",
+            "results/tables/measured_kinetics.nc",
+        ],
+    log:
+        "results/logs/evaluate_measured.log",
+    benchmark:
+        "results/benchmarks/evaluate_measured.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        names=list(MEASURED),
+        forces=[scan["forces"] for scan in MEASURED.values()],
+        media=config["media"]["cases"],
+        times=config["media"]["times"],
+        fit=config["scaling"],
+        seed=config["seed"],
+        source=digest("evaluate_measured"),
+    message:
+        "Power laws and kinetics of measured surfaces"
+    script:
+        "../scripts/evaluate_measured.py"

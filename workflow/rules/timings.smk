@@ -1,0 +1,129 @@
+# Rules that measure computing times, and compare the cost and the error of models. Jobs that measure times run alone.
+# They have a high priority: at the end of a run, the jobs that use their tables would have to wait for them.
+
+
+rule measure_methods:
+    output:
+        csv="results/tables/methods.csv",
+        nc="results/tables/methods.nc",
+    log:
+        "results/logs/measure_methods.log",
+    benchmark:
+        "results/benchmarks/measure_methods.tsv"
+    priority: 3
+    conda:
+        "../envs/viscorough.yaml"
+    threads: ALL_CORES
+    resources:
+        mem_mb=8000,
+    params:
+        **chosen("methods", "levels", "repeats", "longest"),
+        problems=cases.method_problems(config),
+        seed=config["seed"],
+        source=digest("measure_methods"),
+    message:
+        "Cost and error of every method"
+    script:
+        "../scripts/measure_methods.py"
+
+
+rule measure_surfaces:
+    output:
+        csv="results/tables/one_surface.csv",
+        nc="results/tables/one_surface.nc",
+    log:
+        "results/logs/measure_surfaces.log",
+    benchmark:
+        "results/benchmarks/measure_surfaces.tsv"
+    priority: 3
+    conda:
+        "../envs/viscorough.yaml"
+    threads: ALL_CORES
+    resources:
+        mem_mb=2000,
+    params:
+        **config["methods"]["one_surface"],
+        seed=config["seed"],
+        source=digest("measure_surfaces"),
+    message:
+        "Cost and error of every model of one surface"
+    script:
+        "../scripts/measure_surfaces.py"
+
+
+rule compare_level_placement:
+    output:
+        csv="results/tables/level_placement.csv",
+        nc="results/tables/level_placement.nc",
+    log:
+        "results/logs/compare_level_placement.log",
+    benchmark:
+        "results/benchmarks/compare_level_placement.tsv"
+    priority: 3
+    conda:
+        "../envs/viscorough.yaml"
+    threads: ALL_CORES
+    resources:
+        mem_mb=4000,
+    params:
+        **config["methods"]["scenes"],
+        repeats=config["methods"]["repeats"],
+        seed=config["seed"],
+        source=digest("compare_level_placement"),
+    message:
+        "Placement of levels: by the package, by hand, naively"
+    script:
+        "../scripts/compare_level_placement.py"
+
+
+rule compare_means:
+    input:
+        discs="results/ensembles/discs.nc",
+        lines="results/ensembles/lines.nc",
+        size_discs="results/ensembles/size_discs.nc",
+        mdr_lambda="results/tables/mdr_lambda.csv",
+        scaling="results/tables/scaling.csv",
+        one_surface="results/tables/one_surface.csv",
+    output:
+        csv="results/tables/mean_accuracy.csv",
+        nc="results/tables/mean_accuracy.nc",
+    log:
+        "results/logs/compare_means.log",
+    benchmark:
+        "results/benchmarks/compare_means.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        conventions=config["figures"],
+        source=digest("compare_means"),
+    message:
+        "Cost and error of every model of the mean of many surfaces"
+    script:
+        "../scripts/compare_means.py"
+
+
+rule choose_models:
+    input:
+        one_surface="results/tables/one_surface.csv",
+        mean_accuracy="results/tables/mean_accuracy.csv",
+    output:
+        csv="results/tables/sufficient_models.csv",
+        nc="results/tables/sufficient_models.nc",
+    log:
+        "results/logs/choose_models.log",
+    benchmark:
+        "results/benchmarks/choose_models.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        source=digest("choose_models"),
+    message:
+        "The cheapest sufficient model for every question"
+    script:
+        "../scripts/choose_models.py"

@@ -1,0 +1,21 @@
+"""Compute the motion of the discs in other media than the purely viscous medium of the paper."""
+
+from viscorough.io import netcdf
+from viscorough_study.comparisons.media_kinetics import COLUMNS, media_of_batches
+from viscorough_study.run.job_log import run_job
+from viscorough_study.run.tables import recorded, write_table
+
+
+def main(curves, csv, nc, **settings):
+    """Write the table of depth, velocity and local exponent over time, in every medium.
+
+    curves : files with the loading curves of all combinations of force, viscosity, diameter and rms height
+    csv, nc : files to write; settings : further arguments of `media_of_batches`
+    """
+    table = media_of_batches(map(netcdf.read, curves), **settings)
+    title = "Kinetics in other media"
+    attributes = recorded(settings=settings)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="point", title=title, attributes=attributes)
+
+
+run_job(globals(), main)

@@ -48,12 +48,10 @@ def inner_slopes(log_x, log_y, half_width):
     log_x : ln X, equally spaced, shape (abscissae,)
     log_y : ln y, shape (curves, abscissae), without nan
     half_width : a local slope is fitted to the points within ± half_width in ln X
-    Returns ln X and the slopes, of shapes (inner abscissae,) and (curves, inner abscissae). Raises ValueError if there
-    is no inner abscissa.
+    Returns ln X and the slopes, of shapes (inner abscissae,) and (curves, inner abscissae). Both are empty if there is
+    no inner abscissa.
     """
-    reach = int(half_width / (log_x[1] - log_x[0]) + ROUNDING)
-    if reach < 1 or log_x.size <= 2 * reach:
-        raise ValueError(f"inner_slopes: {log_x.size} abscissae are too few for lines of {2 * reach + 1} points")
+    reach = int(half_width / (log_x[1] - log_x[0]) + ROUNDING) if log_x.size > 1 else 1
     return log_x[reach:-reach], local_slopes(log_x, log_y, half_width)[:, reach:-reach]
 
 

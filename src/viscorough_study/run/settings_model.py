@@ -250,7 +250,8 @@ class Verdicts(Section):
         "number of synthetic ensembles of each kind; they show how often the test accepts power laws, and other curves"
     )
     end_decades: real(above=0, high=2, unit="decades") = meaning(
-        "interval of X at the end of a curve over which the slope of region (c) is fitted"
+        "interval of X at the end of a curve over which the slope of region (c) is fitted",
+        also="at least 1/`ensemble.per_decade`",
     )
 
 

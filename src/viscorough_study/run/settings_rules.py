@@ -108,11 +108,12 @@ def _range_name(low, high):
 
 
 def _too_narrow_slope(settings):
-    half_width, per_decade = settings.scaling.slope_half_width, settings.ensemble.per_decade
-    if half_width * per_decade < 1 - 1e-9:
-        fault = f"scaling.slope_half_width: {half_width:g} decades hold no further abscissa"
-        allowed = f"from 1/per_decade of ensemble, {1 / per_decade:.4g}"
-        yield [["scaling", "slope_half_width"], ["ensemble", "per_decade"]], f"{fault}; allowed: {allowed}"
+    per_decade = settings.ensemble.per_decade
+    for path in (["scaling", "slope_half_width"], ["verdicts", "end_decades"]):
+        if (width := _value(settings, path)) * per_decade < 1 - 1e-9:
+            allowed = f"from 1/per_decade of ensemble, {1 / per_decade:.4g}"
+            fault = f"{name_of(path)}: {width:g} decades hold no further abscissa"
+            yield [path, ["ensemble", "per_decade"]], f"{fault}; allowed: {allowed}"
 
 
 def _too_few_abscissae(settings):

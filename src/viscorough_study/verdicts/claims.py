@@ -275,7 +275,7 @@ def cases_shown(rows):
     """
     if len(rows) <= CASES_SHOWN_MAX:
         return rows
-    farthest = np.abs(rows["value"] - rows["expected"]).idxmax()
+    farthest = np.abs(rows["value"] - rows["expected"]).fillna(0).idxmax()
     return rows.loc[sorted({rows.index[0], farthest, rows.index[-1]})]
 
 

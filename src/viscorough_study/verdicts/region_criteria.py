@@ -117,19 +117,29 @@ def last_region(evidence, tolerance):
     """Test whether the curves end on the line vt/h = X in region (c); yield two verdicts for each Hurst exponent.
 
     Two means over the curves are tested: κ = Xh/(vt) at the largest X of the curves, and the slope of ln(vt/h) along
-    ln X in the last part of the curves.
+    ln X in the last part of the curves. Both are undecided if all curves have fewer than two X of this part in common.
     """
     paper_slope = evidence.paper_value("regions", "slope_last")
     for hurst, ensemble in evidence.whole.items():
         x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
-        last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
-        end = np.flatnonzero(x >= x[last] / 10 ** evidence.rules["end_decades"])[0]
+        reached = _reached_by_all(ensemble)
+        reached = reached[x[reached] >= x[reached].max(initial=0.0) / 10 ** evidence.rules["end_decades"]]
+        if reached.size < 2:
+            for name in ("prefactor", "slope"):
+                yield judged(f"{hurst_name(hurst)}, {name}", UNDEFINED, np.nan, None)
+            continue
+        end, last = reached[[0, -1]]
         velocity = ensemble["velocity"].values[:, end : last + 1]
         slopes = np.polyfit(np.log(x[end : last + 1]), np.log(velocity).T, 1)[0]
         complete = reference.COMPLETE_CONTACT_STIFFNESS
         for name, samples, expected in (("prefactor", stiffness[:, last], complete), ("slope", slopes, paper_slope)):
             ends, counts = (expected - tolerance, expected + tolerance), {"cases": 2 * len(evidence.pooled)}
             yield _mean_case(evidence, f"{hurst_name(hurst)}, {name}", samples, expected, ends, **counts)
+
+
+def _reached_by_all(ensemble):
+    """Return the indices of the abscissae that all curves reach."""
+    return np.flatnonzero(ensemble["fraction_defined"].values == 1)
 
 
 def _mean_case(evidence, name, samples, expected, allowed, **counts):
@@ -218,10 +228,11 @@ def separation(evidence, tolerance):
 def complete_contact(evidence, tolerance):
     """Test whether the contact is almost complete where region (c) begins, by the mean contact fraction.
 
-    Region (c) begins at the X from which on the slope of ln(vt/h) along ln X is 1 within `SLOPE_OF_LINE`.
+    Region (c) begins at the X from which on the slope of ln(vt/h) along ln X is 1 within `SLOPE_OF_LINE`. The claim is
+    undecided if the curves do not reach this X.
     """
     for hurst, ensemble in evidence.whole.items():
-        defined = ensemble["fraction_defined"].values == 1
+        defined = _reached_by_all(ensemble)
         log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
         inner, (slopes,) = inner_slopes(log_x, mean[None], evidence.limits["slope_half_width"] * np.log(10))
         below = np.flatnonzero(slopes < 1 - SLOPE_OF_LINE)
@@ -236,9 +247,12 @@ def complete_contact(evidence, tolerance):
 def complete_contact_end(evidence, tolerance):
     """Test whether the contact is almost complete at the largest X that all curves of a Hurst exponent reach."""
     for hurst, ensemble in evidence.whole.items():
-        last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
-        name = f"{hurst_name(hurst)}, at X = {ensemble['x'].values[last]:.3g}"
-        yield _contact_case(evidence, name, ensemble, last, tolerance)
+        reached = _reached_by_all(ensemble)
+        if not reached.size:
+            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
+            continue
+        name = f"{hurst_name(hurst)}, at X = {ensemble['x'].values[reached[-1]]:.3g}"
+        yield _contact_case(evidence, name, ensemble, reached[-1], tolerance)
 
 
 def _contact_case(evidence, name, ensemble, abscissa, tolerance):

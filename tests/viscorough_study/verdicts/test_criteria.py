@@ -218,6 +218,15 @@ def test_contact_at_the_end_of_the_curves_is_judged_separately(sample):
     assert {case["verdict"] for case in cases} == {"reproduced"}
 
 
+@pytest.mark.parametrize("number", [0, 1])
+def test_region_c_of_curves_that_end_early_is_undecided(sample, number):
+    reached = np.arange(sample.discs.sizes["abscissa"]) < number
+    early = dataclasses.replace(sample, discs=sample.discs.where(xr.DataArray(reached, dims="abscissa")))
+    cases = [*last_region(early, 0.05), *complete_contact(early, 0.1)]
+    cases += complete_contact_end(early, 0.1) if number == 0 else []
+    assert {case["verdict"] for case in cases} == {"undecided"}
+
+
 def test_change_of_stiffness_with_the_grid_is_judged_at_given_depths(sample):
     """The comparison is not at given forces, and only over grids with enough elements in contact."""
     cases = list(no_grid(sample, 0.12))

@@ -130,6 +130,11 @@ def _draw_one_surface(axes, rows):
 
 
 def _draw_mean(axes, rows):
+    rows = rows.dropna(subset="error")
+    timed = rows[rows["processor_s"] > 0]["processor_s"]
+    if timed.empty:
+        _say(axes, "no mean in this range of X")
+        return
     grids = rows[rows["model"] == GRID].dropna(subset="processor_s")
     ends = [
         _draw_curve(axes, curve, "o-", color, f"{across:g} × {across:g}")
@@ -138,7 +143,6 @@ def _draw_mean(axes, rows):
     for model, look in {MDR_PI: "v-", MDR_FITTED: "^-"}.items():
         if len(curve := rows[rows["model"] == model]):
             ends.append(_draw_curve(axes, curve, look, style.GREY, model))
-    timed = rows[rows["processor_s"] > 0]["processor_s"]
     _lines_of_equal_error(axes, ERRORS, _limits(rows))
     axes.set_xlim(timed.min() / 12, timed.max() * 40)
     _label_ends(axes, ends)

@@ -152,6 +152,9 @@ def _draw_mean(axes, rows):
 
 def _draw_solvers(axes, methods, velocity, other_solvers):
     rough = methods[methods["hurst"].notna() & (methods["elements"] <= ACROSS)]
+    if rough.empty:
+        _say(axes, f"no grid of at most {ACROSS} elements across")
+        return
     rough = rough[rough["elements"] == rough["elements"].max()]
     rough = rough[rough["hurst"] == rough["hurst"].min()]
     rough = rough.assign(error=np.maximum(rough["error"], FLOOR))

@@ -76,7 +76,7 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
       elements_min elements are in contact at X_low, and if at least the fraction fraction_min of the realizations
       reaches every abscissa.
 
-    A window with fewer than three abscissae is too short for a fit, and is None.
+    A window with fewer than three abscissae is too short for a fit. It is None, or left out if it is one of `fixed`.
 
     All windows are determined from the geometric mean, also for fits to the arithmetic mean.
     """
@@ -87,13 +87,15 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
         middle = np.sqrt(np.prod(region))
         windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
+    for name, window in windows.items():
+        if window and in_window(mean["x"].values, window).sum() < FEWEST:
+            windows[name] = None
     for low, high in fixed:
         inside = in_window(mean["x"].values, (low, high))
         enough = mean["contact_count_median"].values[inside][:1] >= limits["elements_min"]
-        if enough.all() and (mean["fraction_defined"].values[inside] >= fraction_min).all():
+        if inside.sum() >= FEWEST and enough.all() and (mean["fraction_defined"].values[inside] >= fraction_min).all():
             windows[f"X = {low:g} to {high:g}"] = low, high
-    numbers = {name: in_window(mean["x"].values, window).sum() if window else 0 for name, window in windows.items()}
-    return {name: window if numbers[name] >= FEWEST else None for name, window in windows.items()}
+    return windows
 
 
 def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):

@@ -44,6 +44,13 @@ def test_fit_returns_the_curve_of_the_interface():
     assert curves["x"].min() == X[X >= 1e-5][0], "where more than one element touches"
 
 
+def test_curves_of_single_elements_have_no_interface():
+    alone = ensemble(lambda x: 0.5 * x).sel(rms_convention="disc").isel(abscissa=np.flatnonzero(X < 1e-5))
+    row, curve = fit_interface(alone, PUNCH, **HOW)
+    assert row == {"realizations": 40, "kappa_c": PUNCH}
+    assert curve.empty
+
+
 def test_tables_have_rows_of_every_grid():
     """Lines are included if their Hurst exponents occur among the discs."""
     grids = ((33, 797, 0.5), (33, 797, 0.7), (65, 3209, 0.5), (65, 3209, 0.9))

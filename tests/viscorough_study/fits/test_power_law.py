@@ -77,6 +77,16 @@ def test_windows_of_fixed_x_need_elements_in_contact_and_realizations():
     assert set(windows) == set(FITTED["window_rule"])
 
 
+def test_windows_with_two_abscissae_are_not_fitted():
+    """With two abscissae per decade, three lie in a window that begins at one of them, and two in a shifted window."""
+    coarse, fixed = curves(three_regions(x), elements=10**7).isel(abscissa=slice(None, None, 10)), (1e-4, 1e-3)
+    shifted = tuple(2 * end for end in fixed)
+    windows = named_windows(coarse, stiffness_range=(0.03, 0.1), fixed=[fixed, shifted], **LIMITS)
+    assert windows["kappa"] is None
+    assert windows["X = 0.0001 to 0.001"] == fixed
+    assert set(windows) == {*FITTED["window_rule"], "X = 0.0001 to 0.001"}
+
+
 def test_fit_is_least_squares_in_logarithms():
     """The reference is numpy's polynomial fit of numpy's averages. The ends of the window belong to it."""
     velocity = scattered(0.4, 0.7, 9, seed=2)

@@ -22,7 +22,8 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def claims(folder, seed, cores):
     """Return the table of claims of a run in a folder."""
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", folder]
+    snakefile = str(ROOT / "workflow/Snakefile")
+    command = [sys.executable, "-m", "snakemake", "--snakefile", snakefile, "--directory", folder]
     command += ["--cores", str(cores), "--quiet", "all", "--config", f"seed={seed}"]
     subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
     return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])

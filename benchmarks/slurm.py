@@ -4,9 +4,9 @@
 
 The script needs root rights and Debian's packages slurm-wlm and munge. It starts a cluster of this machine on the
 loopback interface, with files in a temporary folder and without the machine's own settings. The small settings are then
-run twice, each time in a copy of the project: locally, and through Slurm with profiles/slurm, while a job is cancelled,
-and the node is drained and then lost. The files must equal the local run's to the last byte. Logs and benchmarks, which
-contain times, must only have the same names.
+run twice, each time in a copy of the project: locally, and through Slurm with the profile `slurm`, while a job is
+cancelled, and the node is drained and then lost. The files must equal the local run's to the last byte. Logs and
+benchmarks, which contain times, must only have the same names.
 """
 
 import contextlib
@@ -31,7 +31,7 @@ HANGS = 3600  # seconds after which a run counts as hanging, even on a busy mach
 NODE = socket.gethostname().split(".")[0]
 # The cluster has no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
-THROUGH_SLURM = ("--profile", "profiles/slurm", *QUICK)
+THROUGH_SLURM = ("--profile", "workflow/profiles/slurm", *QUICK)
 
 MUNGED = "munged --foreground --force --num-threads 2 --socket {0}/munge.socket --key-file {0}/munge.key \
 --pid-file {0}/munged.pid --log-file {0}/munged.log --seed-file {0}/munged.seed"

@@ -22,7 +22,9 @@ def test_error_names_a_damaged_input_that_can_be_made_again(finished):
     damaged = DAMAGES["second half zeros"](whole)
     curves.write_bytes(damaged)
     output = snakemake(finished, *TEST, "--forcerun", "aggregate_curves", "--", TARGET, fails=True)
-    assert re.search("ERROR (.*)", output)[1].startswith(f"ValueError: {CURVES}: not readable (")
+    message = re.search("ERROR (.*)", output)[1]
+    assert message.startswith(f"ValueError: {CURVES}: not readable (")
+    assert message.endswith("; remove the file, so that the next run makes it again")
     assert curves.read_bytes() == damaged
     assert not (finished / TARGET).exists()
     curves.unlink()
@@ -37,6 +39,32 @@ def test_error_names_a_curve_with_impossible_numbers(finished):
         file["force"][:] = file["force"][:][:, ::-1]
     output = snakemake(finished, *TEST, "--forcerun", "aggregate_curves", "--", TARGET, fails=True)
     assert re.search("ERROR (.*)", output)[1].startswith(f"ValueError: {CURVES}: ")
+
+
+def test_dry_run_keeps_the_lock_of_a_killed_run(tmp_path):
+    """The next real run removes it, see test_interruptions."""
+    lock = copy_project(tmp_path) / ".snakemake/locks/0.input.lock"
+    lock.parent.mkdir(parents=True)
+    lock.touch()
+    snakemake(tmp_path, *TEST, "-n")
+    assert lock.exists()
+
+
+def test_environment_without_the_package_is_reported_in_one_line(unmade):
+    """So it is between the two steps of `make environment`."""
+    script = (
+        "import os, sys\n"
+        "sys.path[:] = [path for path in sys.path if not os.path.isdir(os.path.join(path, 'viscorough'))]\n"
+        "from snakemake.cli import main\n"
+        "main(['--dry-run'])\n"
+    )
+    variables = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, cwd=unmade, env=variables, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    message = f"Error: the package viscorough is not installed for {sys.executable}; run `make environment` in {unmade}"
+    assert done.stderr.splitlines()[-1].startswith(message)
+    assert "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("kind", ["lines", "discs"])

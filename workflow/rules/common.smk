@@ -2,11 +2,15 @@
 
 The first part finds the project, checks packages and folders, and sets the environment of the jobs. It comes before the
 imports of this project's packages. Code that does not depend on Snakemake is in viscorough_study.
+
+A comment gives the reason for each name of Snakemake that its documentation does not contain. All these names exist
+since Snakemake 9.0.0 at the latest.
 """
 
 import hashlib
 import importlib.util
 import os
+import re
 import sys
 from functools import cache
 from pathlib import Path
@@ -15,7 +19,7 @@ import yaml
 from snakemake.io import apply_wildcards, get_wildcard_names
 
 # Folder of this workflow, found from this file: a workflow that uses this workflow as a module is in another folder.
-# `workflow.source_path` does not serve, since it returns the path of a copy of the file.
+# Not documented: `current_basedir`. `workflow.source_path`, which is documented, returns the path of a copy of the file.
 WORKFLOW = Path(workflow.current_basedir).parent
 PROJECT = WORKFLOW.parent
 # A timed job requests this number of threads, which Snakemake reduces to the number of --cores, so that no other job
@@ -52,6 +56,8 @@ def use_packages_of_checkout():
             "start, since Snakemake does not quote it; move the folder to a path without"
         )
     source = PROJECT / "src"
+    if importlib.util.find_spec("viscorough") is None:
+        raise ModuleNotFoundError(name="viscorough")
     if not (source / "viscorough_study").is_dir():
         from viscorough import __version__
 
@@ -84,7 +90,6 @@ def check_folder():
             )
 
 
-use_packages_of_checkout()
 check_folder()
 
 # Use one thread per job, since jobs run side by side. Numba reads only its own variable, not OMP_NUM_THREADS.
@@ -94,16 +99,26 @@ os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
 os.environ.update(MALLOC_MMAP_THRESHOLD_=str(2**25), MALLOC_TRIM_THRESHOLD_=str(10**9))
 os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # use large pages of memory, if the system has them
 
-from viscorough.io.atomic import path_named
-from viscorough_study.run import cases
-from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
-from viscorough_study.run.paper_data import read_paper, read_records
-from viscorough_study.run.scans import scans
-from viscorough_study.run.settings import complete_settings, source_of
-from viscorough_study.run.source_digest import SourceDigests
-from viscorough_study.run.stale_locks import remove_stale_locks
+try:
+    use_packages_of_checkout()
+    from viscorough.io.atomic import path_named
+    from viscorough_study.run import cases
+    from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
+    from viscorough_study.run.paper_data import read_paper, read_records
+    from viscorough_study.run.scans import scans
+    from viscorough_study.run.settings import complete_settings, source_of
+    from viscorough_study.run.source_digest import SourceDigests
+    from viscorough_study.run.stale_locks import remove_stale_locks
+except ModuleNotFoundError as error:  # also raised if a package has no metadata
+    end_run(
+        f"the package {error.name} is not installed for {sys.executable}; run `make environment` in {PROJECT}, and then "
+        f"{PROJECT}/.venv/bin/snakemake"
+    )
 
-if workflow.is_main_process:  # false in the processes of jobs
+# Not documented: `is_main_process`, which is false in the processes of jobs. Snakemake does not say whether a run is dry
+# before all rules are read, so the options are read here. A dry run must not change anything.
+DRY_RUN = any(re.fullmatch("--dry-?run|-[a-zA-Z]*n[a-zA-Z]*", word) for word in sys.argv[1:])
+if workflow.is_main_process and not DRY_RUN:
     remove_stale_locks()
 
 SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1], ".snakemake/sources.json")
@@ -140,7 +155,7 @@ def digest(script, figure=None):
     """Return a digest of the source code that a job uses, so that a change of this code reruns the job.
 
     The param `source` of every rule with a script is this digest. It replaces Snakemake's trigger `code`, which
-    profiles/default switches off: that trigger does not see changes of the modules that a script imports, and it reruns
+    workflow/profiles/default switches off: that trigger does not see changes of the modules that a script imports, and it reruns
     a job when only comments have changed.
 
     script : name of the script in workflow/scripts
@@ -200,6 +215,7 @@ def category(name):
 
 def require_current():
     """End the run with one line if any result is outdated, since the captions of the report would not match it."""
+    # Not documented: `dag`. Only the command line (`snakemake --dry-run`) otherwise tells which jobs are to be run.
     if outdated := sorted({job.rule.name for job in workflow.dag.needrun_jobs() if job.output}):
         end_run(
             "results were not made with these settings and sources; run the workflow first, or give the settings that "
@@ -212,8 +228,9 @@ def benchmark_files(without=()):
 
     without : rules that are left out
     """
-    # Snakemake has no public list of the rules. Another workflow that uses this workflow as a module may have further
-    # rules, which are in another folder.
+    # Not documented: the list of all rules, and the folder of a rule. Another workflow that uses this workflow as a
+    # module may have further rules, which are in another folder. Also not documented: both functions of wildcards, which
+    # understand the regular expressions that Snakemake adds to the names of files.
     own = [rule for rule in workflow.rules if rule.benchmark and Path(rule.basedir).is_relative_to(WORKFLOW)]
     jobs = [job | {"format": "png"} for job in cases.pool_jobs(CASES)]
     files = {}

@@ -1,6 +1,7 @@
 """Write messages, warnings and tracebacks of a job to its log file; every script of the workflow uses this module."""
 
 import logging
+import re
 import sys
 import traceback
 
@@ -19,7 +20,17 @@ def run_job(names, main):
     if job := names.get("snakemake"):
         log_to(job.log[0])
         params = {name: value for name, value in job.params.items() if name != "source"}
-        main(**job.input, **job.output, **params)
+        try:
+            main(**job.input, **job.output, **params)
+        except ValueError as error:
+            if _names_a_damaged_result(error):
+                raise ValueError(f"{error}; remove the file, so that the next run makes it again") from error
+            raise
+
+
+def _names_a_damaged_result(error):
+    """Return True if an error names a file of this workflow that cannot be read, and no remedy."""
+    return re.match(r"\S*results/(ensembles|curves|surfaces)/\S+: not readable", str(error)) is not None
 
 
 def log_to(path):

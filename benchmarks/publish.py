@@ -23,8 +23,10 @@ import click
 import pandas as pd
 from measuring import write_json
 from PIL import Image  # matplotlib depends on it
+from scipy.special import gamma as gamma_function
 
 from viscorough.law.calibrated_law import CONSTANTS
+from viscorough.reference import exponent_alpha, zeta_elastic, zeta_viscous
 from viscorough_study.fits.infinite_grid import OMEGA
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
@@ -122,12 +124,12 @@ def other_runs(table):
 def opposed_cases(runs):
     """Return [(claim, case)] that hold in one of several tables of verdicts and fail in another.
 
-    Cases of complete contact are compared without the X in their names, which differs between runs.
+    Cases are compared without the numbers of a run in their names, such as the X of complete contact.
     """
     outcomes = {}
     for table in runs:
         for row in table.itertuples():
-            case = re.sub(r", from X = .*", "", row.case)
+            case = re.sub(r", from X = .*|, at X = .*| times [\d.]+$|, of \d+$", "", row.case)
             outcomes.setdefault((row.claim, case), set()).add(row.verdict)
     return [key for key, found in outcomes.items() if found & set(HELD) and "not reproduced" in found]
 
@@ -135,12 +137,86 @@ def opposed_cases(runs):
 def answer_lines():
     """Return the answer in one paragraph, the number of claims by verdict, and the findings that explain failures."""
     table = published_claims()
-    counts = ", ".join(f"{number} {verdict}" for verdict, number in counted_verdicts(table))
-    total = sum(number for _, number in counted_verdicts(table))
-    failing = "; ".join(findings(table, CLAIMS))
-    number = ["one finding", "two findings", "three findings", "four findings"][len(findings(table, CLAIMS)) - 1]
-    scoreboard = f"Of {total} claims on physics: {counts}. The failures follow from {number}: {failing}."
-    return paragraph(f"**{answer(table)}**") + "\n" + paragraph(scoreboard)
+    failing = findings(table, CLAIMS)
+    number = ["one finding", "two findings", "three findings", "four findings"][len(failing) - 1]
+    text = f"{scoreboard()} The failures follow from {number}: {'; '.join(failing)}."
+    return paragraph(f"**{answer(table)}**") + "\n" + paragraph(text)
+
+
+def scoreboard():
+    """Return the numbers of claims by verdict, own and quoted apart, of the published run and of the default run."""
+    texts = []
+    for name in ("docs/claims.csv", DEFAULT_CLAIMS):
+        table = published_claims(name)
+        totals = {origin: counted_verdicts(table, origin) for origin in ("own", "quoted")}
+        counts = {o: ", ".join(f"{number} {verdict}" for verdict, number in total) for o, total in totals.items()}
+        numbers = {origin: sum(number for _, number in total) for origin, total in totals.items()}
+        texts.append(
+            f"of {numbers['own']} own claims of the paper on physics, {counts['own']}; of {numbers['quoted']} claims "
+            f"that it quotes from earlier work, {counts['quoted']}"
+        )
+    here, default = texts
+    text = f"Verdicts (`{origin_of('scaling.csv')['command']}`): {here}."
+    if default != here:
+        text += f" The default run (`make reproduce`), with the paper's number of discs, has: {default}."
+    return text
+
+
+def origin_of(name):
+    """Return the command, date and commit with which a file of docs/results was made."""
+    return json.loads((ROOT / "docs/results/published.json").read_text(encoding="utf-8"))[name]
+
+
+def disc_fits():
+    """Return the published fits of discs, in the conventions of the figures, by Hurst exponent."""
+    table = pd.read_csv(ROOT / "docs/results/scaling.csv")
+    chosen = "source == 'discs' and case_group == 'base' and window_rule == 'default'"
+    table = table.query(f"{chosen} and average == 'geometric' and rms_convention == 'disc'")
+    return table.set_index("hurst", drop=False)
+
+
+def prefactors():
+    """Return ζ with a free exponent and with H/(1 + H), next to Eqs. 4 and 11, by Hurst exponent.
+
+    The prefactor is not defined if the curve departs from the law with H/(1 + H) by more than the tolerance of ζ.
+    """
+    table = disc_fits()
+    hurst, alpha = table["hurst"], exponent_alpha(table["hurst"])
+    eq_11 = zeta_viscous(hurst) * gamma_function(2 - alpha)
+    table = table.assign(alpha=alpha, eq_4=zeta_elastic(hurst), eq_11=eq_11)
+    table["defined"] = table["residual_fixed"] <= CLAIMS["zeta_viscous"]["tolerance"]
+    table["if_radius"] = 2 ** (1 - alpha) * table["zeta_fixed"] / eq_11
+    return table
+
+
+def prefactor_table():
+    """Return the prefactors as a Markdown table, and the constants that reconcile Eq. 12 with the discs."""
+    head = "| *H* | region (b), *X* | *β* free | residual | *ζ* at this *β* | *ζ* at *β* = *H*/(1 + *H*) | residual "
+    head += "| Eq. 4 | Eq. 11 without Γ, (2 − *H*)Γ(2 − *α*) |"
+    row = "| {hurst:g} | {x_low:.2g} to {x_high:.2g} | {beta:.3f} [{beta_low:.3f}, {beta_high:.3f}] | {residual:.3f} "
+    row += (
+        "| {zeta:.2f} [{zeta_low:.2f}, {zeta_high:.2f}] | {fixed} | {residual_fixed:.3f} | {eq_4:.2f} | {eq_11:.2f} |"
+    )
+    table = prefactors()
+    fixed = filled("{zeta_fixed:.2f} [{zeta_fixed_low:.2f}, {zeta_fixed_high:.2f}]", table)
+    fixed = [text if met else f"not defined ({text})" for text, met in zip(fixed, table["defined"], strict=True)]
+    rows = filled(row, table.assign(fixed=fixed))
+    return markdown_table(head, rows) + "\n" + paragraph(constants())
+
+
+def constants():
+    """Return a sentence with the constants that reconcile Eq. 12 with the discs from H = 0.4 on."""
+    table = pd.read_csv(ROOT / "docs/results/zeta_laws.csv").query("range == 'region' and law == @LAST")
+    table = table[table["hurst_min"] == table["hurst_min"].max()].set_index("measure")
+    texts = {name: f"{row.value:.2f} [{row.low:.2f}, {row.high:.2f}]" for name, row in table.iterrows()}
+    left = table["value"]
+    return (
+        f"From *H* = {table['hurst_min'].iloc[0]:g} on, one constant for all *H* reconciles Eq. 12 with the discs in "
+        f"region (b): a factor of {texts['common factor']} on *vt*/*h*, with a root mean square of "
+        f"{left['residual']:.3f} in ln(*vt*/*h*), or a factor of {texts['factor of X']} on *X*, with "
+        f"{left['residual with factor of X']:.3f}. As printed, without a constant, it is {left['deviation']:.3f} "
+        "([zeta_laws.csv](results/zeta_laws.csv))."
+    )
 
 
 def first_minutes():
@@ -162,7 +238,8 @@ def sentences():
     rows = []
     for sentence in read_paper(ROOT / "resources/paper", "sentences"):
         judged = "; ".join(f"`{name}`: {verdict_by_claim[name]}" for name in sentence["claims"])
-        verdict = judged or f"not judged: {sentence['why']}"
+        verdict = judged or "not judged"
+        verdict += f": {sentence['why']}" if "why" in sentence else ""
         rows.append(f"| {sentence['where']} | {sentence['says']} | {sentence['origin']} | {verdict} |")
     return markdown_table("| where | what the paper says | origin | verdict |", rows)
 
@@ -374,6 +451,7 @@ def tables():
         ("docs/performance.md", "large maps"): large_maps(),
         ("docs/outside.md", "outside"): outside_numbers(),
         ("docs/scaling.md", "infinite grid"): infinite_grid(),
+        ("docs/theory.md", "prefactors"): prefactor_table(),
         ("docs/theory.md", "interface law"): interface_law(),
         ("docs/verification.md", "law errors"): law_errors(),
         ("docs/published.md", "results"): published_results(records),

@@ -1,6 +1,7 @@
 """Draw Figure 4 of the paper: the exponent β against the Hurst exponent."""
 
 import numpy as np
+from matplotlib.legend_handler import HandlerTuple
 
 from viscorough import reference
 from viscorough_study.figures import style
@@ -28,13 +29,16 @@ def plot_exponent(scaling, conventions, hurst_range):
         style.mark_with_interval(axes, row.hurst, row.beta, (row.beta_low, row.beta_high), looks[row.hurst])
     hurst = np.linspace(0, 1, 101)
     (law,) = axes.plot(hurst, reference.exponent_beta(hurst), "--", color=style.GREY)
-    legend = {"$H/(1+H)$, Eq. 10": law}
+    legend, apart = {"$H/(1+H)$, Eq. 10": law}, {}
     if len(lines):
         legend[f"MDR, {style.count_text(lines['realizations'])} lines for each $H$"] = (band, solid)
     if len(discs):
-        symbol = style.handle("", color=style.GREY, linestyle="", marker="s")
-        legend[f"boundary elements, {style.count_text(discs['realizations'])} discs for each $H$"] = symbol
-    figure.legend(legend.values(), legend.keys(), loc="outside upper center")
+        symbols = tuple(style.hurst_handles({row.hurst: looks[row.hurst] for row in discs.itertuples()}, linestyle=""))
+        names = ", ".join(f"{row.hurst:g}" for row in discs.itertuples())
+        text = f"boundary elements, {style.count_text(discs['realizations'])} discs for each $H$:\n$H$ = {names}"
+        legend[text] = symbols
+        apart[symbols] = HandlerTuple(ndivide=None)  # the markers side by side, not on top of each other
+    figure.legend(legend.values(), legend.keys(), loc="outside upper center", handler_map=apart, handlelength=4.5)
     axes.set(xlim=(-0.02, 1.02), xlabel="Hurst exponent $H$", ylabel=r"exponent $\beta$")
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
     return figure

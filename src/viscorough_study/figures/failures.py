@@ -23,7 +23,9 @@ METHODS = {
     "explicit steps": "time: explicit steps",
     "media, correspondence": "media: from the curve",
     "media, steps": "media: time steps",
-    "power law with Γ": "power law with Γ",
+    "MDR": "MDR, to a factor of two",
+    "power law": "power law, to a factor of two",
+    "power law with Γ": "with Γ, to a factor of two",
 }
 BAR = 0.72  # height of a bar, in units of the distance between bars
 ERRORS = (1.0, 0.1, 0.01, 1e-3)  # ticks of the axes of errors

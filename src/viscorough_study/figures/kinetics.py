@@ -30,9 +30,10 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     scaling : table of fitted power laws, with the ends of region (b); conventions : {column of this table: value}
     fraction_min : a mean is drawn if at least this fraction of the realizations has a value
 
-    Region (a), with one element in contact, is grey; only its last decade is drawn. Bars at the bottom mark region (b)
-    of each Hurst exponent. Velocities in SI units are computed with the rms height of the combination. They are exact
-    if the figure measures h in the same region of the surface as the generation of the surfaces, which set this height.
+    The upper axis of the left panel is the abscissa of the paper. Region (a), with one element in contact, is grey;
+    only its last decade is drawn. Bars at the bottom, with the Hurst exponent, mark region (b). Velocities in SI units
+    are computed with the rms height of the combination. They are exact if the figure measures h in the same region of
+    the surface as the generation of the surfaces, which set this height.
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in ensembles)
     figure = style.new_figure(112)
@@ -59,6 +60,9 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
         raw.annotate(name, end, (0, 3), textcoords="offset points", ha="center", **halo)
     raw.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $v$ (m/s)")
     collapsed.set(xscale="log", yscale="log", xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$")
+    abscissa_of_paper = collapsed.secondary_xaxis("top", functions=(lambda x: 4 * x, lambda x: x / 4))
+    abscissa_of_paper.set_xlabel(r"$Ft/(\eta hL)$, as in the paper")
+    collapsed.tick_params(axis="x", which="both", top=False)
     _mark_limits(collapsed, elements_across(ensembles[0]["elements"].item()))
     _mark_windows(collapsed, looks, scaling, conventions)
     realizations = f"each a mean over {realizations_text(ensembles)} discs"
@@ -107,9 +111,11 @@ def _mark_limits(axes, across):
 
 
 def _mark_windows(axes, looks, scaling, conventions):
-    """Mark region (b) of each Hurst exponent by a horizontal bar at the bottom of the axes."""
+    """Mark region (b) of each Hurst exponent by a horizontal bar at the bottom of the axes, and name the exponent."""
+    text = {"color": style.GREY, "transform": axes.get_xaxis_transform(), "va": "center", "ha": "right"}
     bar = {"linewidth": 2.5, "solid_capstyle": "butt", "transform": axes.get_xaxis_transform()}
     for rank, (hurst, look) in enumerate(reversed(looks.items())):
         for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():
-            axes.plot([row.x_low, row.x_high], [0.03 + 0.025 * rank] * 2, color=look["color"], **bar)
-    axes.text(0.97, 0.025, "bars: region (b)", color=style.GREY, transform=axes.transAxes, ha="right")
+            axes.plot([row.x_low, row.x_high], [0.03 + 0.035 * rank] * 2, color=look["color"], **bar)
+            axes.text(0.8 * row.x_low, 0.03 + 0.035 * rank, f"{hurst:g}", **text)
+    axes.text(0.97, 0.025, "bars: region (b), with $H$", color=style.GREY, transform=axes.transAxes, ha="right")

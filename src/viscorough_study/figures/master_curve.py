@@ -7,6 +7,11 @@ from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.fits.conventions import fits
 
+# Largest root mean square of ln(vt/h) less a law with the exponent H/(1 + H), over region (b), for which the prefactor
+# of this law is defined (claim zeta_viscous).
+DEFINED = 0.1
+CONSTANT = {"color": style.GREY, "linestyle": "-", "linewidth": 0.6, "zorder": 1}
+
 
 @style.figure
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
@@ -20,8 +25,9 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     fraction_min : a mean is drawn if at least this fraction of the realizations has a value
 
     Discs are drawn as about eight symbols per decade of X, filled in region (b) and hollow elsewhere. Their bars extend
-    two standard errors to either side. Region (a) is omitted. The lower panel is cut to the range of the ratios in
-    region (b), but extends at least from 0.5 to 2.
+    two standard errors to either side. Region (a) is omitted. A thin line shows Eq. 12 times the constant that fits
+    best where its prefactor is defined. The lower panel is cut to the range of the ratios in region (b), but extends at
+    least from 0.5 to 2.
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in discs)
     figure, panels = style.new_subplots(120, 2, width=style.NARROW, sharex=True, height_ratios=(1.7, 1))
@@ -42,6 +48,9 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     ends = law.get_xlim()
     law.plot(ends, ends, "--", color="black")
     ratio.axhline(1, linestyle="--", color="black")
+    constant = _constant(scaling, conventions)
+    law.plot(ends, np.multiply(ends, constant), **CONSTANT)
+    ratio.axhline(constant, **CONSTANT)
     law.set(xlim=ends, ylabel="$vt/h$")
     ratio.set(xlabel="right side of Eq. 12", ylabel="$vt/h$ over Eq. 12", ylim=(min(ratios) / 1.3, max(ratios) * 1.3))
     symbol, in_region = {"color": style.GREY, "linestyle": "", "marker": "o"}, [ds.sizes["realization"] for ds in discs]
@@ -51,9 +60,20 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
         style.handle(f"{realizations_text(discs)} discs, elsewhere", **symbol, markerfacecolor="white"),
         style.handle(f"{realizations_text(lines)} lines (MDR)", color=style.GREY),
         style.handle("Eq. 12", color="black", linestyle="--"),
+        style.handle(f"Eq. 12 times {constant:.2f}", **CONSTANT),
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=2, columnspacing=1)
     return figure
+
+
+def _constant(scaling, conventions):
+    """Return the constant by which Eq. 12 describes the discs best in region (b); nan if there is none.
+
+    Hurst exponents count if a law with the exponent H/(1 + H) describes their curves, so that its prefactor is defined.
+    """
+    discs = fits(scaling, conventions | {"gamma": "with"}, source="discs", case_group="base")
+    discs = discs[discs["residual_fixed"] <= DEFINED]
+    return np.exp(np.log(reference.zeta_viscous(discs["hurst"]) / discs["zeta_fixed"]).mean())
 
 
 def _draw_discs(panels, curve, hurst, windows, look):

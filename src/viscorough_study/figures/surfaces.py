@@ -26,6 +26,6 @@ def plot_surfaces(examples):
         image = axes.imshow(heights, cmap=COLORS, extent=extent, origin="lower", interpolation="nearest", **limits)
         axes.set(title=f"$H={hurst:g}$", xlabel="$x/L$", xticks=(-0.5, 0, 0.5), yticks=(-0.5, 0, 0.5))
     bar = figure.colorbar(image, ax=panels, location="bottom", shrink=0.5, aspect=40, pad=0.03)
-    bar.set_label("height$/h$ (darker is higher)")
+    bar.set_label("height$/h$, on one scale for all discs (darker is higher)")
     bar.ax.xaxis.set_major_locator(MaxNLocator(8, integer=True))
     return figure

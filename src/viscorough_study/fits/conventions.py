@@ -8,14 +8,16 @@ The paper also prints some laws with a factor 1/Γ(2 − α) and others without 
 the law is vt/h = X^β/ζ. With the factor (Eq. 9) the law is vt/h = X^β/(ζ Γ(1 + β)), where 1 + β = 2 − α. So ζ with the
 factor is 1/Γ(1 + β) times ζ without the factor, and a single fit serves for both forms of the law.
 
-β, λ, the residual and the window are equal for both forms. The tables of fits therefore contain these values only once,
-and ζ only without the factor. The 95 % interval of ζ is in the tables for both forms, in the columns that
+β, λ, the residuals and the window are equal for both forms. The tables of fits therefore contain these values only
+once, and ζ only without the factor. The 95 % interval of ζ is in the tables for both forms, in the columns that
 `interval_columns` names. The ends of this interval are percentiles of bootstrap samples, and each sample is scaled with
 the β of the sample. So the interval for one form does not follow from the interval for the other form.
 """
 
 import numpy as np
 from scipy.special import gamma as gamma_function
+
+from viscorough import reference
 
 FITTED = {
     "rms_convention": ("disc", "square", "ensemble"),  # for lines the value is "line"
@@ -49,12 +51,15 @@ def in_reading(fits, gamma):
 
     fits : pandas.DataFrame with the columns of viscorough_study.fits.fit_table
     gamma : "with" or "without", for the law with or without the factor
-    Returns a DataFrame with the converted columns zeta, zeta_low and zeta_high, and a column `gamma`. The columns
-    zeta_low_with_gamma and zeta_high_with_gamma are dropped.
+    Returns a DataFrame with the converted columns zeta, zeta_low and zeta_high, the converted ζ at β = H/(1 + H) in the
+    columns zeta_fixed, zeta_fixed_low and zeta_fixed_high, and a column `gamma`. The columns zeta_low_with_gamma and
+    zeta_high_with_gamma are dropped.
     """
     low, high = interval_columns(gamma)
     zeta = fits["zeta"] * zeta_scale(fits["beta"], gamma)
-    converted = fits.assign(zeta=zeta, zeta_low=fits[low], zeta_high=fits[high], gamma=gamma)
+    scale = zeta_scale(reference.exponent_beta(fits["hurst"]), gamma)
+    fixed = {name: fits[name] * scale for name in ("zeta_fixed", "zeta_fixed_low", "zeta_fixed_high")}
+    converted = fits.assign(zeta=zeta, zeta_low=fits[low], zeta_high=fits[high], gamma=gamma, **fixed)
     return converted.drop(columns=list(interval_columns("with")))
 
 

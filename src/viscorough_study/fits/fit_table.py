@@ -15,12 +15,13 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
+from viscorough import reference
 from viscorough.law.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_columns, source_values, zeta_scale
 from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
 from viscorough_study.fits.mdr_lambda import match_lambda
-from viscorough_study.fits.power_law import fit_power_law, named_windows
+from viscorough_study.fits.power_law import fit_power_law, in_window, log_means, named_windows
 
 # {column: (long_name, units)}, in the order of the table. Columns of text have the units None.
 COLUMNS = {
@@ -37,6 +38,9 @@ COLUMNS = {
     **described("zeta", "prefactor ζ without Γ (Eq. 3)", ends="of the 95 % interval of ζ without Γ"),
     "zeta_low_with_gamma": ("lower end of the 95 % interval of ζ with the factor 1/Γ(1 + β) (Eq. 9)", "1"),
     "zeta_high_with_gamma": ("upper end of the 95 % interval of ζ with the factor", "1"),
+    "residual": ("root mean square of ln(vt/h) less the fitted law", "1"),
+    **described("zeta_fixed", "prefactor ζ without Γ of the law with β = H/(1 + H)", ends="of its 95 % interval"),
+    "residual_fixed": ("root mean square of ln(vt/h) less the law with β = H/(1 + H)", "1"),
     **described("lambda", "λ in C1D = λ q C2D, line matched to surface (Eq. 13)", ends="of the 95 % interval of λ"),
 }
 SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
@@ -125,9 +129,28 @@ def _fit(ensemble, lines, window, **options):
     for gamma in GAMMA:
         _, *ends = with_interval(zeta_scale(betas, gamma) * zetas, len(velocity))
         columns |= dict(zip(interval_columns(gamma), ends, strict=True))
+    columns |= _paper_exponent(ensemble, betas, zetas, window, options["average"])
     if lines is not None:
         columns |= three_columns("lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **options))
     return columns
+
+
+def _paper_exponent(ensemble, betas, zetas, window, average):
+    """Fit ζ of the law with β = H/(1 + H), and compare both laws with the mean curve; return {column: value}.
+
+    betas, zetas : β and ζ of the fit with a free exponent, for the ensemble and for its resamples. Both fits have the
+        same mean of ln(vt/h) over the window, so ζ at another exponent follows from ζ of the free fit
+    """
+    x, velocity = ensemble["x"].values, ensemble["velocity"].values
+    inside, expected = in_window(x, window), reference.exponent_beta(ensemble["hurst"].item())
+    log_x = np.log(x[inside])
+    (mean,) = log_means(velocity[:, inside], average, 0, np.random.default_rng(0))
+    fixed = zetas * np.exp((expected - betas) * log_x.mean())
+    laws = {"residual": (betas[0], zetas[0]), "residual_fixed": (expected, fixed[0])}
+    residuals = {
+        name: np.sqrt(np.mean((mean - beta * log_x + np.log(zeta)) ** 2)) for name, (beta, zeta) in laws.items()
+    }
+    return residuals | three_columns("zeta_fixed", with_interval(fixed, len(velocity)))
 
 
 def calibrated(scaling, sizes, *, conventions, across):

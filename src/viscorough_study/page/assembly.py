@@ -36,7 +36,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers, made_by):
         "answer": answer(results.tables["claims"]),
         "answers": answers.answers(results),
         "findings": findings(results.tables["claims"], claims),
-        "verdict_counts": answers.verdict_counts(results),
+        "verdict_counts": answers.verdict_counts(results, published),
         "verdict_short": content.VERDICT_SHORT,
         "overall": {claim["name"]: claim["verdict"] for claims in verdicts.values() for claim in claims},
         "case_counts": {claim["name"]: claim["case_counts"] for claims in verdicts.values() for claim in claims},

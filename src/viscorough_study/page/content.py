@@ -122,7 +122,8 @@ def scale(discs, lines, numbers):
     """Return the size of a run and of the paper: number of elements across a disc, and numbers of discs and lines.
 
     The name of the size is "coarse" if the discs have too few elements for a power law. It is "paper" if the run has at
-    least as many discs, lines and elements across a disc as the paper. Otherwise it is "trial".
+    least as many discs, lines and elements across a disc as the paper. Otherwise it is "trial". The key "whole" has the
+    number of discs of a combination whose curves extend beyond the X of the other curves, `from_x`.
 
     discs, lines : NetCDF files with the loading curves of all discs and of all lines of the run (ensembles.pool)
     numbers : content of resources/paper/numbers.yaml
@@ -141,9 +142,20 @@ def scale(discs, lines, numbers):
         "points": pools["lines"]["description"]["points"],
         "lines": pools["lines"]["realizations"],
     }
+    indentation = pools["discs"]["description"].get("indentation", {})
+    whole = {
+        "realizations": min(indentation.get("whole_curves", np.inf), run["realizations"]),
+        "from_x": indentation.get("short_until_x"),
+    }
     as_many = all(run[name] >= paper[name] for name in ("elements", "realizations", "lines"))
     coarse = is_trial(run["elements"], paper["elements"])
-    return {"name": "coarse" if coarse else "paper" if as_many else "trial", "run": run, "paper": paper, **pools}
+    return {
+        "name": "coarse" if coarse else "paper" if as_many else "trial",
+        "run": run,
+        "paper": paper,
+        "whole": whole,
+        **pools,
+    }
 
 
 def _pool(path):

@@ -1,18 +1,23 @@
 """Answer the study's question in one paragraph: where the results agree with the paper, and by how much they differ."""
 
+import numpy as np
+
 from viscorough_study.verdicts.claims import HELD, overall
 
 # Texts by the outcome of a claim: True if the claim holds, False if it fails, None if the data do not decide.
+EQUIVALENCE = {
+    True: "By direct integration the viscous problem is equivalent to the elastic problem, as the paper derives",
+    False: "By direct integration the viscous problem is not equivalent to the elastic problem",
+}
 COLLAPSE = {
     True: "The curves of each Hurst exponent collapse",
     False: "The curves of each Hurst exponent do not collapse",
     None: "Whether the curves of each Hurst exponent collapse is undecided",
 }
-PREFACTORS = {True: "the prefactors are those of the paper", False: "the prefactors differ from the paper's"}
-GAMMA = {True: "the factor 1/Γ(2 − α) is confirmed", False: "the factor 1/Γ(2 − α) is an error"}
-REGION_C = {
-    True: "region (c) begins near complete contact",
-    False: "region (c) begins far before complete contact",
+GAMMA = {
+    True: "The factor 1/Γ(2 − α) of Eqs. 7 to 9 is confirmed",
+    False: "The factor 1/Γ(2 − α) of Eqs. 7 to 9 does not follow from Eqs. 1, 3 and 6, and direct integration does not "
+    "have it; it changes neither the exponent nor the collapse",
 }
 
 
@@ -23,23 +28,17 @@ def answer(table):
     gives the difference from the paper. Claims that the data do not decide are left out, except the claims on exponents
     and on the collapse of the curves.
     """
-    verdicts = overall(table)
-    last = [_statement(verdicts, names, texts) for names, texts in _LAST]
-    last = [text for text in last if text]
+    verdicts = {claim: _outcome(verdict) for claim, verdict in overall(table).items()}
     sentences = [
-        COLLAPSE[_outcome(verdicts["collapse"])],
+        EQUIVALENCE.get(verdicts["equivalence"], ""),
+        COLLAPSE[verdicts["collapse"]],
         _boundary_elements(table),
         _reduction(table),
-        _capitalized(_joined(last)) if last else "",
+        _master_curve(table, verdicts),
+        GAMMA.get(verdicts["gamma"], ""),
+        _region_c(table, verdicts),
     ]
     return " ".join(f"{sentence}." for sentence in sentences if sentence)
-
-
-_LAST = (
-    (("zeta_elastic", "zeta_viscous"), PREFACTORS),
-    (("gamma",), GAMMA),
-    (("complete_contact",), REGION_C),
-)
 
 
 def _outcome(verdict):
@@ -47,25 +46,58 @@ def _outcome(verdict):
     return True if verdict in HELD else False if verdict == "not reproduced" else None
 
 
-def _statement(verdicts, names, texts):
-    """Return the sentence on the common outcome of several claims, or "" if their outcomes differ or have no sentence.
+def _master_curve(table, verdicts):
+    """Return the sentence on Eq. 12, as printed and up to one constant, or "" if the claims are undecided.
 
-    verdicts : {claim: verdict}; names : the claims; texts : {outcome: sentence}
+    verdicts : {claim: result of `_outcome`}
     """
-    outcomes = {_outcome(verdicts[name]) for name in names}
-    return texts.get(outcomes.pop(), "") if len(outcomes) == 1 else ""
+    if verdicts["master_curve"]:
+        return "Eq. 12 describes the curves in region (b)"
+    constants = table.loc[(table["claim"] == "one_constant") & table["verdict"].isin(HELD), "case"]
+    if constants.empty:
+        return "Eq. 12 does not describe the curves in region (b)" if verdicts["master_curve"] is False else ""
+    named = [
+        f"{quantity} times {factor}" for quantity, factor in constants.str.extract(r", (\S+) times (\S+)").to_numpy()
+    ]
+    _, hurst, *_ = constants.iloc[0].removeprefix("H ").split()
+    return f"From H = {hurst} on, Eq. 12 describes the discs in region (b) up to one constant, {' or '.join(named)}"
+
+
+def _region_c(table, verdicts):
+    """Return the sentence on the contact where region (c) begins, or "" if the claim is undecided.
+
+    verdicts : {claim: result of `_outcome`}
+    """
+    if verdicts["complete_contact"]:
+        return "Region (c) begins near complete contact"
+    if verdicts["complete_contact"] is None:
+        return ""
+    rows = table[(table["claim"] == "complete_contact") & table["value"].notna()]
+    parts = []
+    for slope, cases in rows.groupby(rows["case"].str.extract(r"slope within ([\d.]+)")[0], sort=False):
+        least, most = (f"{100 * share:.0f}" for share in (cases["value"].min(), cases["value"].max()))
+        hursts = [_hurst(case) for case in cases["case"]]
+        parts.append(f"{least} to {most} % where the slope is 1 within {slope} (H = {hursts[0]:g} to {hursts[-1]:g})")
+    return (
+        f"Region (c), for the paper an almost complete contact, begins with fewer elements in contact: {_joined(parts)}"
+    )
 
 
 def _boundary_elements(table):
     """Return the sentence on the exponent β by boundary elements, which mentions all Hurst exponents of the discs."""
     cases = _exponents(table, "beta", "discs")
-    parts = [f"is H/(1 + H) at H = {_joined(_hursts(cases, HELD))} (the paper: above 0.4)"] if _any(cases, HELD) else []
+    holding, parts = [case["difference"] for case in cases.values() if case["verdict"] in HELD], []
+    if holding:
+        within = np.ceil(100 * np.abs(holding).max()) / 100
+        parts.append(
+            f"is within {within:.2f} of H/(1 + H) at H = {_joined(_hursts(cases, HELD))} (the paper: above 0.4)"
+        )
     differences = [(case["difference"], hurst) for hurst, case in cases.items() if case["verdict"] == "not reproduced"]
     for sign, word in ((1, "larger"), (-1, "smaller")):
         named = [f"by {abs(d):.2f} at {hurst:g}" for d, hurst in reversed(differences) if d * sign > 0]
         parts += [f"{word} {_joined(named)}"] if named else []
     parts += [f"undecided at {_joined(_hursts(cases, ('undecided',)))}"] if _any(cases, ("undecided",)) else []
-    return f"With boundary elements the exponent {_joined(parts, comma=True)}" if parts else ""
+    return f"By boundary elements on the paper's grid the exponent {_joined(parts, comma=True)}" if parts else ""
 
 
 def _reduction(table):
@@ -81,7 +113,9 @@ def _reduction(table):
     rows = table[(table["claim"] == "coincide") & (table["verdict"] == "not reproduced")]
     apart = [f"by {abs(row.value):.2f} at {_hurst(row.case):g}" for row in rows[::-1].itertuples()]
     if apart:
-        differs = f"differs from boundary elements {_joined(apart)}, where the paper sees them nearly coincide"
+        equal = table[(table["claim"] == "coincide_equal_windows") & table["case"].str.startswith("H = 0.4, same X")]
+        windows = "".join(f" ({abs(value):.2f} at 0.4 in equal ranges of X)" for value in equal["value"])
+        differs = f"differs from boundary elements {_joined(apart)}{windows}, where the paper sees them nearly coincide"
         parts.append(f"it {differs}" if parts else differs)
     return text + "; ".join(parts) if parts else ""
 
@@ -122,7 +156,3 @@ def _joined(texts, *, comma=False):
     """
     *first, last = texts
     return ", ".join(first) + (", and " if comma else " and ") + last if first else last
-
-
-def _capitalized(text):
-    return text[:1].upper() + text[1:]

@@ -53,13 +53,14 @@ JUDGES = {
     "exponent_small_hurst": law_criteria.exponent_small_hurst,
     "depth": law_criteria.depth,
     "zeta_elastic": zeta_criteria.zeta_elastic,
-    "zeta_elastic_shape": zeta_criteria.zeta_elastic_shape,
     "zeta_viscous": zeta_criteria.zeta_viscous,
-    "zeta_viscous_shape": zeta_criteria.zeta_viscous_shape,
     "zeta_better": zeta_criteria.zeta_better,
+    "zeta_better_elastic": zeta_criteria.zeta_better_elastic,
+    "equivalence": method_criteria.equivalence,
     "gamma": method_criteria.gamma,
     "master_curve": law_criteria.master_curve,
     "master_curve_shape": zeta_criteria.master_curve_shape,
+    "one_constant": zeta_criteria.one_constant,
     "line_spectrum": method_criteria.line_spectrum,
     "lambda_constant": mdr_criteria.lambda_constant,
     "exact_correspondence": mdr_criteria.exact_correspondence,
@@ -81,15 +82,16 @@ KINDS = {
 }
 # Reasons why claims fail: {name of the reason in claims.yaml: reason in words}.
 FINDINGS = {
-    "small_hurst": "at small H the exponents depart from H/(1 + H), on every grid tried at fixed X",
-    "prefactor": "the prefactor differs",
-    "gamma": "the factor 1/Γ(2 − α) is an error",
-    "region_c": "region (c) begins far before complete contact",
+    "small_hurst": "on the paper's grid the exponents at small H are larger than H/(1 + H)",
+    "prefactor": "the prefactor of Eq. 12 differs, from H = 0.4 on by one constant",
+    "gamma": "the factor 1/Γ(2 − α) does not follow from Eqs. 1, 3 and 6",
+    "region_c": "the slope 1 of region (c) begins before the contact is almost complete",
 }
 HELD = ("reproduced", "reproduced under a stated convention")  # verdicts of cases that meet their criterion
 COLUMNS = {
     "claim": ("name of the claim, as in resources/paper/claims.yaml", ""),
     "kind": ("one of: " + "; ".join(KINDS), ""),
+    "origin": ("own, or quoted from earlier work; missing where the paper makes no claim", ""),
     "where": ("equation, section or figure of the paper", ""),
     "quantity": ("what the value is", ""),
     "case": ("Hurst exponent or part that the row is about", ""),
@@ -126,8 +128,19 @@ def judge(claims, evidence):
     """
     rows = []
     for name, claim in claims.items():
-        rows += [{"claim": name, **claim, **case} for case in JUDGES[name](evidence, claim["tolerance"])]
+        described = {"claim": name, "origin": "", **claim, "reason": reason(claim)}
+        rows += [described | case for case in JUDGES[name](evidence, claim["tolerance"])]
     return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def reason(claim):
+    """Return why the tolerance of a claim is what it is, marked if it is an assumption on the paper's printed figures.
+
+    claim : entry of claims.yaml
+    """
+    return (
+        "assumption, as only the text of the paper was available: " * claim.get("assumption", False) + claim["reason"]
+    )
 
 
 def is_trial(elements_across, paper_elements_across):
@@ -172,9 +185,13 @@ def _of_cases(verdicts):
     return max(verdicts, key=VERDICTS.index)
 
 
-def counted_verdicts(table):
-    """Return [(verdict, number of claims on physics with this verdict)], from best to worst."""
-    numbers = Counter(overall(physics(table)).values())
+def counted_verdicts(table, origin):
+    """Return [(verdict, number of claims on physics with this verdict)], from best to worst.
+
+    origin : "own" for claims of the paper itself, "quoted" for claims that the paper takes from earlier work
+    """
+    rows = physics(table)
+    numbers = Counter(overall(rows[rows["origin"] == origin]).values())
     return [(verdict, numbers[verdict]) for verdict in VERDICTS if numbers[verdict]]
 
 

@@ -184,28 +184,22 @@ def depth(evidence, tolerance):
 
 
 def master_curve(evidence, tolerance):
-    """Test whether vt/h follows Eq. 12 as printed, at the centre of region (b).
+    """Test whether vt/h follows Eq. 12 as printed, in region (b).
 
     The claim is tested for each Hurst exponent of the discs, for the discs and for MDR lines. The tested value is the
-    ratio of vt/h to the right side of Eq. 12.
+    root mean square of ln(vt/h) less the right side of Eq. 12 over region (b). It has two parts, which add in
+    quadrature: the logarithm of the ratio of prefactors, in a fit with β = H/(1 + H) and in Eq. 12, and the residual of
+    this fit. The interval is from the first part.
     """
-
-    def ratio(hurst, ensemble, betas, zetas, centre):
-        return centre**betas / zetas / reference.rate_law(centre, hurst, gamma=True)
-
-    discs = list(_cases_at_centre(evidence, tolerance, ratio))
-    yield from discs
-    lines = evidence.fits("lines")
+    discs, lines = (evidence.fits(source, gamma="with") for source in ("discs", "lines"))
     lines = lines[lines.index.isin(list(evidence.pooled))]
-    for hurst, row in lines.iterrows():
-        centre = np.sqrt(row["x_low"] * row["x_high"])
-        value = ratio(hurst, None, row["beta"], row["zeta"], centre)
-        # The relative error of ζ equals the relative error of vt/h at X = 1. The error of vt/h at the centre of the
-        # fit is at most as large.
-        zeta, zeta_low, zeta_high = interval(row, "zeta")
-        values = value, value * zeta / zeta_high, value * zeta / zeta_low
-        context = {"realizations": row["realizations"], "cases": len(discs) + len(lines)}
-        yield evidence.case(f"{hurst_name(hurst)}, lines", values, 1.0, (1 - tolerance, 1 + tolerance), **context)
+    for source, fits in (("", discs), (", lines", lines)):
+        for hurst, row in fits.iterrows():
+            value, *ends = np.log(interval(row, "zeta_fixed")) - np.log(reference.zeta_viscous(hurst))
+            nearest = 0.0 if ends[0] < 0 < ends[1] else np.min(np.abs(ends))
+            values = np.hypot([value, nearest, np.max(np.abs(ends))], row["residual_fixed"])
+            context = {"realizations": row["realizations"], "cases": len(discs) + len(lines)}
+            yield evidence.case(f"{hurst_name(hurst)}{source}", tuple(values), 0.0, (-np.inf, tolerance), **context)
 
 
 def _cases_at_centre(evidence, tolerance, ratio):

@@ -1,7 +1,7 @@
 """Judge claims on the methods of the paper.
 
-The claims concern the factor 1/Γ(2 − α), the method of dimensionality reduction (MDR) with its line spectrum, and the
-numbers of elements and of contact problems.
+The claims concern the equivalence of the viscous and the elastic problem, the factor 1/Γ(2 − α), the method of
+dimensionality reduction (MDR) with its line spectrum, and the numbers of elements and of contact problems.
 """
 
 import numpy as np
@@ -16,13 +16,29 @@ HUNDREDS = 100  # smallest number of contact problems that counts as "some hundr
 EXPLICIT = "explicit, logarithmic steps"
 
 
+def equivalence(evidence, tolerance):
+    """Test whether the viscous depth, by direct integration in time, is the elastic depth under the force GFt/η.
+
+    The claim is tested for each indenter. The tested value is the median of the ratio of viscous to elastic depth.
+    """
+    return _depth_ratios(evidence, tolerance, lambda rows: 1.0)
+
+
 def gamma(evidence, tolerance):
     """Test whether the viscous depth, by direct integration in time, is the elastic depth times the factor in Eq. 8.
 
     The claim is tested for each indenter. The tested value is the median of the ratio of viscous to elastic depth.
     """
+    return _depth_ratios(evidence, tolerance, lambda rows: rows["with_gamma"].iloc[0])
+
+
+def _depth_ratios(evidence, tolerance, expected):
+    """Test whether all ratios of viscous to elastic depth have an expected value; yield a verdict for each indenter.
+
+    expected : function of the rows of an indenter in the table of direct integration
+    """
     for name, rows in evidence.tables["direct"].groupby("case", sort=False):
-        ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
+        ratio, factor = rows["depth_ratio"], expected(rows)
         yield exact(name, ratio.median(), factor, (np.abs(ratio - factor) <= tolerance).all(), ratio)
 
 

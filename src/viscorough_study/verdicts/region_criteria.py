@@ -16,7 +16,12 @@ from viscorough_study.verdicts.evidence import exact, hurst_name, judged
 
 ROUNDING = 1e-9  # relative difference up to which two numbers of decades count as equal
 LEFT_REGION = 2.0  # region (a) ends where κ is this multiple of κ of a single element in contact
-SLOPE_OF_LINE = 0.05  # largest deviation from 1 with which a local slope still looks like 1 in Fig. 2
+# Region (c) begins where the local slope of the curves is 1 up to these deviations. The first is an assumption on what
+# looks like the slope 1 in Fig. 2; the second shows how the start of region (c) depends on it.
+SLOPES_OF_LINE = (0.05, 0.01)
+# The local slope is fitted over this many decades of X to either side. A wider fit does not reach the ends of the
+# curves, where the slope is nearest to 1.
+DECADES_OF_SLOPE = 0.1
 # A failure in `power_law_decades` counts only if at most this fraction of synthetic power laws fail as well.
 POWER_LAWS_LOST_MAX = 0.05
 # Largest contact count that still means a single element. Logarithmic interpolation of counts causes rounding errors.
@@ -228,20 +233,22 @@ def separation(evidence, tolerance):
 def complete_contact(evidence, tolerance):
     """Test whether the contact is almost complete where region (c) begins, by the mean contact fraction.
 
-    Region (c) begins at the X from which on the slope of ln(vt/h) along ln X is 1 within `SLOPE_OF_LINE`. The claim is
-    undecided if the curves do not reach this X.
+    Region (c) begins at the X from which on the slope of ln(vt/h) along ln X is 1 within a deviation. The claim is
+    tested for each of `SLOPES_OF_LINE` and each Hurst exponent. A case whose curve does not reach this slope is
+    undecided.
     """
-    for hurst, ensemble in evidence.whole.items():
-        defined = _reached_by_all(ensemble)
-        log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
-        inner, (slopes,) = inner_slopes(log_x, mean[None], evidence.limits["slope_half_width"] * np.log(10))
-        below = np.flatnonzero(slopes < 1 - SLOPE_OF_LINE)
-        if not below.size or below[-1] + 1 == slopes.size:
-            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
-            continue
-        first = int(np.argmin(np.abs(np.log(ensemble["x"].values) - inner[below[-1] + 1])))
-        name = f"{hurst_name(hurst)}, from X = {ensemble['x'].values[first]:.3g} on"
-        yield _contact_case(evidence, name, ensemble, first, tolerance)
+    for deviation in SLOPES_OF_LINE:
+        for hurst, ensemble in evidence.whole.items():
+            defined = _reached_by_all(ensemble)
+            log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
+            inner, (slopes,) = inner_slopes(log_x, mean[None], DECADES_OF_SLOPE * np.log(10))
+            below, name = np.flatnonzero(slopes < 1 - deviation), f"{hurst_name(hurst)}, slope within {deviation:g}"
+            if not below.size or below[-1] + 1 == slopes.size:
+                yield judged(name, UNDEFINED, 1.0, None)
+                continue
+            first = int(np.argmin(np.abs(np.log(ensemble["x"].values) - inner[below[-1] + 1])))
+            name = f"{name}, from X = {ensemble['x'].values[first]:.3g} on"
+            yield _contact_case(evidence, name, ensemble, first, tolerance, len(SLOPES_OF_LINE))
 
 
 def complete_contact_end(evidence, tolerance):
@@ -255,10 +262,11 @@ def complete_contact_end(evidence, tolerance):
         yield _contact_case(evidence, name, ensemble, reached[-1], tolerance)
 
 
-def _contact_case(evidence, name, ensemble, abscissa, tolerance):
+def _contact_case(evidence, name, ensemble, abscissa, tolerance, repeats=1):
     """Return a verdict: whether the mean contact fraction of an ensemble at one X is 1 within the tolerance.
 
     name : name of the verdict, which contains the Hurst exponent; abscissa : index of the X
+    repeats : number of verdicts of the claim for each Hurst exponent
     """
     fractions = ensemble["contact_count"].values[:, abscissa] / ensemble["elements"].item()
-    return _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=len(evidence.pooled))
+    return _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=repeats * len(evidence.pooled))

@@ -22,7 +22,8 @@ def pool(path, description, realizations):
         "hurst": ("realization", np.repeat([0.4, 0.4, 0.9, 0.9], realizations)),
         "group": ("realization", np.full(cases.size, "base", dtype=object)),
     }
-    settings = json.dumps({"h04_c1": {"seed": 1, "ensembles": [description]}})
+    indentation = {"whole_curves": 9, "short_until_x": 1.8}
+    settings = json.dumps({"h04_c1": {"seed": 1, "indentation": indentation, "ensembles": [description]}})
     xr.Dataset(variables, attrs={"settings": settings}).to_netcdf(path)
     return path
 
@@ -41,6 +42,7 @@ def test_scale_follows_from_the_ensembles(tmp_path, elements, realizations, line
     content = scale(discs, lines_pool, NUMBERS)
     assert content["name"] == name
     assert content["run"] == {"elements": elements, "realizations": realizations, "points": points, "lines": lines}
+    assert content["whole"] == {"realizations": 9, "from_x": 1.8}
     assert (content["discs"]["hurst"], content["discs"]["cases_per_hurst"]) == ([0.4, 0.9], 2)
 
 
@@ -73,7 +75,9 @@ def test_worst_error_of_the_models_is_a_stated_error():
 
 def claims_table(*verdicts_of_cases):
     """Return cases of the claim on β with these verdicts, with values ever farther from the paper's."""
-    table = pd.DataFrame({"verdict": verdicts_of_cases}).assign(claim="beta", kind="physics", where="Eq. 5")
+    table = pd.DataFrame({"verdict": verdicts_of_cases}).assign(
+        claim="beta", kind="physics", origin="own", where="Eq. 5"
+    )
     table = table.assign(case=[f"H = {i}" for i in range(len(table))], convention="", criterion="it is", reason="it is")
     table = table.assign(quantity="β", **dict.fromkeys(("conventions", "agreeing", "contradicting"), np.nan))
     numbers = dict.fromkeys(("low", "high", "least", "largest", "tolerance"), 0.1) | {"expected": 0.0}

@@ -23,7 +23,7 @@ def test_every_sentence_has_claims_or_a_reason_for_none():
     sentences = read_paper(ROOT / "resources/paper", "sentences")
     assert {sentence["origin"] for sentence in sentences} == {"own", "quoted", "background"}
     for sentence in sentences:
-        assert bool(sentence["claims"]) != bool(sentence.get("why")), sentence["says"]
+        assert sentence["claims"] or sentence["why"], sentence["says"]
         assert set(sentence["claims"]) <= {name for name, claim in CLAIMS.items() if claim["kind"] != "beyond"}
     judged = {name for sentence in sentences for name in sentence["claims"]}
     assert judged == {name for name, claim in CLAIMS.items() if claim["kind"] != "beyond"}

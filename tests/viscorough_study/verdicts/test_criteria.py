@@ -8,9 +8,10 @@ import pandas as pd
 import pytest
 import xarray as xr
 from scipy import stats
+from scipy.special import gamma as gamma_function
 
 from support.study import ACROSS, CLAIMS, ELEMENTS, HURST, X, evidence, evidence_of_curves, evidence_with_factors
-from viscorough.reference import exponent_alpha, one_element_stiffness, zeta_elastic
+from viscorough.reference import exponent_alpha, exponent_beta, one_element_stiffness, zeta_elastic
 from viscorough_study.verdicts.claims import JUDGES
 from viscorough_study.verdicts.evidence import judged
 from viscorough_study.verdicts.law_criteria import (
@@ -154,16 +155,32 @@ def test_spread_of_slopes_decides_for_discs_and_for_the_control(sample):
 
 
 def test_lines_belong_to_the_master_curve(sample):
-    """Lines that equal the discs have the same ratio to Eq. 12; doubling their ζ halves the ratio."""
+    """Lines that equal the discs deviate alike from Eq. 12; halving their ζ adds ln 2."""
     discs, lines = np.split(np.array(list(master_curve(sample, 0.15))), 2)
     for disc, line in zip(discs, lines, strict=True):
         assert line["case"] == f"{disc['case']}, lines"
         assert line["value"] == pytest.approx(disc["value"], rel=0.02)
         assert line["low"] < line["value"] < line["high"]
     scaling = sample.tables["scaling"]
-    scaling.loc[scaling["source"] == "lines", ["zeta", "zeta_low", "zeta_high"]] *= 2
-    doubled = list(master_curve(sample, 0.15))[len(discs) :]
-    assert [case["value"] for case in doubled] == pytest.approx([case["value"] / 2 for case in lines])
+    rows = scaling["source"] == "lines"
+    scaling.loc[rows, ["zeta_fixed", "zeta_fixed_low", "zeta_fixed_high"]] /= 2
+    halved = list(master_curve(sample, 0.15))[len(discs) :]
+    added = [after["value"] - before["value"] for before, after in zip(lines, halved, strict=True)]
+    assert added == pytest.approx([np.log(2)] * len(added), abs=0.01)
+
+
+def test_deviation_from_the_master_curve_includes_the_residual(sample):
+    """Lines with the prefactor of Eq. 12 and a residual of 0.2 deviate by 0.2."""
+    scaling = sample.tables["scaling"]
+    hurst = scaling["hurst"]
+    law = (2 - hurst) * gamma_function(1 + exponent_beta(hurst))
+    for name, factor in (("zeta_fixed", 1.0), ("zeta_fixed_low", 0.99), ("zeta_fixed_high", 1.01)):
+        scaling[name] = factor * law
+    for residual, verdict in ((0.2, "not reproduced"), (0.1, "reproduced")):
+        scaling["residual_fixed"] = residual
+        for case in master_curve(sample, 0.15):
+            assert (case["value"], case["low"]) == pytest.approx((residual, residual), abs=1e-6)
+            assert case["verdict"] == verdict
 
 
 def test_exponents_up_to_the_limit_of_the_claim_are_shown_apart(sample):

@@ -20,14 +20,16 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import click
+import numpy as np
 import pandas as pd
 from measuring import write_json
 from PIL import Image  # matplotlib depends on it
 from scipy.special import gamma as gamma_function
 
 from viscorough.law.calibrated_law import CONSTANTS
-from viscorough.reference import exponent_alpha, zeta_elastic, zeta_viscous
+from viscorough.reference import exponent_alpha, exponent_beta, zeta_elastic, zeta_viscous
 from viscorough_study.fits.infinite_grid import OMEGA
+from viscorough_study.fits.zeta_laws import LAST
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.verdicts.answer import answer
@@ -39,6 +41,7 @@ from viscorough_study.verdicts.claims import (
     overall,
     verdict_text,
 )
+from viscorough_study.verdicts.region_criteria import SLOPES_OF_LINE
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
@@ -143,6 +146,105 @@ def answer_lines():
     return paragraph(f"**{answer(table)}**") + "\n" + paragraph(text)
 
 
+# What was found, as a numbered list: {number: text of the item, with the names of its numbers}.
+FOUND = """
+The viscous problem is equivalent to the elastic problem of the same surface, for every surface and force, as the paper
+derives by Radok's principle. One elastic loading curve therefore gives the whole motion; to solve a contact problem in
+every time step is not necessary ([theory](docs/theory.md#the-correspondence)).
+
+For each Hurst exponent H a single curve, vt/h = X/κ(X), holds for all forces, viscosities, sizes and rms heights.
+Region (c) is for the paper an “almost complete” contact. It begins with {wide} % of the elements in contact if the
+slope of the curves may differ from 1 by {slopes[0]:g}, and with {narrow} % at {narrow_hursts} if it may differ by
+{slopes[1]:g}. At the end of the curves {end} % touch.
+
+On the paper's grid the exponent β is within {within:.2f} of H/(1 + H) at H = 0.6 and 0.9. It is {at_04:.2f} and
+{at_01:.2f} larger than H/(1 + H) at H = 0.4 and 0.1, where the paper makes no claim. There the exponent also depends on
+the range of X, and finer grids give access to smaller X ([grid or surface](docs/verification.md#grid-or-surface)).
+
+From H = 0.4 on, the discs follow Eq. 12 up to one constant for all H: a factor of {factors[0]} on vt/h, or of
+{factors[1]} on X. A root mean square of {residuals[0]:.0f} or {residuals[1]:.0f} % remains. At β = H/(1 + H) the
+prefactor ζ is {zeta} at H = {hursts}. Eq. 4 says {eq_4}. Eq. 11 without the factor 1/Γ(2 − α) means {eq_11}. At H = 0.1
+no law with this exponent describes the discs.
+
+The factor 1/Γ(2 − α) in Eqs. 7 to 9 and 12 does not follow from the paper's Eqs. 1, 3 and 6, and neither direct
+integration in time nor the paper's MDR has it. It changes neither the exponent nor the collapse
+([theory](docs/theory.md#the-factor-of-eqs-7-to-9)).
+
+The MDR gives β = H/(1 + H) from H = 0.4 on. At H = 0.4 it differs from boundary elements by {coincide:.2f}, and by
+{equal:.2f} if both are fitted in the same range of X. With one parameter fitted it gives mean velocities in region (b)
+to {mdr:.0f} %, at 7 to 20 % of the cost of boundary elements. Its “huge advantage” in time was larger in the paper,
+where every time step of the boundary elements was a contact problem. It gives neither contact areas nor the motion of a
+single surface ([explained](docs/verification.md#the-reduction-of-dimensionality)).
+
+Beyond the paper: the rough interface and the whole body act as two springs in series. Near X = 1 the stiffness of the
+interface is F/({u0[0]:.2f} h) to F/({u0[1]:.2f} h), with the force F ([theory](docs/theory.md#two-springs-in-series)).
+
+On a grid of 257 elements across, `viscorough.indent` computes the motion to 0.1 % in about 0.1 s. A finer grid changes
+the velocity by {grid} %. Other public solvers take {others[0]:.0f} to {others[1]} times as long
+([performance](docs/performance.md)).
+"""
+
+
+def found():
+    """Return what was found, as a numbered list in Markdown."""
+    items = FOUND.format(**found_numbers()).strip().split("\n\n")
+    lines = [" ".join(f"{number}. {text}".split()) for number, text in enumerate(items, 1)]
+    form = {"width": 120, "subsequent_indent": "   ", "break_long_words": False, "break_on_hyphens": False}
+    return "".join(textwrap.fill(line, **form) + "\n" for line in lines)
+
+
+def found_numbers():
+    """Return the numbers of `FOUND`, {name: number or text}."""
+    table = published_claims().set_index(["claim", "case"])["value"]
+    fits, plateau = prefactors(), pd.read_csv(ROOT / "docs/results/interface.csv")
+    above, contact = fits["beta"] - exponent_beta(fits.index), 100 * table["complete_contact"].dropna()
+    wide, narrow = (contact[contact.index.str.contains(f"within {slope:g}")] for slope in SLOPES_OF_LINE)
+    defined, constant = fits[fits["defined"]], table["one_constant"]
+    errors = pd.read_csv(ROOT / "docs/results/one_surface.csv").query(
+        "quantity == 'velocity' and model == 'grid' and across == 257 and value == 1e-3"
+    )
+    ratios = pd.read_csv(ROOT / OTHER_SOLVERS)["ratio"]
+    return {
+        "wide": span(wide),
+        "narrow": span(narrow),
+        "narrow_hursts": of_hursts(narrow),
+        "slopes": SLOPES_OF_LINE,
+        "end": span(100 * table["complete_contact_end"]),
+        "within": np.ceil(100 * above[[0.6, 0.9]].abs().max()) / 100,
+        "at_04": above[0.4],
+        "at_01": above[0.1],
+        "factors": [case.split()[-1] for case in constant.index],
+        "residuals": [100 * residual for residual in constant],
+        "hursts": listed(defined.index, "g"),
+        "zeta": listed(defined["zeta_fixed"]),
+        "eq_4": listed(defined["eq_4"]),
+        "eq_11": listed(defined["eq_11"]),
+        "coincide": abs(table["coincide"]["H = 0.4"]),
+        "equal": abs(table["coincide_equal_windows"]["H = 0.4, same X"]),
+        "mdr": 100 * table["exact_correspondence"].abs().max(),
+        "u0": plateau.query("source == 'discs' and across == 257")["u0"].agg(["min", "max"]).tolist(),
+        "grid": span(100 * errors["error"]),
+        "others": (ratios.min(), 10 * round(ratios.max() / 10)),
+    }
+
+
+def span(values):
+    """Return the smallest and the largest of some values as text, without decimals."""
+    return f"{min(values):.0f} to {max(values):.0f}"
+
+
+def listed(values, form=".2f"):
+    """Return numbers as text, with "and" before the last."""
+    *first, last = (format(value, form) for value in values)
+    return f"{', '.join(first)} and {last}"
+
+
+def of_hursts(cases):
+    """Return the range of Hurst exponents of cases, such as "H = 0.4 to 0.9"."""
+    hursts = [float(case.removeprefix("H = ").split(",")[0]) for case in cases.index]
+    return f"H = {min(hursts):g} to {max(hursts):g}"
+
+
 def scoreboard():
     """Return the numbers of claims by verdict, own and quoted apart, of the published run and of the default run."""
     texts = []
@@ -206,8 +308,9 @@ def prefactor_table():
 
 def constants():
     """Return a sentence with the constants that reconcile Eq. 12 with the discs from H = 0.4 on."""
-    table = pd.read_csv(ROOT / "docs/results/zeta_laws.csv").query("range == 'region' and law == @LAST")
-    table = table[table["hurst_min"] == table["hurst_min"].max()].set_index("measure")
+    table = pd.read_csv(ROOT / "docs/results/zeta_laws.csv")
+    chosen = (table["range"] == "region") & (table["law"] == LAST) & (table["hurst_min"] == table["hurst_min"].max())
+    table = table[chosen].set_index("measure")
     texts = {name: f"{row.value:.2f} [{row.low:.2f}, {row.high:.2f}]" for name, row in table.iterrows()}
     left = table["value"]
     return (
@@ -261,7 +364,8 @@ def time_sentence():
 
 
 def published_claims(name="docs/claims.csv"):
-    return pd.read_csv(ROOT / name, keep_default_na=False, na_values=[""]).fillna({"convention": ""})
+    table = pd.read_csv(ROOT / name, keep_default_na=False, na_values=[""])
+    return table.assign(convention=table["convention"].astype(object).fillna(""))
 
 
 def paragraph(text):
@@ -443,6 +547,7 @@ def tables():
         ("docs/index.md", "answer"): answer_lines(),
         ("docs/verdicts.md", "answer"): answer_lines(),
         ("docs/verdicts.md", "sentences"): sentences(),
+        ("README.md", "findings"): found(),
         ("README.md", "time"): time_sentence(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "sufficient models"): sufficient_models(),

@@ -111,11 +111,13 @@ def _reduction(table):
     holding = [hurst for hurst in cases if hurst > max(failing, default=-1.0)]
     parts = [f"gives H/(1 + H) from {holding[0]:g} on"] if holding else []
     rows = table[(table["claim"] == "coincide") & (table["verdict"] == "not reproduced")]
-    apart = [f"by {abs(row.value):.2f} at {_hurst(row.case):g}" for row in rows[::-1].itertuples()]
+    equal = table[(table["claim"] == "coincide_equal_windows") & table["case"].str.endswith("same X")]
+    windows = {_hurst(row.case): f" ({abs(row.value):.2f} in equal ranges of X)" for row in equal.itertuples()}
+    apart = [
+        f"by {abs(row.value):.2f} at {(h := _hurst(row.case)):g}{windows.get(h, '')}" for row in rows[::-1].itertuples()
+    ]
     if apart:
-        equal = table[(table["claim"] == "coincide_equal_windows") & table["case"].str.startswith("H = 0.4, same X")]
-        windows = "".join(f" ({abs(value):.2f} at 0.4 in equal ranges of X)" for value in equal["value"])
-        differs = f"differs from boundary elements {_joined(apart)}{windows}, where the paper sees them nearly coincide"
+        differs = f"differs from boundary elements {_joined(apart)}, where the paper sees them nearly coincide"
         parts.append(f"it {differs}" if parts else differs)
     return text + "; ".join(parts) if parts else ""
 

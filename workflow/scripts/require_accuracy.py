@@ -16,7 +16,8 @@ def main(table, passed, *, order_margin):
     """
     comparisons = read_table(table)
     if failed := failures(comparisons, order_margin):
-        raise ValueError(f"validation failed, see {table}: " + "; ".join(failed))
+        allowed = "validation.limits and validation.order_margin of the settings state what is allowed"
+        raise ValueError(f"validation failed, see {table}: {'; '.join(failed)}; {allowed}")
     names = (comparisons["case"] + " " + comparisons["quantity"]).unique()
     Path(passed).write_text("\n".join(names) + "\n", encoding="utf-8")
 

@@ -117,8 +117,12 @@ HEADERS = {
     kind: {name: lines for name, *lines in (line.split(" | ") for line in table.splitlines())}
     for kind, table in yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")).items()
 }
-HEADERS_WITH_SPACING = HEADERS["Gwyddion"] | HEADERS["clear"], HEADERS["unclear"], HEADERS["bad"]
-OTHER_HEADERS = {"no header": []} | HEADERS["without spacing"], HEADERS["with pixels"]
+ODD_FORMS = HEADERS["unclear"] | HEADERS["other forms"]
+HEADERS_WITH_SPACING = HEADERS["Gwyddion"] | HEADERS["clear"], ODD_FORMS, HEADERS["bad"]
+OTHER_HEADERS = (
+    {"no header": []} | HEADERS["without spacing"],
+    HEADERS["with pixels"] | HEADERS["other forms of the unit"],
+)
 REMARKS = (
     *("Measured with a profilometer", "Messung vom Labor, Probe B", "Mesure de la surface, échantillon C"),
     *("Date: 2024-05-01 10:11:12", "Operator: A. Meier", "Temperature: 23 °C", "Objective: 50x", "Filter = none"),
@@ -143,6 +147,9 @@ def header_lines(draft, shape, decimal_comma):
         draft.note("unit given")
         options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
         unit = UNITS[options["unit"]]
+    elif unit is not None and draft.chance(0.15):
+        options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
+        draft.note("unit given, too", bad=UNITS[options["unit"]] != unit)
     scale = UNITS[z if in_z else u] if states_spacing else unit or 1
     spacing = dx * scale, dy * scale
     # A header that states the spacing must be clear: a reader that does not understand it may use the argument.
@@ -153,7 +160,7 @@ def header_lines(draft, shape, decimal_comma):
     elif not states_spacing:
         draft.note("no spacing at all", bad=True)
     numbers = {"dx": dx, "dy": dy, "dx2": 3 * dx, "k": dx, "kz": dx if in_z else dx * UNITS[u] / UNITS[z]}
-    numbers |= {"w": round(dx * shape[1], 9), "h": round(dy * shape[0], 9)}
+    numbers |= {"z_factor": 1e-3, "w": round(dx * shape[1], 9), "h": round(dy * shape[0], 9)}
     texts = {name: f"{value:.15g}" for name, value in numbers.items()}
     if lines and (decimal_comma or draft.chance(0.04)):
         texts = {name: text.replace(".", ",") for name, text in texts.items()}
@@ -200,6 +207,24 @@ def _with_comments(draft, rows, mark):
 
 # ---- whole files
 
+# The content decides how a file is read. The last suffixes are those of binary files.
+SUFFIXES = (
+    ".txt",
+    ".csv",
+    ".dat",
+    ".asc",
+    ".TXT",
+    ".tsv",
+    "",
+    ".prn",
+    ".grd",
+    ".001",
+    ".out",
+    ".map",
+    ".sdf",
+    ".spm",
+    ".mat",
+)
 ENCODINGS = ("utf-8", "utf-8-sig", "latin-1", "cp1252", "utf-16")
 LINE_ENDS = {"LF": "\n", "CR LF": "\r\n", "CR": "\r"}
 
@@ -230,7 +255,7 @@ def matrix(random):
     if min(heights.shape) <= 2:  # may be a profile, unless two spacings are given
         draft.note("few rows or columns", bad="spacing" not in options)
     lines = with_header(draft, header, lines, delimiter, columns)
-    name = "map" + draft.one_of([".txt", ".txt", ".csv", ".dat", ".asc", ".TXT", ".tsv"])
+    name = "map" + draft.one_of(SUFFIXES)
     return Case(draft, "matrix", name, encoded(draft, lines), heights, unit, spacing, options | preparation)
 
 
@@ -305,7 +330,7 @@ def _points_file(draft, table, heights, spacing, delimiter, accuracy):
     """Return the file of a table of points, with headings."""
     u, z = draft.one_of(["um", "mm", "nm", "µm", "m"]), draft.one_of(["nm", "um", "m", "µm"])
     titles = draft.pick(HEADINGS, ODD_HEADINGS, BAD_HEADINGS, odd=0.3).format(u=u, z=z)
-    name, suffix, mark = draft.traits[-1], draft.one_of([".txt", ".csv", ".xyz", ".dat"]), draft.one_of(["", "", "# "])
+    name, suffix, mark = draft.traits[-1], draft.one_of([*SUFFIXES, ".xyz", ".xyz"]), draft.one_of(["", "", "# "])
     unit, factor, options = UNITS[z], UNITS[u], {}
     if name in ("no heading", "x,y,z"):
         if draft.chance(0.5):
@@ -356,7 +381,16 @@ def esri(random):
     head = head[:-1] if "no mark" in draft.traits else head
     letters, gap = draft.one_of([str, str.upper, str.lower]), draft.one_of([" ", "         ", "\t"])
     lines = [*(f"{letters(name)}{gap}{value}" for name, value in head), *body]
-    return Case(draft, "ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)
+    return Case(
+        draft,
+        "ESRI",
+        "grid" + draft.one_of([".asc", ".asc", *SUFFIXES]),
+        encoded(draft, lines),
+        heights,
+        1.0 if options else None,
+        (dx, dy),
+        options,
+    )
 
 
 # Headings of positions and heights.
@@ -412,7 +446,7 @@ def profile(random):
     between = delimiter if delimiter.strip(" ") or " " not in titles else "  "
     lines = [draft.one_of(["", "", "# "]) + titles.format(u=u, z=z).replace("|", between)] if titles else []
     lines += [delimiter.join(row) for row in rows]
-    name, metres = "profile" + draft.one_of([".txt", ".csv", ".dat"]), (factor * spacing,) * 2
+    name, metres = "profile" + draft.one_of(SUFFIXES), (factor * spacing,) * 2
     heights = heights[::-1] if "falling" in draft.traits else heights  # in increasing order of x
     case = Case(draft, "profile", name, encoded(draft, lines), heights, unit, metres, options, accuracy)
     case.is_line = True

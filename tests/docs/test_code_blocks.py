@@ -25,7 +25,6 @@ from viscorough_study.run.settings import check_settings
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}
 # {beginning: name, reader}
 FILES = {
-    "t [": ("force.csv", lambda name, unit: read_load(name, length_unit=unit)),
     "Zeit [": ("record.csv", lambda name, unit: read_load(name, length_unit=unit)),
     "kind: ": ("medium.yaml", read_medium),
 }

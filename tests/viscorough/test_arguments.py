@@ -292,7 +292,7 @@ CALLS = {
 OPTIONAL = {
     *("progress", "options", "precision", "padding", "length_unit", "corners", "amplitudes", "rms_over", "dtype"),
     *("detrend", "fill", "flip", "kind", "scheme", "medium", "method", "load", "estimate_grid_error"),
-    *("fit_offset", "fit_drift"),
+    *("fit_offset", "fit_drift", "column_positions", "row_positions"),
 }
 # Public names without numbers among their arguments, and functions of files (test_heights.py covers their numbers).
 WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "reference", "read_medium"}

@@ -53,7 +53,7 @@ def use_packages_of_checkout():
     if special := sorted(set(sys.executable) & set(" \t\n'\"\\$`&;|<>()*?[]")):
         end_run(
             f"{sys.executable}: the path of the Python interpreter has {' '.join(map(repr, special))}, and no job can "
-            "start, since Snakemake does not quote it; move the folder to a path without"
+            "start, since Snakemake does not quote it; move the folder to a path without such characters"
         )
     source = PROJECT / "src"
     if importlib.util.find_spec("viscorough") is None:

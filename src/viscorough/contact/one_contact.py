@@ -268,6 +268,8 @@ def _with_maps(
         row_spacing=indenter.row_spacing,
         length_unit=indenter.length_unit,
         shear_modulus=modulus,
+        column_positions=indenter.column_positions,
+        row_positions=indenter.row_positions,
     )
 
 

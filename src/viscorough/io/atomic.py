@@ -4,10 +4,13 @@ A file is written under a temporary name. It gets its final name when its conten
 """
 
 import contextlib
+import errno
+import fcntl
 import functools
 import glob
 import os
 import platform
+import re
 import stat
 import sys
 import uuid
@@ -20,12 +23,49 @@ import psutil
 from viscorough.basics.types import FilePath
 
 # Quote at most this many characters of the message of another library, which may repeat the content of a file.
-_LONGEST_REASON = 250
+_LONGEST_REASON = 300
+# Messages of other libraries, and our words for them: {pattern: words}.
+_TRANSLATIONS = {
+    r"the magic string is not correct.*": "it does not begin like a .npy file",
+    r"EOF: reading .*": "it ends too early",
+    r"Header does not contain .*|Cannot parse header.*|Structure entry .*": "its header is damaged",
+    r"NetCDF: Unknown file format": "it is no NetCDF file",
+    r"NetCDF: (?:HDF|h5py) error.*|h5py error.*|Unable to (?:synchronously )?open .*|'\w+'": "its structure is damaged",
+    r"not a TIFF file.*": "it is no TIFF file",
+}
+_NO_LOCKS = "its file system has no file locks; the environment variable HDF5_USE_FILE_LOCKING=FALSE is needed"
 
 
 def reason(error: BaseException) -> str:
-    """Return the message of an error on one line."""
-    return " ".join(str(getattr(error, "strerror", None) or error).split())
+    """Return the message of an error on one line, without internal words of common libraries."""
+    text = " ".join(str(getattr(error, "strerror", None) or error).split())
+    for pattern, words in _TRANSLATIONS.items():
+        if re.fullmatch(pattern, text):
+            return words
+    return re.sub(r'in "<(?:byte|unicode) string>", (?=line|position)', "in ", text)
+
+
+def _shortened(text: str) -> str:
+    """Return a text without its middle if it is longer than _LONGEST_REASON; its end may state the remedy."""
+    half = _LONGEST_REASON // 2
+    return text if len(text) <= _LONGEST_REASON else f"{text[:half]} … {text[-half:]}"
+
+
+def _lacks_locks(path: FilePath, error: BaseException) -> bool:
+    """Return True if an error of reading or writing is due to a file system without file locks.
+
+    The NetCDF library reports this as an error of the file's structure.
+    """
+    if not isinstance(error, OSError | RuntimeError):
+        return False
+    if getattr(error, "errno", None) == errno.ENOLCK:
+        return True
+    try:
+        with open(path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except OSError as fault:
+        return fault.errno in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
+    return False
 
 
 @contextlib.contextmanager
@@ -56,7 +96,8 @@ def reading(path: FilePath, needed: str) -> Iterator[None]:
     except MemoryError:
         raise
     except Exception as error:
-        raise ValueError(f"{path}: not readable ({reason(error)[:_LONGEST_REASON]}); {needed}") from error
+        cause = _NO_LOCKS if _lacks_locks(path, error) else _shortened(reason(error))
+        raise ValueError(f"{path}: not readable ({cause}); {needed}") from error
 
 
 def check_output(path: FilePath) -> Path:
@@ -104,7 +145,8 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
             temporary.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(temporary, target)
     except (OSError, RuntimeError) as error:  # the NetCDF library raises RuntimeError for a full disk
-        cause = reason(_error_of_plain_writing(temporary) or error)
+        plain = _error_of_plain_writing(temporary)
+        cause = _NO_LOCKS if plain is None and _lacks_locks(temporary, error) else reason(plain or error)
         raise OSError(f"{path}: not written ({cause}); room on a writable disk is needed") from error
     finally:
         temporary.unlink(missing_ok=True)

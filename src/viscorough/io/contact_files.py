@@ -8,7 +8,7 @@ from numpy.typing import DTypeLike
 
 from viscorough.basics.types import Array
 from viscorough.io.curves import OVER_LEVELS, WITH_MODULUS
-from viscorough.io.netcdf import Content, Quantities, Variable, centred_axes, described, padded
+from viscorough.io.netcdf import Content, Quantities, Variable, axes_of, described, padded
 from viscorough.results.contact_maps import Contact
 
 COMMENT = (
@@ -52,7 +52,8 @@ _SINGLE_RANGE = (1e-25, 1e30)
 def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = None) -> Content:
     """Convert contacts of one indenter to the content of a NetCDF file.
 
-    The variables MAPS and `heights` have the dimensions (y, x). The coordinates y and x are 0 at the centre of the map.
+    The variables MAPS and `heights` have the dimensions (y, x). The coordinates y and x are those of the
+    indenter, or 0 at the centre of the map.
     The variables NUMBERS and `patches` (number of contact patches) are single numbers. `patch_area` has the dimension
     `patch` and lists the areas of the patches in decreasing order, filled up with nan. For several contacts, all these
     variables except `heights` have the first dimension `level`, with one level for each contact. If the contacts have a
@@ -67,7 +68,11 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
         stacked = {name: np.stack(each) if level else np.asarray(each[0]) for name, each in values.items()}
         variables.update(described((*level, *dimensions), stacked, quantities, unit))
 
-    variables = centred_axes(first.gap.shape, {"y": first.row_spacing, "x": first.spacing}, unit)
+    spacings, stated = (
+        {"y": first.row_spacing, "x": first.spacing},
+        {"y": first.row_positions, "x": first.column_positions},
+    )
+    variables = axes_of(first.gap.shape, spacings, unit, stated)
     if heights is not None:
         variables["heights"] = Variable(("y", "x"), heights, {"long_name": "height", "units": unit})
     kinds = dict.fromkeys(MAPS, _kind_of_maps(contacts)) | {"contact": np.int8}

@@ -1,14 +1,17 @@
 """Read the header of a text file: spacing of the points, units of lengths, names of columns.
 
-A statement is a line "key: value" or "key = value". The unit of a length follows the number, or is in brackets after
-the key. Spaces, hyphens, underscores and capitals in keys do not matter. Unknown keys are ignored, so that "Camera
-pixel size" is not taken for the spacing of the points. A unit is refused if it is not certain to which lengths it
-belongs. A line with two possible meanings is refused, too.
+A statement is a line "key: value" or "key = value", or a known key and its value with a comma, semicolon, tab, space
+or brackets between them, or an entry of a JSON object. A title such as "Height [nm]" states the unit of the heights.
+The unit of a length follows the number, or is in brackets after the key. Spaces, hyphens, underscores and capitals in
+keys do not matter. Unknown keys are ignored, so that "Camera pixel size" is not taken for the spacing of the points. A
+unit is refused if it is not certain to which lengths it belongs. A line with two possible meanings is refused, too.
+Lines that hold a unit of length in any other form are listed as mentions.
 """
 
+import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from viscorough.basics import units
 from viscorough.basics.argument_names import argument, spelled
@@ -25,7 +28,7 @@ _ROUNDING = 5e-3
 
 _NUMBER = r"[+-]?(?:\d+(?:[.,]\d+|\.)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _LENGTH = re.compile(rf"[(\[]?({_NUMBER})\s*[(\[]?([^\d\s,;()\[\]/]*)(?:/(?:px|pixel|point))?[)\]]?", re.IGNORECASE)
-_STATEMENT = re.compile(r"[\s#%/;!*\"'|]*([^\W\d_][^:=()\[\]\"]*?)\s*(?:[(\[]([^)\]]*)[)\]])?\"?\s*[:=](.*)")
+_STATEMENT = re.compile(r"[\s#%/;!*\"'|\\]*([^\W\d_][^:=()\[\]\"]*?)\s*(?:[(\[]([^)\]]*)[)\]])?\"?\s*[:=](.*)")
 _COLUMN = re.compile(r"([xyz])(?:[\[(/_]([^\])]*)[\])]?)?", re.IGNORECASE)
 _PROFILE_COLUMN = re.compile(
     r"(?:(?P<x>x|position|pos\.?|distance|lateral|length|abstand|weg|strecke|länge|abscisse)|(?P<y>y)"
@@ -36,6 +39,23 @@ _FACTOR = re.compile(
     r"(?:height|z|data|value)\W*(?:conversion|scal(?:e|ing))?\W*factor|(?:(?:height|z|data|value)\W*)?"
     r"(?:scal(?:e|ing)|multiplier)(?:\W*factor)?$"
     r"|bit\W*(?:2|to)\W*[pnuµμm]?m$|[pnuµμm]?m\W*(?:per|/)\W*(?:bit|count|digit|lsb)s?$|(?:z\W*)?lsb$",
+    re.IGNORECASE,
+)
+# Pattern of a title of a matrix of heights, with their unit: "Height [nm]", "Heights in nm", "Z,nm".
+_TITLE = re.compile(
+    r"(?:(?:the|all|measured|exported|surface|image|sample|map|of)\s+)*"
+    r"(?:z|(?:z\W*)?(?:heights?|topograph(?:y|ie)|elevations?|höhen?|hoehen?|hauteurs?|values?|data|numbers))"
+    r"(?:\W*(?:values?|data|map))?(?:\s+(?:is|are))?(?:\s+in\s+|[\s/,;:=|-]*[\s/,;:=|\[({<-])[\s\"']*(\w+)[\s\"']*[\])}>]?",
+    re.IGNORECASE,
+)
+# Pattern of a unit of length in a text, other than the unit of a quantity such as "10 nm".
+_MENTION = re.compile(
+    r"(?<![\w./^])(?<!\d\s)([pnuµμmc]m|Å|[aA]ngstr[oö]ms?|[mM]icrons?|(?:[nN]ano|[mM]icro|[mM]illi|[cC]enti)?[mM]et(?:er|re)s?"
+    r"|(?<=[\[(])m(?=[\])]))(?![\w/^²³]|\s*\d)"
+)
+# Pattern of a text that may state a factor of the heights.
+_MAY_BE_FACTOR = re.compile(
+    r"multipl(?:y|ied|ier)|(?<![^\W\d_])(?:heights?|z|data|values?|numbers?|counts?)\W*(?:\w+\W*)?(?:factor|scal)",
     re.IGNORECASE,
 )
 _DEGREES = {"lon", "lat", "longitude", "latitude"}
@@ -52,10 +72,24 @@ _ROLES = {
     "extent x": {"width", "breite", "largeur", "scanwidth", "imagewidth"},
     "extent y": {"height", "höhe", "hoehe", "hauteur", "scanheight", "imageheight"},
     "unit z": {"zunit", "unitz", "valueunit", "heightunit", "dataunit", "werteinheit", "zeinheit", "einheitz"}
+    | {"exportedimageunit", "imageunit", "imagedataunit", "exporteddataunit", "heightsunit", "valuesunit", "zdataunit"}
+    | {
+        "zvalueunit",
+        "heightdataunit",
+        "zaxisunit",
+        "unitheight",
+        "unitofheight",
+        "unitofheights",
+        "unitofz",
+        "unitdata",
+    }
+    | {"unitofvalues", "unitofdata", "topographyunit", "elevationunit", "zlengthunit", "heightdata", "zscaleunit"}
     | {"höheneinheit", "unitédevaleur", "unitédesvaleurs", "unitéz", "unitédez", "unitédehauteur", "verticalunit"},
     "unit xy": {"lateralunit", "xyunit", "x/yunit", "x,yunit", "horizontalunit", "lateraleeinheit", "lateraleinheit"}
-    | {"xyeinheit", "unitélatérale", "unitéxy"},
+    | {"xyeinheit", "unitélatérale", "unitéxy", "scaleunit", "pixelunit", "spacingunit", "positionunit"},
     "unit": {"unit", "lengthunit", "unitoflength", "einheit", "längeneinheit", "unité"},
+    "missing": {"nodata", "nodatavalue", "missingvalue", "missingdata", "missingdatavalue", "badvalue", "baddatavalue"}
+    | {"invalidvalue", "undefinedvalue", "fillvalue", "nullvalue", "blankvalue", "voidvalue", "maskedvalue"},
     "channel": {"channel", "kanal", "canal", "datachannel"},
 }
 _ROLE_OF = {key: role for role, keys in _ROLES.items() for key in keys}
@@ -72,12 +106,16 @@ class Header(NamedTuple):
     lateral_unit : unit of the spacing, or of positions x and y; "1" if it is not stated
     columns : names of the columns in the order of the table, such as ("x", "y", "z"), or ("x", "z") for a profile.
         Columns with other quantities have the name "". None if no heading names the columns
+    missing : numbers that mark missing points
+    mentions : (line, unit) of the lines that hold a unit of length without stating what it belongs to
     """
 
     unit: str
     spacing: Spacing | None
     lateral_unit: str
     columns: tuple[str, ...] | None
+    missing: tuple[float, ...] = ()
+    mentions: tuple[tuple[str, str], ...] = ()
 
 
 class _Columns(NamedTuple):
@@ -110,8 +148,12 @@ class _Length(NamedTuple):
 
 def states(line: str) -> bool:
     """Return True if a line of text states a length, a unit or the name of a map."""
-    match = _STATEMENT.match(line)
-    return match is not None and bool(_role(match[1]))
+    return bool(_title(line)) or any(role != "missing" for role, _, _ in _stated_in(line))
+
+
+def is_statement(line: str) -> bool:
+    """Return True if a line above a table is a statement or a title, and therefore no row with a misprint."""
+    return bool(_title(line) or _stated_in(line))
 
 
 def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str, profile_columns: int = 0) -> Header:
@@ -125,8 +167,12 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str, prof
     Raises ValueError for statements that contradict each other or have two meanings, and for the heading of a profile
     above a map.
     """
-    stated, others = _statements(lines)
-    columns = _heading_of_columns(others, profile_columns or shape[1], is_profile=profile_columns > 0)
+    stated, unknown, others = _statements(lines)
+    count = profile_columns or shape[1]
+    titles = [] if profile_columns > 1 else [(line, unit) for line in others if (unit := _title(line))]
+    others = [line for line in others if line not in [title for title, _ in titles]]
+    stated["unit z"] += [(line.strip()[:80], "", unit) for line, unit in titles]
+    columns = _heading_of_columns(others, count, is_profile=profile_columns > 0)
 
     def stated_unit(role: str, *axes: str) -> str:
         headed = [] if columns is None else [columns.units.get(axis, "") for axis in axes]
@@ -135,37 +181,136 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str, prof
     spacing, lateral = _spacing(stated, shape, stated_unit("unit xy", "x", "y"), decimal)
     unit = stated_unit("unit z", "z") or stated_unit("unit")
     names = None if columns is None else columns.names
-    return Header(unit or units.UNKNOWN, spacing, lateral or units.UNKNOWN, names)
+    mentions = tuple(mention for line in unknown + others for mention in _mentions(line)) if columns is None else ()
+    missing = tuple(float(value.replace(",", ".")) for _, _, value in stated["missing"])
+    return Header(unit or units.UNKNOWN, spacing, lateral or units.UNKNOWN, names, missing, mentions)
 
 
-def _statements(lines: Sequence[str]) -> tuple[Stated, list[str]]:
-    """Separate statements from other lines of a header. Return ({role: statements}, other lines).
+def _statements(lines: Sequence[str]) -> tuple[Stated, list[str], list[str]]:
+    """Separate statements from other lines of a header.
+
+    Return ({role: statements}, statements with unknown keys, other lines).
 
     Raises ValueError for a factor by which the heights must be multiplied, and for a unit of length if the line does
     not state to which lengths the unit belongs.
     """
     stated: Stated = {role: [] for role in _ROLES}
-    others = []
-    for line in lines:
+    unknown, others = [], []
+    for line in _without_json(lines):
+        found = _stated_in(line)
+        for role, bracket, value in found:
+            stated[role].append((line.strip()[:80], bracket, value))
+        if found:
+            continue
         match = _STATEMENT.match(line)
         if match is None:
             others.append(line)
+            if _MAY_BE_FACTOR.search(line) and re.search(r"\d", line):
+                _refuse_factor(line)
             continue
+        unknown.append(line)
         key, value = match[1], match[3].strip(" \t,;|\"'")
-        if (role := _role(key)) and value:  # "Height (nm):" without a value is a heading of the numbers below
-            stated[role].append((line.strip()[:80], match[2] or "", value))
-        elif _FACTOR.match(key) and ("factor" in key.lower() or _LENGTH.match(value)):
-            way = f"without this line, and with {argument('scale')}, they are read"
-            raise ValueError(f"header {line.strip()[:80]!r}: heights are the numbers times a factor; {way}")
+        if _FACTOR.match(key) and ("factor" in key.lower() or _LENGTH.match(value)):
+            _refuse_factor(line)
         elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and units.is_length(_unit_text(value)):
             text = "of which lengths is not stated; 'XY units', 'Z units' are allowed"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")
-    return stated, others
+    return stated, unknown, others
+
+
+def _refuse_factor(line: str) -> None:
+    """Raise ValueError for a line that states a factor of the heights."""
+    way = f"without this line, and with {argument('scale')}, they are read"
+    raise ValueError(f"header {line.strip()[:80]!r}: heights are the numbers times a factor; {way}")
+
+
+def _stated_in(line: str) -> list[tuple[str, str, str]]:
+    """Return [(role, unit in brackets, value)] of the statement in a line; [] for another line."""
+    match = _STATEMENT.match(line)
+    if match is not None:
+        # "Height (nm):" without a value is a heading of the numbers below.
+        role, value = _role(match[1]), match[3].strip(" \t,;|\"'")
+        return [(role, match[2] or "", value)] if role and value and _suits(role, value, strict=False) else []
+    text = line.replace('"', "").strip("#%/;!*\\'|, \t")
+    if bracket := re.fullmatch(r"([^\[({<]+)[\[({<]\s*([^\])}>]*)[\])}>]", text):
+        role = _role(bracket[1])
+        return [(role, "", bracket[2])] if role.startswith("unit") else []
+    for separator in (r"\s*;\s*", r"\s*\t\s*", r"\s*\|\s*", r"\s*,\s*", r"\s+"):
+        words = re.split(separator, text)
+        for count in range(len(words) - 1, 0, -1):
+            key, value = " ".join(words[:count]), " ".join(words[count:])
+            if (role := _role(key)) and role != "channel" and _suits(role, value, strict=True):
+                bracket = re.search(r"[\[(]([^\])]*)[\])]\s*$", key)
+                return [(role, bracket[1] if bracket else "", value)]
+    return []
+
+
+def _suits(role: str, value: str, *, strict: bool) -> bool:
+    """Return True if a value suits the role of its key.
+
+    strict : True if the key and its value may be words of a sentence. The value must then be a unit or a length
+    """
+    if role == "missing":
+        return bool(re.fullmatch(_NUMBER, value))
+    if not strict:
+        return True
+    if role.startswith("unit"):
+        return units.is_length(_unit_text(value)) or units.counts_points(value)
+    return bool(_LENGTH.fullmatch(value)) or (role == "step" and " x " in value)
+
+
+def _without_json(lines: Sequence[str]) -> list[str]:
+    """Return lines in which each JSON object is replaced by lines "key: value"; keys of nested objects are joined."""
+    kept: list[str] = []
+    open_lines: list[str] = []
+    for line in lines:
+        text = line.strip("#%/;! \t")
+        if not open_lines and not text.startswith("{"):
+            kept.append(line)
+            continue
+        open_lines.append(text)
+        try:
+            content = json.loads(" ".join(open_lines).replace("'", '"'))
+        except ValueError:
+            continue
+        kept += [f"{key}: {value}" for key, value in _entries(content)] if isinstance(content, dict) else open_lines
+        open_lines = []
+    return kept + open_lines
+
+
+def _entries(content: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Yield (key, value) of the entries of a JSON object; a list of two numbers becomes "a x b"."""
+    for key, value in content.items():
+        if isinstance(value, dict):
+            yield from ((f"{key} {inner}", text) for inner, text in _entries(value))
+        elif isinstance(value, list):
+            yield key, " x ".join(map(str, value))
+        else:
+            yield key, str(value)
+
+
+def _title(line: str) -> str:
+    """Return the unit in a title such as "Height [nm]"; "" for another line."""
+    match = _TITLE.fullmatch(line.replace('"', "").strip("#%/;!*\\'|, \t"))
+    return match[1] if match and units.is_length(match[1]) else ""
+
+
+def _mentions(line: str) -> list[tuple[str, str]]:
+    """Return [(line, unit)] of the units of length that a line holds, except for units of quantities."""
+    match = _STATEMENT.match(line)
+    if match and re.match(r"\s*[-+]?[\d.,]+", match[3]):
+        return []
+    found = [unit[1] for unit in _MENTION.finditer(line)]
+    if match and units.is_length(value := match[3].strip(" \t,;|\"'[](){}<>")):
+        found.append(value)
+    if re.search(r"(?i)units?(?![^\W\d_])|einheit|unité", line):
+        found += re.findall(r"(?<![\w'])m(?![\w'])", line)
+    return [(line.strip()[:60], unit) for unit in found]
 
 
 def _role(key: str) -> str:
     """Return the role of a key (see `_ROLES`), such as "step x" for "Pixel Size X"; "" for an unknown key."""
-    compact = re.sub(r"[\s_.-]+", "", key.lower())
+    compact = re.sub(r"\s*[\[(][^\])]*[\])]|[\s_.-]+", "", key.lower())
     return _ROLE_OF.get(re.sub(r"(unité?|einheit)(?:s|en)", r"\1", compact), "")
 
 
@@ -335,7 +480,8 @@ def _check_no_heading(text: str, count: int, is_profile: bool) -> None:
     only_units = len(cells) == count > 1 and all(map(units.is_length, cells))
     has_unit_in_brackets = any(map(units.is_length, re.findall(r"[\[(]([^\W\d]\w*)[\])]", text)))
     names, example = ({"x", "z"}, "x [um], z [nm]") if is_profile else ({"x", "y", "z"}, "x [um], y [um], z [nm]")
-    if only_units or has_unit_in_brackets or words >= names:
+    # In a table with more columns, a unit in brackets belongs to no column; it is listed as a mention.
+    if only_units or (has_unit_in_brackets and (is_profile or count == 3)) or words >= names:
         text = f"header {text[:60]!r}: which columns and units these are is not stated"
         raise ValueError(f"{text}; one heading, such as {example!r}, is allowed")
 

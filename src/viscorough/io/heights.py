@@ -15,6 +15,7 @@ from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import Array, FilePath
 from viscorough.io import elevation, netcdf
 from viscorough.io.atomic import path_named, reading
+from viscorough.io.instruments import holds_instrument_line, is_sdf_text, read_instrument, read_instrument_line
 from viscorough.io.profiles import holds_profile, read_profile
 from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
@@ -24,8 +25,6 @@ from viscorough.surfaces.preparation import doubts, prepare
 
 # The theory of small slopes is doubtful above this rms slope.
 _STEEP_SLOPE = 0.3
-# Suffixes of text files.
-TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".tsv")
 
 
 def read_heights(
@@ -48,7 +47,7 @@ def read_heights(
     Parameters
     ----------
     path : path
-        .npy, NetCDF (.nc), text (.txt, .csv, .asc, .dat, .tsv, .xyz: a matrix, an ESRI grid, or columns x, y, z),
+        .npy, NetCDF (.nc), text with any suffix (a matrix, an ESRI grid, or columns x, y, z),
         TIFF, an elevation model such as GeoTIFF (pip install "viscorough[geo]"), or a format of an instrument (pip
         install "viscorough[formats]").
     spacing : number or text or pair of them, optional
@@ -92,6 +91,8 @@ def read_heights(
     """
     with path_named(path):
         scan = _read_scan(path, channel, is_map=isinstance(spacing, tuple | list | np.ndarray))
+        if scan.down and preparation.get("flip"):
+            raise ValueError(f"{argument('flip')}: the file states positive = down, which is obeyed; leave it out")
         indenter = to_indenter(scan if scale is None else _scaled(scan, scale), spacing, unit, lateral_unit)
         indenter = prepare(indenter, **preparation)
     texts = doubts(indenter)
@@ -115,8 +116,9 @@ def read_line(
     ----------
     path : path
         .npy of shape (points,), .nc with a variable `heights` of one dimension or a single variable of one dimension,
-        or text (.txt, .csv, .asc, .dat, .tsv, .xyz). A text holds one column or row of heights, or two columns or rows
-        with positions x and heights z. If a heading names x and z, such as "x [um], z [nm]", other columns are ignored.
+        a profile of Digital Surf (.pro), or text with any suffix. A text holds one column or row of heights, or two
+        columns or rows with positions x and heights z. If a heading names x and z, such as "x [um], z [nm]", other
+        columns are ignored.
     spacing : number or text, optional
         Distance between neighbouring points: a number in the unit of the heights, or a text such as "0.2 um". Needed if
         the file states no spacing. Positions in the file must be equally spaced, within one unit of their last digit.
@@ -149,13 +151,14 @@ def read_line(
     (64,)
     """
     with path_named(path):
-        suffix = Path(path).suffix.lower()
-        if suffix not in (".npy", ".nc", *TEXT):
-            raise ValueError(f"unknown kind of file; a line is read from .npy, .nc, {', '.join(TEXT)}")
-        if suffix == ".npy":
+        if is_npy(path):
             scan = Scan(npy_array(path))
+        elif Path(path).suffix.lower() == ".nc":
+            scan = netcdf_scan(path, None, dimensions=1)
+        elif is_binary(path):
+            scan = read_instrument_line(path)
         else:
-            scan = netcdf_scan(path, None, dimensions=1) if suffix == ".nc" else read_profile(path)
+            scan = read_profile(path)
         spacings = None if spacing is None else (spacing, spacing)
         return to_indenter(scan, spacings, unit, lateral_unit, dimensions=1)
 
@@ -163,25 +166,25 @@ def read_line(
 def surface_to_content(indenter: Indenter) -> netcdf.Content:
     """Convert an Indenter to the content of a NetCDF file: heights with the dimensions (y, x), or (x) for a line.
 
-    The coordinates y and x are 0 at the centre of the map or line.
+    The coordinates y and x are those of the indenter, or 0 at the centre of the map or line.
     """
     axes = {"x": indenter.spacing} if indenter.heights.ndim == 1 else {"y": indenter.row_spacing, "x": indenter.spacing}
     unit = indenter.length_unit
     variables = {"heights": netcdf.Variable(tuple(axes), indenter.heights, {"long_name": "height", "units": unit})}
-    variables |= netcdf.centred_axes(indenter.heights.shape, axes, unit)
+    stated = {"y": indenter.row_positions, "x": indenter.column_positions}
+    variables |= netcdf.axes_of(indenter.heights.shape, axes, unit, stated)
     return netcdf.Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
 
 
 def dimensions_of_heights(path: FilePath) -> int:
     """Return the number of dimensions of the heights in a file: 1 for a line (.npy, NetCDF or text), otherwise 2."""
-    suffix = Path(path).suffix.lower()
-    if suffix == ".npy":
+    if is_npy(path):
         return npy_array(path).ndim
-    if suffix in TEXT and not is_binary(path):
+    if Path(path).suffix.lower() != ".nc":
         with path_named(path):
+            if is_binary(path) or is_sdf_text(path):
+                return 1 if holds_instrument_line(path) else 2
             return 1 if holds_profile(path) else 2
-    if suffix != ".nc":
-        return 2
     with netcdf.opened(path) as file:
         maps = [name for name, each in file.variables.items() if each.ndim >= 2]
         return min(file["heights"].ndim, 2) if "heights" in file.variables else 2 if maps else 1
@@ -202,7 +205,9 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
 
 
 def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
-    """Read heights, spacing and units from a file, as a Scan. The suffix of the file selects the reader.
+    """Read heights, spacing and units from a file, as a Scan.
+
+    The suffix selects the reader of NetCDF, TIFF and elevation models, and the content of the file all other readers.
 
     is_map : True if the user gives both dx and dy. A text file with one or two rows or columns is then read as a map;
         otherwise it is refused, since it may hold a profile
@@ -216,13 +221,10 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
         return read_tiff(path, channel)
     if suffix in elevation.FORMATS:
         return elevation.read_elevation(path, elevation.FORMATS[suffix], channel)
-    # A binary file with the suffix of a text file is in the format of an instrument; read_instrument below reads it.
-    if suffix == ".npy" or (suffix in TEXT and not is_binary(path)):
+    if is_npy(path) or not (is_binary(path) or is_sdf_text(path)):
         if channel is not None:
             raise ValueError(f"{argument('channel')} {channel}: a file of this kind holds one map; leave it out")
-        return Scan(npy_array(path)) if suffix == ".npy" else _with_units_of_prj(read_text(path, is_map=is_map), path)
-    from viscorough.io.instruments import read_instrument
-
+        return Scan(npy_array(path)) if is_npy(path) else _with_units_of_prj(read_text(path, is_map=is_map), path)
     return read_instrument(path, channel)
 
 
@@ -269,6 +271,7 @@ def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Sca
             leading = _leading(variable, dimensions)
             heights, unit, axes = unpacked(variable), _unit_of(variable), variable.dimensions[-dimensions:]
             positions = [_positions_along(file, axis, names[0]) for axis in axes]
+            down = _is_down(variable)
     if not found:
         needed = f"none of them is the channel {channel}" if channel else "exactly one, or one named heights, is needed"
         raise ValueError(f"{path}: maps of {dimensions} dimensions: {', '.join(maps) or 'none'}; {needed}")
@@ -281,7 +284,8 @@ def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Sca
     heights = heights.reshape(heights.shape[-dimensions:])
     if [axis.lower() for axis in axes] == ["x", "y"]:
         heights, positions = heights.T, positions[::-1]
-    return Scan(heights, unit, *_spacing(positions[0], positions[-1]))
+    spacing, spacing_unit, places = _spacing(positions[0], positions[-1])
+    return Scan(-heights if down else heights, unit, spacing, spacing_unit, positions=places, down=down)
 
 
 def _leading(variable: netCDF4.Variable, dimensions: int) -> str:
@@ -299,6 +303,14 @@ def _unit_of(variable: netCDF4.Variable) -> str:
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
+def _is_down(variable: netCDF4.Variable) -> bool:
+    """Return True if larger numbers are lower, by the attribute `positive` of CF. Raises ValueError for other texts."""
+    positive = str(getattr(variable, "positive", "up")).strip().lower()
+    if positive not in ("up", "down"):
+        raise ValueError(f"attribute positive of {variable.name} is {positive!r}; up or down is needed")
+    return positive == "down"
+
+
 def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
     """Return (name, positions, unit) of the variable with the positions along a dimension; None if there is none.
 
@@ -314,7 +326,7 @@ def _positions_along(file: netCDF4.Dataset, dimension: str, heights: str) -> tup
 
 
 def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str] | None) -> tuple[Any, ...]:
-    """Return ((dx, dy), unit) from the positions of rows and columns; (None, "1") without positions.
+    """Return ((dx, dy), unit, positions of columns and rows); (None, "1", None) without positions.
 
     rows, columns : (name, positions, unit) from `_positions_along`. Positions that only number the points are ignored
 
@@ -322,16 +334,17 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
     """
     stated = [axis for axis in (columns, rows) if axis is not None and not _are_indices(*axis[1:])]
     if not stated:
-        return None, "1"
+        return None, "1", None
     if len(stated) == 1:
         raise ValueError(f"only the coordinate {stated[0][0]} states a spacing; both directions, or none, are needed")
-    (_, _, unit), (_, _, other) = stated
+    (_, x, unit), (_, y, other) = stated
     distances = [uniform_spacing(name, positions) for name, positions, _ in stated]
     if unit != other:
         if "1" in (unit, other):
             raise ValueError(f"coordinates are in {unit} and {other}; units of length are needed for both")
         distances[1] *= units.metres(other) / units.metres(unit)
-    return tuple(distances), unit
+        y = y * (units.metres(other) / units.metres(unit))
+    return tuple(distances), unit, (np.asarray(x, float), np.asarray(y, float))
 
 
 def _are_indices(positions: Array, unit: str) -> bool:

@@ -2,6 +2,7 @@
 
 import io
 import re
+import struct
 import warnings
 import zipfile
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.argument_names import argument
+from viscorough.basics.argument_names import argument, spelled
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import reading
@@ -26,9 +27,31 @@ _LEAST_SIDE, _LARGEST_SIDE = 1e-8, 1.0
 # Several formats use each of these suffixes. The error that the reader of one format raises may thus be misleading.
 _SHARED_SUFFIXES = ("asc", "csv", "dat", "txt", "xyz", "zip")
 _NANOMETRES_PER_MILLIMETRE = 1e6
+# Messages list at most this many channels.
+_MOST_NAMES = 5
+# First bytes of SDF files (ISO 25178-71) in text; the dialect BCR differs from ISO only in this name.
+_SDF_TEXT = (b"aISO-1.0", b"aBCR-1.0")
+# Objects in files of Digital Surf: {code: name}.
+_PROFILE, _SURFACE = 1, 2
+_OBJECTS = {
+    _PROFILE: "a profile",
+    3: "a binary image",
+    4: "a series of profiles",
+    5: "a series of surfaces",
+    7: "a profile of several layers",
+    8: "a surface of several layers",
+    10: "an intensity image",
+    11: "an intensity surface",
+    12: "a picture in colours",
+    13: "a picture in colours on a surface",
+    14: "a force curve",
+    15: "a series of force curves",
+    20: "a spectrum",
+    22: "a map of spectra",
+}
 
 
-def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
+def read_instrument(path: FilePath, channel: str | None = None, *, profile: bool = False) -> Scan:
     """Read heights, spacing and units, as a Scan, from a file in a format that SurfaceTopography recognizes.
 
     An AccuracyWarning is given if other channels hold heights as well, if the surface is periodic, and if the field is
@@ -36,6 +59,7 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
 
     channel : name or number of the channel, from 0; by default the first channel with heights. It is needed if a file
         of plain arrays, such as a MATLAB or HDF5 file, holds several arrays
+    profile : True for a Digital Surf file of a profile, whose heights form a single row
 
     Raises a one-line ValueError for unknown formats, line scans and channels without heights.
     """
@@ -43,7 +67,7 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
     with (
         reading(path, "a file of heights is needed"),
         warnings.catch_warnings(action="ignore"),
-        _opened(path) as file,
+        _opened(path, profile=profile) as file,
     ):
         if file.format() == "gwy" and not file.channels:
             return _gwyddion_scan(path, file, channel)
@@ -72,7 +96,52 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
     return Scan(heights, unit, spacing, unit)
 
 
-def _opened(path: FilePath) -> Any:
+def is_sdf_text(path: FilePath) -> bool:
+    """Return True if a file is an SDF file in text, which SurfaceTopography reads."""
+    with reading(path, "a file of heights is needed"), open(path, "rb") as file:
+        return file.read(8) in _SDF_TEXT
+
+
+def holds_instrument_line(path: FilePath) -> bool:
+    """Return True if a file of an instrument holds a profile and no map; only Digital Surf's files of profiles do."""
+    with reading(path, "a file of heights is needed"), open(path, "rb") as file:
+        start = file.read(20)
+    return start.startswith(b"DIGITAL SURF") and struct.unpack_from("<H", start, 18)[0] == _PROFILE
+
+
+def read_instrument_line(path: FilePath) -> Scan:
+    """Read heights along a line, spacing and units from a Digital Surf file of a profile, as a Scan.
+
+    Raises a one-line ValueError for other files, and for a profile with missing heights.
+    """
+    if not holds_instrument_line(path):
+        raise ValueError("unknown kind of file; a line is read from .npy, .nc, text, and Digital Surf's .pro files")
+    scan = read_instrument(path, profile=True)
+    heights = scan.heights[0]
+    if missing := np.count_nonzero(np.isnan(heights)):
+        raise ValueError(f"{missing} of {heights.size} heights are missing; every point of a line needs a height")
+    return scan._replace(heights=heights, spacing=None if scan.spacing is None else (scan.spacing[0],) * 2)
+
+
+def _check_digital_surf(path: FilePath, *, profile: bool) -> None:
+    """Raise ValueError for a Digital Surf file of other objects than one surface, or one profile if `profile` is True.
+
+    The header states the number of objects and the kind of the first object at the bytes 14 and 18.
+    """
+    content = Path(path).read_bytes()
+    if not content.startswith(b"DIGITAL SURF") or len(content) < 512:
+        return
+    count, kind = struct.unpack_from("<H", content, 14)[0], struct.unpack_from("<H", content, 18)[0]
+    count = max(count, content.count(b"DIGITAL SURF\0"))
+    name = _OBJECTS.get(kind, f"an object of kind {kind}")
+    if kind == _PROFILE and count == 1 and not profile:
+        raise ValueError(f"it holds a profile; {spelled('viscorough reduce', 'read_line')} reads it")
+    if count > 1 or kind != (_PROFILE if profile else _SURFACE):
+        several = f"{count} objects" + (f", {name}" if kind != _SURFACE else ", surfaces") if count > 1 else name
+        raise ValueError(f"it holds {several}; one surface is needed, so export one of them alone")
+
+
+def _opened(path: FilePath, *, profile: bool) -> Any:
     """Return a SurfaceTopography reader for a file, whose format is found from its content or from its suffix.
 
     Raises ValueError for an unknown format. If the content indicates no format, the reader for the suffix raises an
@@ -88,7 +157,8 @@ def _opened(path: FilePath) -> Any:
     with open(path, "rb") as file:
         if file.read(12) == b"DSCOMPRESSED":
             raise ValueError("compressed Digital Surf files are not read; save it without compression")
-    source, suffix = _with_plain_revision(path), Path(path).suffix.lower().lstrip(".")
+    _check_digital_surf(path, profile=profile)
+    source, suffix = _in_known_dialect(path), Path(path).suffix.lower().lstrip(".")
     kinds = [reader.format() for reader in readers if suffix in reader.file_extensions()]
     try:
         file = open_topography(source)
@@ -106,22 +176,26 @@ def _opened(path: FilePath) -> Any:
     return open_topography(source, format=kinds[0])
 
 
-def _with_plain_revision(path: FilePath) -> Any:
-    """Return the path as text, or the content of an x3p file with its revision spelled with a hyphen.
+def _in_known_dialect(path: FilePath) -> Any:
+    """Return the path as text, or the content of a file whose dialect SurfaceTopography does not know, in another one.
 
-    Some x3p files spell their revision with a dash. SurfaceTopography needs the spelling "ISO5436 - 2000".
+    Some x3p files spell their revision with a dash; SurfaceTopography needs the spelling "ISO5436 - 2000". SDF files of
+    the dialect BCR have the layout of ISO.
     """
+    content = Path(path).read_bytes()
+    if content[1:8] == b"BCR-1.0" and content[:1] in b"ab":
+        return io.BytesIO(content[:1] + b"ISO-1.0" + content[8:])
     if Path(path).suffix.lower() != ".x3p" or not zipfile.is_zipfile(path):
         return str(path)
-    content = io.BytesIO()
-    with zipfile.ZipFile(path) as archive, zipfile.ZipFile(content, "w") as copy:
+    revised = io.BytesIO()
+    with zipfile.ZipFile(path) as archive, zipfile.ZipFile(revised, "w") as copy:
         for name in archive.namelist():
             member = archive.read(name)
             if name == "main.xml":
                 member = re.sub(rb"ISO\s?5436[^<\w]+2000", b"ISO5436 - 2000", member)
             copy.writestr(name, member)
-    content.seek(0)
-    return content
+    revised.seek(0)
+    return revised
 
 
 def _maps(file: Any) -> list[Any]:
@@ -140,7 +214,8 @@ def _choose(file: Any, name: str | None) -> tuple[Any, list[str]]:
     called = [channel for channel in maps if name in (channel.channel_id, channel.name, str(channel.index))]
     matches = maps if name is None else called[:1]
     with_heights = [channel for channel in matches if _holds_heights(channel)]
-    names = ", ".join(repr(channel.channel_id) for channel in maps)
+    names = ", ".join(repr(channel.channel_id) for channel in maps[:_MOST_NAMES])
+    names += f" and {len(maps) - _MOST_NAMES} more" if len(maps) > _MOST_NAMES else ""
     if not maps:
         raise ValueError("it holds no map of two dimensions")
     if not with_heights:

@@ -67,15 +67,23 @@ def described(
     return variables
 
 
-def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: str) -> dict[str, Variable]:
-    """Return the coordinates of the points of a map or line, {dimension: Variable}; they are 0 at the centre.
+def axes_of(
+    shape: tuple[int, ...],
+    spacings: Mapping[str, float],
+    unit: str,
+    stated: Mapping[str, Array | None] | None = None,
+) -> dict[str, Variable]:
+    """Return the coordinates of the points of a map or line, {dimension: Variable}.
 
     spacings : {dimension: distance between neighbouring points}, in the order of `shape`
+    stated : {dimension: coordinates}, if they are known; other coordinates rise, and are 0 at the centre
     unit : unit of the spacings and coordinates
     """
     axes = {}
     for (name, spacing), points in zip(spacings.items(), shape, strict=True):
-        positions = spacing * (np.arange(points) - (points - 1) / 2)
+        positions = (stated or {}).get(name)
+        if positions is None:
+            positions = spacing * (np.arange(points) - (points - 1) / 2)
         axes[name] = Variable((name,), positions, {"long_name": f"position along {name}", "units": unit})
     return axes
 

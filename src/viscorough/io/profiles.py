@@ -51,7 +51,8 @@ def read_profile(path: FilePath) -> Scan:
             text = f"spacing {step:g} in the header, {spacing:g} between positions x"
             raise ValueError(f"{text}; statements that agree are needed")
         step, heights = spacing, heights if x[0] < x[-1] else heights[::-1]
-    return Scan(heights, header.unit, None if np.isnan(step) else (step, step), header.lateral_unit)
+    spacing = None if np.isnan(step) else (step, step)
+    return Scan(heights, header.unit, spacing, header.lateral_unit, mentions=header.mentions)
 
 
 def holds_profile(path: FilePath) -> bool:

@@ -28,6 +28,9 @@ class Scan(NamedTuple):
     spacing_unit : unit of the spacing and of positions x and y, as the file spells it; "1" if the file states no unit
     corners : (left, bottom, right, top), x and y of the outermost points, if x and y have no unit and may be longitudes
         and latitudes; None otherwise. Coordinates that the file does not state are nan
+    mentions : (line, unit) of lines in the file that hold a unit of length without stating that it is of the heights
+    positions : (x of the columns, y of the rows) in the unit of the spacing; None if the file does not state them
+    down : True if the file states that larger numbers are lower; the heights are then the negative numbers
     """
 
     heights: np.ndarray
@@ -35,6 +38,9 @@ class Scan(NamedTuple):
     spacing: tuple[float, float] | None = None
     spacing_unit: str = units.UNKNOWN
     corners: tuple[float, float, float, float] | None = None
+    mentions: tuple[tuple[str, str], ...] = ()
+    positions: tuple[Array, Array] | None = None
+    down: bool = False
 
 
 def to_indenter(
@@ -90,7 +96,23 @@ def to_indenter(
             text = f"{distance:g}{unit} contradicts the file, in which {name} are {stated:g}{unit} apart"
             raise ValueError(f"{argument('spacing')} {text}; leave it out")
     dx, dy = in_file if np.isfinite(in_file).all() else own
-    return Indenter(scan.heights, dx, dy, length_unit=length_unit)
+    places = _places(scan, length_unit) if dimensions == 2 and np.isfinite(in_file).all() else (None, None)
+    return Indenter(scan.heights, dx, dy, length_unit, *places)
+
+
+def _places(scan: Scan, length_unit: str) -> tuple[Array | None, Array | None]:
+    """Return the positions of columns and rows in the unit of the heights.
+
+    Positions are None if the file states none, or if they rise and are 0 at the centre, as without a statement.
+    """
+    if scan.positions is None:
+        return None, None
+    unit = scan.spacing_unit.strip()
+    has_unit = length_unit != units.UNKNOWN and unit not in ("", units.UNKNOWN)
+    factor = units.factor(units.length_unit(unit), length_unit) if has_unit else 1.0
+    x, y = (factor * positions for positions in scan.positions)
+    centred = all(each[0] < each[-1] and abs(each[0] + each[-1]) <= 1e-12 * np.ptp(each) for each in (x, y))
+    return (None, None) if centred else (x, y)
 
 
 def _may_be_degrees(left: float, bottom: float, right: float, top: float) -> bool:
@@ -133,7 +155,16 @@ def _unit_of_heights(scan: Scan, given: str | None) -> str:
     except ValueError as error:
         text = f"{argument('scale')}, such as '5 nm', states the height of 1 {scan.unit.strip()[:60]}"
         raise ValueError(f"heights: {error}; {text}") from error
-    return _agreed_unit("unit", "heights", scan.unit, given)
+    unit = _agreed_unit("unit", "heights", scan.unit, given)
+    if _stated_unit(scan.unit) is None and scan.mentions:
+        line, mentioned = scan.mentions[0]
+        if unit == units.UNKNOWN:
+            text = f"the line {line!r} holds the unit {mentioned}, but does not state that heights are in it"
+            raise ValueError(f"{text}; {argument('unit', mentioned)} states it, if they are")
+        if all(units.metres(each) != units.metres(unit) for _, each in scan.mentions):
+            text = f"{argument('unit')} {unit}: the line {line!r} holds the unit {mentioned}"
+            raise ValueError(f"{text}; {argument('unit', mentioned)}, or a file without this line, is needed")
+    return unit
 
 
 def _stated_unit(in_file: str) -> str | None:

@@ -20,7 +20,7 @@ from viscorough.basics.argument_names import spelled
 from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import reading, reason
 from viscorough.io.grids import even_spacing, gridded
-from viscorough.io.headers import Spacing, read_header, states
+from viscorough.io.headers import Spacing, is_statement, read_header, states
 from viscorough.io.scan import Scan
 from viscorough.io.zygo import zygo_scan
 
@@ -42,7 +42,11 @@ _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
 # Characters of plain numbers and delimiters. Rows with other characters are searched for marks of missing points.
 _PLAIN = b"0123456789.,;+-eE \t\n"
-_ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
+_ESRI_KEY = re.compile(
+    r"(?i)^\W*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\W*?[\s:=,;]\s*([-+.\w]\S*?)[\s,;]*$"
+)
+# First words of text files in formats that are not read: {word: name of the format}.
+_UNREAD = {"DSAA": "Surfer grid", "DSBB": "Surfer grid", "ISO 5436": "SMD"}
 # Control characters that occur in no text file. \x1a is left out, since it ends text files of DOS.
 _CONTROLS = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))
 # A row or column at an edge of a table holds positions if at least this many numbers rise or fall in equal steps.
@@ -86,6 +90,9 @@ def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
     lines = decoded_lines(path)
     if lines[0].startswith("Zygo XYZ Data File"):
         return zygo_scan(lines)
+    for word, name in _UNREAD.items():
+        if lines[0].startswith(word):
+            raise ValueError(f"files of the format {name} are not read; .x3p, a matrix or points x, y, z are needed")
     if is_own_table(lines):
         raise ValueError(
             "a table that viscorough wrote holds no map of heights; one is needed. To plot a result, write it as .nc"
@@ -95,17 +102,20 @@ def read_text(path: FilePath, *, is_map: bool = False) -> Scan:
         return _esri_scan(table.values, table.esri)
     header = read_header([*table.header, *table.comments], table.values.shape, table.decimal)
     names = header.columns
+    table = table._replace(values=_without_missing(table.values, header.missing))
     points = table.values if names is None else table.values[:, [names.index(name) for name in "xyz"]]
     grid = _grid(points, header.spacing, required=names is not None or str(path).lower().endswith(".xyz"))
     if grid is not None:
         heights, spacing = grid
-        return Scan(heights, header.unit, spacing, header.lateral_unit)
+        x, y = (np.nanmin(points[:, axis]) + spacing[axis] * np.arange(heights.shape[1 - axis]) for axis in (0, 1))
+        unit, lateral = header.unit, header.lateral_unit
+        return Scan(heights, unit, spacing, lateral, mentions=header.mentions, positions=(x, y))
     if not is_map:
         _check_not_profile(table.values.shape)
     if table.separated:
         raise ValueError(f"line {table.separated}: empty lines separate it from the rows above; one map is needed")
     _check_positions(table.values)
-    return Scan(table.values, header.unit, header.spacing, header.lateral_unit)
+    return Scan(table.values, header.unit, header.spacing, header.lateral_unit, mentions=header.mentions)
 
 
 def parsed(lines: Sequence[str]) -> Table:
@@ -130,12 +140,12 @@ def is_own_table(lines: Sequence[str]) -> bool:
 
 
 def is_binary(path: FilePath) -> bool:
-    """Return True if a file is no text: its first 4096 bytes contain control characters and are not UTF-16.
+    """Return True if a file is no text: it contains control characters and is not UTF-16.
 
     Raises ValueError for an unreadable file.
     """
-    start = _content(path, 4096)
-    return len(start.translate(None, _CONTROLS)) < len(start) and _utf16(start) is None
+    content = _content(path)
+    return len(content.translate(None, _CONTROLS)) < len(content) and _utf16(content[:4096]) is None
 
 
 def _utf16(start: bytes) -> str | None:
@@ -151,10 +161,9 @@ def _utf16(start: bytes) -> str | None:
     return "utf-16-le" if places[0] else "utf-16-be"
 
 
-def _content(path: FilePath, size: int = -1) -> bytes:
-    """Return the first `size` bytes of a file; all bytes by default."""
-    with reading(path, "a text file of heights is needed"), open(path, "rb") as file:
-        return file.read(size)
+def _content(path: FilePath) -> bytes:
+    with reading(path, "a file of numbers is needed"), open(path, "rb") as file:
+        return file.read()
 
 
 def decoded_lines(path: FilePath) -> list[str]:
@@ -303,6 +312,17 @@ def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) 
     return ""
 
 
+def _without_missing(table: Array, marks: Sequence[float]) -> Array:
+    """Return a table with nan at all numbers that mark missing points.
+
+    A large mark, such as -3.4e38, may be printed with few digits, so it is compared with a tolerance.
+    """
+    for mark in marks:
+        missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
+        table = np.where(missing, np.nan, table)
+    return table
+
+
 def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], esri: dict[str, float]) -> None:
     """Raise ValueError if a line above the table may be a row with a misprint, which must not be skipped.
 
@@ -319,8 +339,8 @@ def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], 
     """
     for number, line in enumerate(lines, 1):
         is_comment = _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";"))
-        is_statement = re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line))
-        if is_comment or is_statement or not line.strip(" " if delimiter == "\t" else None):
+        is_stated = re.search(r"[:=]", line) or is_statement(line) or (esri and _ESRI_KEY.match(line))
+        if is_comment or is_stated or not line.strip(" " if delimiter == "\t" else None):
             continue
         cells = [cell.strip(' "') for cell in _REMARK.sub("", line).strip(" ").split(delimiter)]
         if delimiter is not None and len(cells) > 1 and not any(cells):
@@ -423,6 +443,8 @@ def _esri(lines: Sequence[str]) -> dict[str, float]:
             if key in found or not re.fullmatch(rf"{_NUMBER}|nan", text, re.IGNORECASE):
                 raise ValueError(f"line {number} ({line[:40]!r}): one number is needed for {match[1]}")
             found[key] = float(text)
+            if key in ("ncols", "nrows") and not (found[key].is_integer() and found[key] > 0):
+                raise ValueError(f"line {number} ({line[:40]!r}): a whole number above 0 is needed for {match[1]}")
     return found if {"ncols", "nrows"} <= set(found) else {}
 
 
@@ -436,14 +458,13 @@ def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
     if table.shape != (rows, columns):
         text = f"{len(table)} lines of {table.shape[1]} numbers contradict {rows:g} rows and {columns:g} columns"
         raise ValueError(f"{text}; a line for each row is needed")
-    mark = esri.get("nodata_value", -9999.0)
-    # A large number that marks missing points, such as -3.4e38, may be printed with few digits. Compare it with a
-    # tolerance.
-    missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
-    heights = np.where(missing, np.nan, table)
+    heights = _without_missing(table, [esri.get("nodata_value", -9999.0)])
     dx, dy = (esri.get(key, esri.get("cellsize")) for key in ("dx", "dy"))
     if dx is None or dy is None:
         return Scan(heights)
     left = esri.get("xllcenter", esri.get("xllcorner", np.nan) + dx / 2)
     bottom = esri.get("yllcenter", esri.get("yllcorner", np.nan) + dy / 2)
-    return Scan(heights, spacing=(dx, dy), corners=(left, bottom, left + dx * (columns - 1), bottom + dy * (rows - 1)))
+    right, top = left + dx * (columns - 1), bottom + dy * (rows - 1)
+    known = np.isfinite([left, bottom]).all()
+    positions = (np.linspace(left, right, int(columns)), np.linspace(top, bottom, int(rows))) if known else None
+    return Scan(heights, spacing=(dx, dy), corners=(left, bottom, right, top), positions=positions)

@@ -73,6 +73,8 @@ class Contact(ReadOnlyArrays):
         Unit of all lengths; "1" if the unit is not known.
     shear_modulus : float or None
         Shear modulus G [Pa], or in consistent units if the unit of length is not known; None if no modulus was given.
+    column_positions, row_positions : array or None
+        Coordinates of the columns and rows, as the indenter has them [length].
 
     Examples
     --------
@@ -95,6 +97,8 @@ class Contact(ReadOnlyArrays):
     row_spacing: float
     length_unit: str = "1"
     shear_modulus: float | None = None
+    column_positions: np.ndarray | None = None
+    row_positions: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -44,14 +44,17 @@ class Indenter(ReadOnlyArrays):
         Distance dy between neighbouring rows of a map, from a fifth of dx to five times dx; by default dx [length].
     length_unit : str
         Unit of heights and spacings, as UDUNITS spells it ("um"); "1" if the unit is not known.
+    column_positions, row_positions : array, optional
+        Coordinates x of the columns and y of the rows of a map, as the file of the map states them, rising or falling
+        [length]. Output files have the same coordinates. By default they rise, and are 0 at the centre of the map.
 
     Raises
     ------
     ValueError
         For heights that are not real numbers in one or two dimensions, contain whole numbers beyond 2**53 or infinite
         numbers, or are all nan. For a line with nan. For heights whose difference is too large for double precision.
-        For spacings that are not positive or differ by more than a factor of five, and for a line whose row_spacing
-        differs from its spacing. For a unit that is not a text.
+        For positions that are not one for each column or row. For spacings that are not positive or differ by more than
+        a factor of five, and for a line whose row_spacing differs from its spacing. For a unit that is not a text.
 
     Examples
     --------
@@ -66,6 +69,8 @@ class Indenter(ReadOnlyArrays):
     spacing: float
     row_spacing: float = None  # type: ignore[assignment]  # __post_init__ replaces None by the spacing
     length_unit: str = "1"
+    column_positions: np.ndarray | None = None
+    row_positions: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         unit = self.length_unit
@@ -107,6 +112,12 @@ class Indenter(ReadOnlyArrays):
             raise ValueError("indenter row_spacing: a line has no rows, only one spacing is allowed")
         object.__setattr__(self, "spacing", spacing)
         object.__setattr__(self, "row_spacing", row_spacing)
+        for name, points in zip(("column_positions", "row_positions"), heights.shape[::-1], strict=False):
+            if (positions := getattr(self, name)) is not None:
+                positions = real_numbers(f"indenter {name}", positions)
+                if positions.shape != (points,) or not np.isfinite(positions).all():
+                    raise ValueError(f"indenter {name}: shape {positions.shape}; {points} finite numbers are needed")
+                object.__setattr__(self, name, read_only(positions))
 
     def __str__(self) -> str:
         """Return a summary: map or line, numbers of points and elements, spacings, and range of the heights."""
@@ -127,7 +138,9 @@ class Indenter(ReadOnlyArrays):
             raise ValueError(f"indenter: its unit of length is not known, so that it cannot be converted to {unit}")
         unit = units.length_unit(unit)
         factor = units.factor(self.length_unit, unit)
-        return Indenter(self.heights * factor, self.spacing * factor, self.row_spacing * factor, unit)
+        positions = (self.column_positions, self.row_positions)
+        scaled = [None if each is None else each * factor for each in positions]
+        return Indenter(self.heights * factor, self.spacing * factor, self.row_spacing * factor, unit, *scaled)
 
     @property
     def aspect(self) -> float:

@@ -93,7 +93,7 @@ def prepare(
     marks = real_numbers("nodata", nodata)
     if not (marks.size or crop is not None or flip) and (detrend, fill) == ("none", "none"):
         return indenter
-    heights = indenter.heights.copy()
+    heights, columns, rows = indenter.heights.copy(), indenter.column_positions, indenter.row_positions
     with np.errstate(over="ignore"):
         heights[np.isin(heights, marks.astype(heights.dtype))] = np.nan
     if crop is not None:
@@ -105,6 +105,7 @@ def prepare(
                 raise ValueError(f"{argument('crop')} to {name} {first}:{end}; within 0:{size} is allowed")
         (left, right), (top, bottom) = crop
         heights = heights[top:bottom, left:right].copy()
+        columns, rows = columns if columns is None else columns[left:right], rows if rows is None else rows[top:bottom]
     if np.isnan(heights).all():
         raise ValueError(f"no height is left after {argument('nodata')} and {argument('crop')}; at least one is needed")
     if flip:
@@ -113,7 +114,7 @@ def prepare(
         heights = heights - _fitted(heights, indenter.spacing, indenter.row_spacing, detrend)
     if fill == "harmonic":
         heights = _filled(heights, indenter.aspect)
-    return Indenter(heights, indenter.spacing, indenter.row_spacing, indenter.length_unit)
+    return Indenter(heights, indenter.spacing, indenter.row_spacing, indenter.length_unit, columns, rows)
 
 
 def doubts(indenter: Indenter) -> list[str]:

@@ -1,5 +1,6 @@
 """Files are replaced when their content is complete, and not touched before."""
 
+import errno
 import os
 import shutil
 import subprocess
@@ -11,6 +12,7 @@ import pytest
 from support.contract import refused
 from support.faults import namespace
 from viscorough.io.atomic import atomic_write, check_output, reading
+from viscorough.io.heights import read_heights
 
 
 def write(path, text, error=None):
@@ -134,3 +136,36 @@ def test_only_regular_files_are_readable(tmp_path):
             pytest.fail("it was opened")
     with reading(tmp_path / "file", "text is needed"):
         pass
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "what"),
+    [
+        ("a.npy", b"hello, this is text", r"\(it does not begin like a .npy file\)"),
+        ("a.nc", b"hello", r"\(it is no NetCDF file\)"),
+        ("a.nc", b"\x89HDF\r\n\x1a\n" + bytes(100), r"\(its structure is damaged\)"),
+    ],
+)
+def test_messages_of_libraries_are_translated(tmp_path, name, content, what):
+    (tmp_path / name).write_bytes(content)
+    with refused(what):
+        read_heights(tmp_path / name, 1.0)
+
+
+def test_long_messages_keep_their_end():
+    with refused("not readable \\(aaa.* … .*; a remedy\\); a file is needed"), reading(__file__, "a file is needed"):
+        raise ValueError(f"{'a' * 500}; a remedy")
+
+
+def no_locks(*_):
+    raise OSError(errno.ENOLCK, "No locks available")
+
+
+def test_missing_file_locks_name_the_remedy(tmp_path, monkeypatch):
+    """The NetCDF library reports them as an error of the structure of the file."""
+    (tmp_path / "a.nc").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    monkeypatch.setattr("viscorough.io.atomic.fcntl.flock", no_locks)
+    with refused("no file locks; the environment variable HDF5_USE_FILE_LOCKING=FALSE is needed"):
+        read_heights(tmp_path / "a.nc", 1.0)
+    with pytest.raises(OSError, match="HDF5_USE_FILE_LOCKING=FALSE"):
+        write(tmp_path / "b.nc", "", RuntimeError("NetCDF: HDF error"))

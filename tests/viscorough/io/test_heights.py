@@ -230,3 +230,41 @@ def test_maps_whose_size_overflows_are_prepared(tmp_path, spacing, detrend):
     np.testing.assert_allclose(extreme.heights, usual.heights, rtol=0, atol=1e-12)
     with pytest.raises(ValueError, match="unit of length is needed"):
         viscorough.indent(extreme)
+
+
+def map_of(x, y, heights, **attributes):
+    """Return a dataset of heights in um with coordinates in um."""
+    axes = {name: (name, values, {"units": "um"}) for name, values in (("y", y), ("x", x))}
+    return xr.Dataset({"heights": (("y", "x"), heights, {"units": "um", **attributes})}, axes)
+
+
+HEIGHTS = np.random.default_rng(4).normal(0, 0.01, (6, 8))
+
+
+@pytest.mark.parametrize("sign_y", [1, -1])
+@pytest.mark.parametrize("sign_x", [1, -1])
+def test_contacts_have_the_coordinates_of_the_map(tmp_path, sign_x, sign_y):
+    """Rows and columns may rise or fall; the map is not mirrored."""
+    x, y = 5 + sign_x * 0.5 * np.arange(8), 100 + sign_y * 0.25 * np.arange(6)
+    map_of(x, y, HEIGHTS).to_netcdf(tmp_path / "a.nc")
+    surface = read_heights(tmp_path / "a.nc", crop=((1, 8), (0, 5)))
+    for result in (
+        surface,
+        viscorough.contact_at(surface, depth=0.01),
+        viscorough.contact_at(surface.to("nm"), depth=10),
+    ):
+        viscorough.save(result, tmp_path / "result.nc")
+        with xr.open_dataset(tmp_path / "result.nc") as ds:
+            factor = 1e-3 if ds.x.units == "nm" else 1
+            np.testing.assert_allclose(ds.x * factor, x[1:], rtol=1e-14)
+            np.testing.assert_allclose(ds.y * factor, y[:5], rtol=1e-14)
+
+
+def test_positive_down_is_obeyed(tmp_path):
+    map_of(np.arange(8), np.arange(6), -HEIGHTS, positive="down").to_netcdf(tmp_path / "a.nc")
+    np.testing.assert_array_equal(read_heights(tmp_path / "a.nc").heights, HEIGHTS)
+    with refused("flip: the file states positive = down, which is obeyed; leave it out"):
+        read_heights(tmp_path / "a.nc", flip=True)
+    map_of(np.arange(8), np.arange(6), HEIGHTS, positive="north").to_netcdf(tmp_path / "b.nc")
+    with refused("attribute positive of heights is 'north'; up or down is needed"):
+        read_heights(tmp_path / "b.nc")

@@ -10,7 +10,7 @@ import pytest
 import scipy.io
 
 from support.contract import refused
-from viscorough import AccuracyWarning, read_heights
+from viscorough import AccuracyWarning, read_heights, read_line
 
 SurfaceTopography = pytest.importorskip("SurfaceTopography", reason="the extra 'formats' is not installed")
 FILES = Path(__file__).with_name("instrument_files")
@@ -164,6 +164,66 @@ def test_lowest_number_marks_missing_points(tmp_path, code, kind):
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2e-7, 3e-7))
 
 
+@pytest.mark.parametrize(("name", "text"), [("a", True), ("b", False)])
+def test_sdf_files_of_the_dialect_bcr_are_read(tmp_path, name, text):
+    heights = np.arange(20).reshape(4, 5) ** 2
+    if text:
+        keys = {"NumPoints": 5, "NumProfiles": 4, "Xscale": 2e-6, "Yscale": 3e-6, "Zscale": 1e-9, "Zresolution": -1}
+        keys |= {"ManufacID": "x", "CreateDate": 1, "ModDate": 1, "Compression": 0, "DataType": 7, "CheckType": 0}
+        rows = "\n".join(" ".join(map(str, row)) for row in heights)
+        header = "\n".join(f"{key} = {value}" for key, value in keys.items())
+        content = f"aBCR-1.0\n{header}\n*\n{rows}\n*\n".encode()
+    else:
+        header = b"bBCR-1.0", b"", b"", b"", 5, 4, 2e-6, 3e-6, 1e-9, -1.0, 0, 5, 0
+        content = struct.pack("<8s10s12s12sHH4dBBB", *header) + heights.astype("<i2").tobytes()
+    (tmp_path / f"{name}.sdf").write_bytes(content)
+    indenter = read_heights(tmp_path / f"{name}.sdf").to("m")
+    np.testing.assert_allclose(indenter.heights, 1e-9 * heights, rtol=1e-6)
+    assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2e-6, 3e-6))
+
+
+def digital_surf(heights, kind, objects=1, spacing=(1e-3, 2e-3)):
+    """Return a Digital Surf file of heights in mm, stored as whole numbers of nm, with the spacings in mm."""
+    rows, columns = heights.shape
+    start = struct.pack("<12s4H78x", b"DIGITAL SURF", 0, objects, 1, kind)
+    content = start + struct.pack("<Hiiiii3f", 32, 0, 0, columns, rows, heights.size, *spacing, 1e-6)
+    content += b"".join(name.ljust(16) for name in (b"X", b"Y", b"Z", *[b"mm"] * 6)) + struct.pack("<3f", 1, 1, 1)
+    return content.ljust(512, b"\0") + heights.astype("<i4").tobytes()
+
+
+@pytest.mark.parametrize(
+    ("kind", "objects", "what"),
+    [
+        (1, 1, "it holds a profile; read_line reads it"),
+        (3, 1, "it holds a binary image; one surface is needed"),
+        (5, 2, "it holds 2 objects, a series of surfaces; one surface is needed"),
+        (2, 3, "it holds 3 objects, surfaces; one surface is needed"),
+        (10, 1, "it holds an intensity image"),
+        (99, 1, "it holds an object of kind 99"),
+    ],
+)
+def test_objects_of_digital_surf_other_than_a_surface_are_refused(tmp_path, kind, objects, what):
+    (tmp_path / "a.sur").write_bytes(digital_surf(np.arange(12).reshape(1 if kind == 1 else 3, -1), kind, objects))
+    with refused(what):
+        read_heights(tmp_path / "a.sur")
+
+
+def test_digital_surf_files_of_a_surface_and_of_a_profile_are_read(tmp_path):
+    heights = 100 * np.arange(12) ** 2
+    (tmp_path / "a.sur").write_bytes(digital_surf(heights.reshape(3, 4), 2))
+    surface = read_heights(tmp_path / "a.sur")
+    np.testing.assert_allclose(surface.to("nm").heights, heights.reshape(3, 4), rtol=1e-5)
+    (tmp_path / "a.pro").write_bytes(digital_surf(heights.reshape(1, 12), 1))
+    line = read_line(tmp_path / "a.pro")
+    np.testing.assert_allclose(line.to("nm").heights, heights, rtol=1e-5)
+    assert line.to("um").spacing == pytest.approx(1)
+    with refused("it holds|unknown kind of file"):
+        read_line(tmp_path / "a.sur")
+    (tmp_path / "two.sur").write_bytes(2 * digital_surf(heights.reshape(3, 4), 2))
+    with refused("it holds 2 objects, surfaces"):
+        read_heights(tmp_path / "two.sur")
+
+
 def test_compressed_digital_surf_files_are_refused_by_name(tmp_path):
     (tmp_path / "a.sur").write_bytes(b"DSCOMPRESSED" + bytes(600))
     with refused("compressed Digital Surf files are not read; save it without compression"):
@@ -239,7 +299,7 @@ def test_bad_files_are_one_line(tmp_path):
 
 
 def test_message_without_the_extra_names_the_remedy(tmp_path, monkeypatch):
-    (tmp_path / "a.x3p").write_bytes(b"PK")
+    (tmp_path / "a.x3p").write_bytes(b"PK\x03\x04")
     monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)  # as if it were not installed
     with refused(r'pip install "viscorough\[formats\]"'):
         read_heights(tmp_path / "a.x3p")

@@ -137,7 +137,9 @@ def test_bad_profiles_are_one_line(tmp_path, text, what):
         read_line(tmp_path / "a.txt")
 
 
-def test_line_with_an_unknown_suffix_is_refused(tmp_path):
+def test_content_and_not_suffix_decides_how_a_line_is_read(tmp_path):
     (tmp_path / "a.pro").write_text(columns(Z))
+    np.testing.assert_array_equal(read_line(tmp_path / "a.pro", 0.5).heights, Z)
+    (tmp_path / "b.txt").write_bytes(bytes(100))
     with refused("unknown kind of file"):
-        read_line(tmp_path / "a.pro", 0.5)
+        read_line(tmp_path / "b.txt", 0.5)

@@ -62,6 +62,86 @@ def test_spacings_and_units_of_headers_are_read(tmp_path, header, unit, spacing)
     assert indenter.length_unit == unit
 
 
+STATED = [
+    *[
+        '"Unit","um"',
+        "Unit,um,,",
+        "Z unit;um",
+        "Unit\tum",
+        "Unit um",
+        "Units [um]",
+        "unit (um)",
+        "\\Exported image units: um",
+    ],
+    *["Height [um]", "# Heights (µm)", "Z in um", "Z,um", "Topography / um", "All heights in microns", "Höhe in µm"],
+    *['{"unit": "um"}', '# {"z_unit": "um", "scanner": 5}', '{\n"heights": {"unit": "um"}\n}', "{'unit': 'um'}"],
+]
+
+
+@pytest.mark.parametrize("suffix", [".txt", ".prn", ".grd", ".sdf", ""])
+@pytest.mark.parametrize("header", STATED)
+def test_units_in_usual_forms_are_read(tmp_path, header, suffix):
+    path = tmp_path / f"a{suffix}"
+    path.write_text(f"{header}\n1 2 3\n3 4 9\n2 5 7\n", encoding="utf-8")
+    assert read_heights(path, 20).length_unit == "um"
+    with refused("unit nm contradicts the file, in which heights are in um"):
+        read_heights(path, 20, unit="nm")
+
+
+SPACINGS = [
+    "Pixel size,0.5,um",
+    '"X pixel size";"0,5 um"\n"Y pixel size";"0,5 um"',
+    "dx 0.5 um\ndy 0.5 um",
+    "spacing\t500 nm",
+]
+SPACINGS += ['{"pixel size": "0.5 um"}', '{"spacing": [0.5, 0.5], "xy_unit": "um"}']
+
+
+@pytest.mark.parametrize("header", SPACINGS)
+def test_spacings_in_usual_forms_are_read(tmp_path, header):
+    (tmp_path / "a.dat").write_text(f"{header}\nUnit: um\n1;2;3\n3;4;9\n2;5;7\n")
+    assert read_heights(tmp_path / "a.dat").spacing == 0.5
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["exported as nm by hand", "[nm]", "Export as: nm", "<unit>nm</unit>", '{"out": {"scale": "nm"}}', "unit -> nm"],
+)
+def test_unit_that_is_not_understood_is_named(tmp_path, line):
+    (tmp_path / "a.txt").write_text(f"{line}\n1 2 3 1\n3 4 9 6\n2 5 7 3\n")
+    with refused(r"the line '.*' holds the unit nm, but does not state .*; unit='nm' states it"):
+        read_heights(tmp_path / "a.txt", 20)
+    with refused("unit um: the line '.*' holds the unit nm"):
+        read_heights(tmp_path / "a.txt", 20, unit="um")
+    assert read_heights(tmp_path / "a.txt", 20, unit="nm").length_unit == "nm"
+
+
+@pytest.mark.parametrize(
+    "line", ["Tip radius: 10 nm", "Gemessen um 10 Uhr", "Wavelength (nm): 633", "at 05:10 pm", "633nm laser"]
+)
+def test_units_of_other_quantities_state_no_unit_of_heights(tmp_path, line):
+    (tmp_path / "a.txt").write_text(f"{line}\n1 2 3\n3 4 9\n2 5 7\n")
+    assert read_heights(tmp_path / "a.txt", 20, unit="um").length_unit == "um"
+
+
+@pytest.mark.parametrize("header", ["No data: 0", "NODATA_value,0", "# bad value = 0", "Missing value 0"])
+def test_stated_marks_of_missing_points_are_read(tmp_path, header):
+    (tmp_path / "a.map").write_text(f"{header}\n1 2 3\n0 4 9\n2 5 7\n")
+    assert np.isnan(read_heights(tmp_path / "a.map", 20).heights).nonzero() == ([1], [0])
+
+
+@pytest.mark.parametrize("separator", [" ", "\t", ": ", " = ", ","])
+@pytest.mark.parametrize("suffix", [".asc", ".grd", ""])
+def test_esri_grids_with_any_suffix_are_read(tmp_path, suffix, separator):
+    keys = {"ncols": 3, "nrows": 3, "xllcorner": 1000, "yllcorner": 2000, "cellsize": 0.5, "NODATA_value": 0}
+    header = "\n".join(f"{key}{separator}{value}" for key, value in keys.items())
+    (tmp_path / f"a{suffix}").write_text(f"{header}\n1 2 3\n0 4 9\n2 5 7\n")
+    indenter = read_heights(tmp_path / f"a{suffix}")
+    np.testing.assert_array_equal(indenter.heights, [[1, 2, 3], [NAN, 4, 9], [2, 5, 7]])
+    assert indenter.spacing == 0.5
+    np.testing.assert_allclose(indenter.row_positions, [2001.25, 2000.75, 2000.25])
+
+
 @pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
 def test_utf_16_without_a_byte_order_mark_is_read(tmp_path, encoding):
     (tmp_path / "a.txt").write_text("1\t2\t3\n4\t5\t6\n", encoding=encoding)
@@ -178,7 +258,11 @@ CORNERS = "0 0 1\n1 0 2\n0 1 3\n1 1 4\n"
 BAD = [
     ("1 2_\n3 4\n", "line 1 .* is not a row of numbers"),
     ("# pixel size = 1\n1e999 2 3\n4 5 6\n7 8 9\n", "finite"),
-    ("ncols 1e400\nnrows 2\n1 2\n", "inf columns"),
+    ("ncols 9.99999999999\nnrows 8\n1 2\n", "line 1 .*a whole number above 0 is needed for ncols"),
+    (f"Z factor,0.001\n{SQUARE}", "times a factor"),
+    (f"multiply by 0.5 for heights\n{SQUARE}", "times a factor"),
+    ("DSAA\n3 3\n0 2\n0 2\n1 9\n1 2 3\n4 5 6\n7 8 9\n", "the format Surfer grid are not read"),
+    ("ncols 1e400\nnrows 2\n1 2\n", "a whole number above 0 is needed for ncols"),
     (f"ncols 3\nnrows 2\ncellsize 1\n{SQUARE}5 6\n", "3 lines of 2 numbers contradict"),
     ("1 2\n3\n", "line 2: 1 cells, 2 in line 1"),
     ("1;2;3\n4;<0.1;6\n", "line 2: '<0.1' is not a number"),

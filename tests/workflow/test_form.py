@@ -15,7 +15,7 @@ from support.workflow import ROOT, RULES, TEST, copy_project, jobs, plan, snakem
 
 def test_slurm_profile_gives_timed_jobs_a_node(tmp_path, finished_once):
     """Timed jobs have a node to themselves. The jobs equal those of a local run, except for the executor."""
-    profile = yaml.safe_load((ROOT / "workflow/profiles/slurm/config.yaml").read_text())
+    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
     timed = {name for name, text in RULES.items() if "threads: ALL_CORES" in text}
     assert timed == set(profile["set-threads"])
     assert {profile["set-resources"][name]["slurm_extra"] for name in timed} == {"'--exclusive'"}

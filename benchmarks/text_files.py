@@ -332,7 +332,7 @@ def _points_file(draft, table, heights, spacing, delimiter, accuracy):
     titles = draft.pick(HEADINGS, ODD_HEADINGS, BAD_HEADINGS, odd=0.3).format(u=u, z=z)
     name, suffix, mark = (
         draft.traits[-1],
-        ".xyz" if draft.chance(0.25) else draft.one_of(SUFFIXES),
+        ".xyz" if draft.chance(0.4) else draft.one_of(SUFFIXES),
         draft.one_of(["", "", "# "]),
     )
     unit, factor, options = UNITS[z], UNITS[u], {}

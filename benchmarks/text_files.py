@@ -147,7 +147,7 @@ def header_lines(draft, shape, decimal_comma):
         draft.note("unit given")
         options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
         unit = UNITS[options["unit"]]
-    elif unit is not None and draft.chance(0.07):
+    elif unit is not None and draft.chance(0.04):
         options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
         draft.note("unit given, too", bad=UNITS[options["unit"]] != unit)
     scale = UNITS[z if in_z else u] if states_spacing else unit or 1

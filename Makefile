@@ -199,7 +199,7 @@ lock:
 	$(MAKE) lock-dev lock-slurm
 
 lock-dev:
-	$(LOCK) --extra formats --extra geo --extra test --extra docs $(FURTHER) --output-file requirements-dev.lock
+	$(LOCK) --extra formats --extra test --extra docs $(FURTHER) --output-file requirements-dev.lock
 
 lock-slurm:
 	$(LOCK) --extra slurm $(FURTHER) --output-file requirements-slurm.lock

@@ -159,7 +159,8 @@ slope of the curves may differ from 1 by {slopes[0]:g}, and with {narrow} % at {
 
 On the paper's grid the exponent β is within {within:.2f} of H/(1 + H) at H = 0.6 and 0.9. It is {at_04:.2f} and
 {at_01:.2f} larger than H/(1 + H) at H = 0.4 and 0.1, where the paper makes no claim. There the exponent also depends on
-the range of X, and finer grids give access to smaller X ([grid or surface](docs/verification.md#grid-or-surface)).
+the range of X, and finer grids give access to smaller X{limit}
+([grid or surface](docs/verification.md#grid-or-surface)).
 
 From H = 0.4 on, the discs follow Eq. 12 up to one constant for all H: a factor of {factors[0]} on vt/h, or of
 {factors[1]} on X. A root mean square of {residuals[0]:.0f} or {residuals[1]:.0f} % remains. At β = H/(1 + H) the
@@ -204,7 +205,10 @@ def found_numbers():
         "quantity == 'velocity' and model == 'grid' and across == 257 and value == 1e-3"
     )
     ratios = pd.read_csv(ROOT / OTHER_SOLVERS)["ratio"]
+    judged = published_claims().query("claim == 'exponent_limit'").dropna(subset="value")
+    limit = filled("β = {value:.3f} [{low:.3f}, {high:.3f}] at {case} ({verdict})", judged)
     return {
+        "limit": f": {'; '.join(limit)}" if limit else "",
         "wide": span(wide),
         "narrow": span(narrow),
         "narrow_hursts": of_hursts(narrow),

@@ -23,12 +23,14 @@ from viscorough.contact.loading_path import indent
 from viscorough.io.netcdf import Content, Variable
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc
-from viscorough_study.run.seeds import nested_disc_key, realization_seed
+from viscorough_study.ensembles.averages import abscissa
 
 # Sum the weights of single waves up to this wave number; an integral replaces the sum beyond.
 _LATTICE = 256
 # Ratio of the rms height to the diameter. Results do not depend on it; small heights keep depths below the diameter.
 _RMS = 1e-3
+# Abscissae of a curve per decade of X, and its first X, below which a single element touches on every grid.
+PER_DECADE, _X_LOW = 20, 1e-9
 # Curves extend beyond their last abscissa by this relative distance, so that rounding does not exclude it.
 _ROUNDING = 1e-9
 
@@ -106,23 +108,24 @@ def curve_of_disc(disc, hurst, x, tolerance):
     return np.log(x / stiffness), np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))
 
 
-def nested_curves(hurst, elements, surfaces, *, x, tolerance, seed):
+def nested_curves(hurst, elements, surfaces, *, until_x, tolerance, seed, spawn_key):
     """Compute the curves of the same discs on a grid and on the next coarser grid; return them as a Content.
 
     hurst : Hurst exponent; surfaces : number of discs
     elements : [elements across on the grid], or [on the grid, on the next coarser grid]
-    x, tolerance : arguments of `curve_of_disc`
-    seed : root seed; the seed of a disc depends on H, on the finer grid and on its number only
+    until_x : X = F/(4GhL) at which the curves end
+    tolerance : argument of viscorough.indent
+    seed, spawn_key : root seed and spawn key of the discs; the seed of a disc has the key followed by its number
 
     The variables have the dimensions (surface, grid, abscissa), with grid 0 the finer grid. The processor time of a
     curve includes the generation of the disc.
     """
-    shape = (surfaces, len(elements))
+    x, shape = abscissa(_X_LOW, until_x, PER_DECADE), (surfaces, len(elements))
     logarithm, count = np.empty((2, *shape, len(x)))
     seconds = np.empty(shape)
     for number in range(surfaces):
         start = time.process_time()
-        waves = surface_waves(hurst, elements[0], realization_seed(seed, *nested_disc_key(hurst, elements[0]), number))
+        waves = surface_waves(hurst, elements[0], np.random.SeedSequence(seed, spawn_key=(*spawn_key, number)))
         for grid, across in enumerate(elements):
             disc = disc_of_waves(waves if grid == 0 else coarser_waves(waves, across))
             logarithm[number, grid], count[number, grid] = curve_of_disc(disc, hurst, x, tolerance)

@@ -19,15 +19,15 @@ import pandas as pd
 from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.flat_punch import punch_stiffness
 from viscorough_study.ensembles.nested_grids import wave_variances
-from viscorough_study.fits.intervals import UNDEFINED, described, equivalence, three_columns
+from viscorough_study.fits.intervals import UNDEFINED, described, difference, equivalence, interval, three_columns
 from viscorough_study.fits.multilevel import Level, estimates, mean_error, optimal_surfaces, slopes_of, starting_grid
+from viscorough_study.run.names import PAPER_GRID
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
 FINDINGS = {True: "tends", False: "departs", None: "undecided"}
-STARTS = 10  # decades of X start at this many X per decade
-VALUES = 4  # vt/h is tabulated at this many X per decade
+# Decades of X start at this many X per decade, and vt/h is tabulated at this many; both divide nested_grids.PER_DECADE.
+STARTS, VALUES = 10, 4
 HALF_WIDTH = 0.02  # half-width of the 95 % interval of β for which surfaces are allocated
-PAPER_GRID = 257  # elements across the discs of the paper
 _ROUNDING = 1e-9
 
 _LABELS = {
@@ -50,7 +50,7 @@ EXPONENTS = {
     **described("limit", "β for an infinitely fine grid; empty if the interval of the ratio reaches 1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
     "judged": ("1 for the decade of the smallest X, by which the limit is judged, else 0", "1"),
-    **described("rise", "β in the judged decade less β in the next decade"),
+    **described("rise", "β in the judged decade less β in the next decade that the grids support"),
     "finding": ("; ".join(FINDINGS.values()) + ": whether β tends to H/(1 + H), in the judged decade", ""),
 }
 VELOCITIES = {
@@ -97,7 +97,8 @@ def fine_grids(contents, *, elements_min, tolerance, seed):
         judged = judged_decade(grids, elements_min)
         for quantity in QUANTITIES:
             labels = {"hurst": hurst, "quantity": quantity}
-            exponents = _exponents(grids, quantity, hurst, judged, elements_min, tolerance, seed)
+            exponents = list(_exponents(grids, quantity, hurst, judged, elements_min, seed))
+            _judge(exponents, tolerance)
             velocities = _velocities(grids, quantity, hurst, elements_min, seed)
             tables["fine_exponents"] += [labels | row for row in exponents]
             tables["fine_velocities"] += [labels | row for row in velocities]
@@ -169,7 +170,7 @@ def _window(x, low):
     return _position(x, low), _position(x, 10 * low)
 
 
-def _exponents(grids, quantity, hurst, judged, elements_min, tolerance, seed):
+def _exponents(grids, quantity, hurst, judged, elements_min, seed):
     """Yield the rows of the table of exponents, for every grid and every decade that the grid supports."""
     expected = exponent_beta(hurst)
     for position, finest in enumerate(grids):
@@ -199,25 +200,18 @@ def _exponents(grids, quantity, hurst, judged, elements_min, tolerance, seed):
             }
             for name in ("ratio", "remainder", "limit"):
                 row |= three_columns(name, getattr(estimate, name) if last else UNDEFINED)
-            if row["judged"]:
-                rise = _rise(grids, quantity, low)
-                row |= three_columns("rise", rise)
-                row["finding"] = finding(estimate.limit, rise, expected, tolerance)
             yield row
 
 
-def _rise(grids, quantity, low):
-    """Return β in the decade from `low` on, less β in the next decade, with its interval: (value, low, high).
-
-    Both exponents are those of the finest grid whose curves reach the end of the next decade.
-    """
-    used = [curves for curves in grids if curves.reaches(100 * low)]
-    if not used:
-        return UNDEFINED
-    x = used[-1].x
-    matrix = slopes_of(np.log(x), [_window(x, low), _window(x, 10 * low)]) @ np.array([[1.0], [-1.0]])
-    (estimate,) = estimates([curves.level(quantity, matrix) for curves in used], 0)
-    return estimate.value, estimate.low, estimate.high
+def _judge(rows, tolerance):
+    """Add the finding to the row of the judged decade; rows : rows of a quantity and Hurst exponent."""
+    finest = {round(STARTS * np.log10(row["x_low"])): row for row in rows if row["finest"]}
+    for start, row in finest.items():
+        if row["judged"]:
+            later = [after for after in finest if after >= start + STARTS]
+            rise = difference(interval(finest[min(later)], "beta"), interval(row, "beta")) if later else UNDEFINED
+            row |= three_columns("rise", rise)
+            row["finding"] = finding(interval(row, "limit"), rise, row["expected"], tolerance)
 
 
 def finding(limit, rise, expected, tolerance):

@@ -6,7 +6,7 @@ ln(vt/h) at fixed X between the two grids are averaged. From a grid b, the mean 
     E[Y_N] = E[Y_b] + Σ E[Y_l − Y_(l−1)]        over the grids l that are finer than b
 
 (multilevel Monte Carlo: Giles, Oper. Res. 56, 607 (2008)). The surfaces of different grids are independent. With b = N
-this is plain averaging on the finest grid. For every quantity the sum starts at the grid b with the shortest interval,
+this is plain averaging on the finest grid. For every quantity the sum starts at the grid b with a short interval,
 so plain averaging is used where pairs of grids scatter too much. `optimal_surfaces` allocates surfaces to grids.
 
 Beyond the finest grid, the last differences D_l are continued as a geometric sequence, D_l = A r^l. The remainder is
@@ -27,6 +27,7 @@ from viscorough_study.fits.intervals import NO_INTERVAL
 
 DIFFERENCES = 3  # number of the last differences to which the geometric sequence is fitted
 RATIOS = np.linspace(0.0, 2.0, 401)[1:]  # trial values of the ratio r of successive differences
+LONGER = 1.15  # largest ratio of the interval of a sum to the shortest interval of all sums (`starting_grid`)
 DRAWS = 4000  # samples of the normal distribution from which intervals of the limit are computed
 
 
@@ -109,11 +110,15 @@ def _estimate(samples, seed):
 
 
 def starting_grid(samples):
-    """Return the position of the grid from which the sum over pairs of grids has the shortest interval.
+    """Return the position of the grid from which the sum over pairs of grids starts.
+
+    It is the coarsest grid whose interval is at most `LONGER` times as long as the shortest interval of all grids. The
+    shortest interval itself would on average be too short, since it is the smallest of several estimates.
 
     samples : (values, differences) from `Level.one` for each grid, from coarse to fine
     """
-    return int(np.argmin([mean_error(samples, base)[1] for base in range(len(samples))]))
+    halves = np.array([mean_error(samples, base)[1] for base in range(len(samples))])
+    return int(np.argmax(halves <= LONGER * halves.min()))
 
 
 def mean_error(samples, base):

@@ -48,10 +48,9 @@ def plot_exponent(scaling, fine_exponents, conventions, hurst_range):
     for row in fine.itertuples():
         style.mark_with_interval(axes, row.hurst + SHIFT, row.beta, (row.beta_low, row.beta_high), FINE)
     if len(fine):
-        legend[f"boundary elements on {style.count_text(fine['across'])} across, smaller $X$"] = style.handle(
-            "", **FINE
-        )
+        text = f"boundary elements, {style.count_text(fine['across'])} across, smaller $X$"
+        legend[text] = style.handle("", **FINE)
     figure.legend(legend.values(), legend.keys(), loc="outside upper center", handler_map=apart, handlelength=4.5)
-    axes.set(xlim=(-0.02, 1.02), xlabel="Hurst exponent $H$", ylabel=r"exponent $\beta$")
+    axes.set(xlim=(-0.02, 1.04), xlabel="Hurst exponent $H$", ylabel=r"exponent $\beta$")
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
     return figure

@@ -25,6 +25,15 @@ Ubuntu: apt install gcc python3-dev), or make PYTHON=python3.13")
 ifneq ($(words $(CURDIR)),1)
 $(error $(CURDIR): the path has a space, with which no job can start; move the folder to a path without spaces)
 endif
+SPECIAL := $(shell pwd | LC_ALL=C tr -dc '\042\047\134$$`&;|<>()*?[]')
+ifneq ($(SPECIAL),)
+$(error $(CURDIR): the path has $(SPECIAL), with which no job can start; move the folder to a path without)
+endif
+
+# Snakemake, matplotlib and the compiled code have caches in the home folder; Snakemake needs its cache.
+ifneq ($(shell test -n "$$HOME" && test -w "$$HOME" && echo writable),writable)
+export XDG_CACHE_HOME ?= $(CURDIR)/.snakemake/cache
+endif
 
 # The programs in .venv name the folder in which it was built: in a copied or moved folder they would not start, or run
 # the packages of the first one.
@@ -199,7 +208,7 @@ lock:
 	$(MAKE) lock-dev lock-slurm
 
 lock-dev:
-	$(LOCK) --extra formats --extra geo --extra test --extra docs $(FURTHER) --output-file requirements-dev.lock
+	$(LOCK) --extra formats --extra test --extra docs $(FURTHER) --output-file requirements-dev.lock
 
 lock-slurm:
 	$(LOCK) --extra slurm $(FURTHER) --output-file requirements-slurm.lock

@@ -359,7 +359,8 @@ def time_sentence():
     text = (
         f"**{weeks.capitalize()} in the paper, {default_minutes()} here**: from `git clone` to the page on a virtual "
     )
-    text += f"machine ({machine}, {measured}), with as many discs as the paper, and shorter lines. The packages take "
+    text += f"machine ({machine}, {measured}), with as many discs as the paper, and with "
+    text += "lines of fewer points. The packages take "
     text += (
         f"{seconds['environment']:.0f} seconds of this, and the compiler {seconds['compilation']:.0f}, both only once."
     )

@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def claims(folder, seed, cores):
     """Return the table of claims of a run in a folder."""
-    snakefile = str(ROOT / "workflow/Snakefile")
+    snakefile = str(ROOT / "Snakefile")
     command = [sys.executable, "-m", "snakemake", "--snakefile", snakefile, "--directory", folder]
     command += ["--cores", str(cores), "--quiet", "all", "--config", f"seed={seed}"]
     subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)

@@ -31,7 +31,7 @@ HANGS = 3600  # seconds after which a run counts as hanging, even on a busy mach
 NODE = socket.gethostname().split(".")[0]
 # The cluster has no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
-THROUGH_SLURM = ("--profile", "workflow/profiles/slurm", *QUICK)
+THROUGH_SLURM = ("--profile", "profiles/slurm", *QUICK)
 
 MUNGED = "munged --foreground --force --num-threads 2 --socket {0}/munge.socket --key-file {0}/munge.key \
 --pid-file {0}/munged.pid --log-file {0}/munged.log --seed-file {0}/munged.seed"

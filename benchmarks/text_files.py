@@ -147,7 +147,7 @@ def header_lines(draft, shape, decimal_comma):
         draft.note("unit given")
         options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
         unit = UNITS[options["unit"]]
-    elif unit is not None and draft.chance(0.07):
+    elif unit is not None and draft.chance(0.04):
         options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
         draft.note("unit given, too", bad=UNITS[options["unit"]] != unit)
     scale = UNITS[z if in_z else u] if states_spacing else unit or 1
@@ -332,7 +332,7 @@ def _points_file(draft, table, heights, spacing, delimiter, accuracy):
     titles = draft.pick(HEADINGS, ODD_HEADINGS, BAD_HEADINGS, odd=0.3).format(u=u, z=z)
     name, suffix, mark = (
         draft.traits[-1],
-        ".xyz" if draft.chance(0.25) else draft.one_of(SUFFIXES),
+        ".xyz" if draft.chance(0.4) else draft.one_of(SUFFIXES),
         draft.one_of(["", "", "# "]),
     )
     unit, factor, options = UNITS[z], UNITS[u], {}

@@ -33,7 +33,7 @@ def relevant_tests(name, root=ROOT):
     if path.name.startswith("test_"):
         return [name]
     if path.suffix != ".py" or path.parts[0] not in ("src", "benchmarks", "calibration"):
-        folder = "docs" if name == "README.md" else path.parts[0]
+        folder = {"Snakefile": "workflow", "README.md": "docs"}.get(name, path.parts[0])
         return [test for test in BY_FOLDER.get(folder, []) if (root / test).is_file()]
     parts = path.parts[1:] if path.parts[0] == "src" else path.parts
     mirror = Path("tests", *parts[:-1], f"test_{path.name}")

@@ -15,7 +15,7 @@ import changed
         # All tests of its folder.
         ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_prescribed_depth.py"),
         ("benchmarks/fuzz.py", "tests/benchmarks/test_fuzz.py"),
-        ("workflow/Snakefile", "tests/workflow/test_form.py"),
+        ("Snakefile", "tests/workflow/test_form.py"),
         ("docs/theory.md", "tests/docs/test_numbers.py"),
     ],
 )

@@ -4,6 +4,7 @@ python workflow/run_with_progress.py -- snakemake --cores 2 -- all
 """
 
 import contextlib
+import os
 import re
 import signal
 import subprocess
@@ -23,7 +24,8 @@ from viscorough_study.verdicts.claims import counted_verdicts
 OUTPUT = Path("results/run.log")
 PUBLISHED_COSTS = Path("resources/published/default_costs.csv")
 PASSED_ON = (REMOVED, "Compiling ")
-LOOK = {"bar_format": "{desc} |{bar}| {remaining} left", "smoothing": 0, "dynamic_ncols": True, "leave": False}
+ASSUMED = {"ncols": 100, "nrows": 24}  # size of a terminal that states no width
+LOOK = {"bar_format": "{desc} |{bar}| {remaining} left", "smoothing": 0, "leave": False}
 
 
 class Progress:
@@ -42,7 +44,7 @@ class Progress:
             if match := re.fullmatch(r"total +(\d+)", line):
                 self.done = f"0 of {match[1]}"
                 silent = True if sys.stderr is None else None  # with None, tqdm shows progress on terminals only
-                self.bar = tqdm(total=self.planned, file=sys.stderr, disable=silent, **LOOK)
+                self.bar = tqdm(total=self.planned, file=sys.stderr, disable=silent, **LOOK, **_width())
             elif match := re.fullmatch(r"(\w+) +(\d+)", line):
                 self.planned += int(match[2]) * self._seconds_of(match[1])
         elif match := re.fullmatch(r"Job \d+: (.*)", line):
@@ -101,6 +103,14 @@ def run(command, output=OUTPUT):
     elif code:
         _show("".join(f"{line}\n" for line in _errors(output)))
     return code
+
+
+def _width():
+    """Return the arguments of tqdm for a line as wide as the terminal; some terminals state the width 0."""
+    with contextlib.suppress(OSError, AttributeError):
+        if os.get_terminal_size(sys.stderr.fileno()).columns == 0:
+            return ASSUMED
+    return {"dynamic_ncols": True}
 
 
 def _show(text):

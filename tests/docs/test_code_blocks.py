@@ -109,11 +109,11 @@ def test_extras_named_on_pages_exist():
     extras = tomllib.loads(read(ROOT / "pyproject.toml"))["project"]["optional-dependencies"]
     sources = [*PAGES, *(ROOT / "src/viscorough").rglob("*.py")]
     named = {name for file in sources for name in re.findall(r'pip\s+install "(?:\.|viscorough)\[(\w+)\]', read(file))}
-    assert {"plot", "formats", "geo"} <= named <= set(extras)
+    assert {"plot", "formats"} <= named <= set(extras)
 
 
 def test_extras_are_added_to_an_installed_package_without_an_index_that_has_it():
-    command = [sys.executable, "-m", "pip", "install", "--dry-run", "--no-index", "viscorough[formats,geo,plot]"]
+    command = [sys.executable, "-m", "pip", "install", "--dry-run", "--no-index", "viscorough[formats,plot]"]
     subprocess.run(command, check=True, capture_output=True)
 
 

@@ -78,9 +78,9 @@ def test_everything_that_a_page_names_exists(page):
             assert re.search(rf"^{target}:", MAKEFILES, re.MULTILINE), target
     for folder, name in re.findall(r"`results/(figures|tables)/(\w+)", text):
         assert is_made(f"{folder}/{name}"), name
-    for path in re.findall(r"`((?:src|workflow|config|resources|benchmarks|examples|peers)/[\w./]+)`", text):
+    for path in re.findall(r"`((?:src|workflow|config|resources|benchmarks|profiles|examples|peers)/[\w./]+)`", text):
         assert (ROOT / path).exists() or f"\n`{path}`:\n" in text, path
     for command in re.findall(r"`snakemake ([^`]*)`", text):
         for word in command.split():
             assert word in NAMED or not re.fullmatch(r"[a-z_]+\w*", word), word
-            assert (ROOT / word).exists() or not word.startswith(("config/", "workflow/")), word
+            assert (ROOT / word).exists() or not word.startswith(("config/", "profiles/")), word

@@ -18,7 +18,7 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 TEST = ("--configfile", "config/test.yaml")
-RULE_FILES = [ROOT / "workflow/Snakefile", *sorted((ROOT / "workflow/rules").glob("*.smk"))]
+RULE_FILES = [ROOT / "Snakefile", *sorted((ROOT / "workflow/rules").glob("*.smk"))]
 
 
 def read_rules():
@@ -43,10 +43,10 @@ TARGETS = {name for name, text in RULES.items() if "    output:\n" not in text a
 
 def copy_project(folder):
     """Copy the workflow, so that tests can run, edit and break it. The copy uses the packages of this project."""
-    for name in ("workflow", "config", "resources"):
+    for name in ("workflow", "config", "profiles", "resources"):
         shutil.copytree(ROOT / name, folder / name)
     shutil.copytree(ROOT / "docs/results", folder / "docs/results")
-    for name in ("CITATION.cff", "docs/claims.csv", "docs/rules.png"):  # the page needs the last two
+    for name in ("Snakefile", "CITATION.cff", "docs/claims.csv", "docs/rules.png"):  # the page needs the last two
         shutil.copy(ROOT / name, folder / name)
     return folder
 

@@ -111,7 +111,7 @@ def test_error_names_a_wrong_setting_on_the_command_line(unmade):
 
 def test_error_names_wrong_settings_of_a_module(tmp_path):
     (tmp_path / "Snakefile").write_text(
-        f'module viscorough:\n    snakefile: "{ROOT}/workflow/Snakefile"\n    config: {{"seed": -1}}\n\n'
+        f'module viscorough:\n    snakefile: "{ROOT}/Snakefile"\n    config: {{"seed": -1}}\n\n'
         "use rule * from viscorough as rough_*\n"
     )
     output = snakemake(tmp_path, "--dry-run", fails=True)

@@ -15,7 +15,7 @@ from support.workflow import ROOT, RULES, TEST, copy_project, jobs, plan, snakem
 
 def test_slurm_profile_gives_timed_jobs_a_node(tmp_path, finished_once):
     """Timed jobs have a node to themselves. The jobs equal those of a local run, except for the executor."""
-    profile = yaml.safe_load((ROOT / "workflow/profiles/slurm/config.yaml").read_text())
+    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
     timed = {name for name, text in RULES.items() if "threads: ALL_CORES" in text}
     assert timed == set(profile["set-threads"])
     assert {profile["set-resources"][name]["slurm_extra"] for name in timed} == {"'--exclusive'"}
@@ -153,12 +153,27 @@ def test_moved_environment_is_built_again(built):
     assert "python3 -m venv --clear .venv\n" in make_environment(moved).stdout
 
 
-def test_folder_with_a_space_is_refused_by_make(built):
-    done = make_environment(built.rename(built.with_name("my folder")))
+@pytest.mark.parametrize(("name", "named"), [("my folder", "a space"), ("Lin's", "'")])
+def test_folder_in_which_no_job_can_start_is_refused_by_make(built, name, named):
+    done = make_environment(built.rename(built.with_name(name)))
     assert done.returncode == 2
     assert done.stdout == ""
-    assert "my folder: the path has a space, with which no job can start; " in done.stderr
+    assert f"{name}: the path has {named}, with which no job can start; " in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+def test_caches_are_in_the_project_if_the_home_folder_is_missing(built):
+    """Otherwise Snakemake ends with a traceback, or makes a folder named ~."""
+    (built / "Makefile").write_text((built / "Makefile").read_text() + "\nshow:\n\t@echo $$XDG_CACHE_HOME\n")
+    for home, cache in (
+        (str(built), ""),
+        (str(built / "none"), f"{built}/.snakemake/cache"),
+        ("", f"{built}/.snakemake/cache"),
+    ):
+        own = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "XDG_CACHE_HOME")}
+        command = ["make", "--no-print-directory", "show"]
+        done = subprocess.run(command, cwd=built, capture_output=True, text=True, check=True, env=own | {"HOME": home})
+        assert done.stdout == f"{cache}\n"
 
 
 def test_citation_agrees_with_package_and_changelog():

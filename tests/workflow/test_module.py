@@ -36,7 +36,7 @@ use rule * from viscorough as rough_*
 def test_another_workflow_makes_a_figure_with_its_settings(finished_once, tmp_path):
     """Settings that the other workflow does not give have their defaults; files are in its folder."""
     copy_kernels(finished_once, tmp_path)
-    (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=ROOT / "workflow/Snakefile"))
+    (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=ROOT / "Snakefile"))
     planned = jobs(snakemake(tmp_path, "--dry-run", "--", "rough_figure_4"))
     assert planned["rough_indent_surfaces"] == 2 * 2 + 2
     snakemake(tmp_path, "--", "rough_figure_1")
@@ -61,7 +61,7 @@ use rule * from viscorough
 
 
 def test_module_leaves_the_default_target_to_rules_before_it(tmp_path):
-    (tmp_path / "Snakefile").write_text(WITH_PREFIX.format(snakefile=ROOT / "workflow/Snakefile", settings={}))
+    (tmp_path / "Snakefile").write_text(WITH_PREFIX.format(snakefile=ROOT / "Snakefile", settings={}))
     assert jobs(snakemake(tmp_path, "--dry-run")) == {"mine": 1}
 
 
@@ -78,7 +78,7 @@ def test_costs_count_only_the_run_under_any_prefix(finished, tmp_path):
     (tmp_path / "rough").mkdir()
     (tmp_path / "results").rename(tmp_path / "rough/results")
     settings = merged(read_settings("config"), read_settings("test"))
-    (tmp_path / "Snakefile").write_text(WITH_PREFIX.format(snakefile=ROOT / "workflow/Snakefile", settings=settings))
+    (tmp_path / "Snakefile").write_text(WITH_PREFIX.format(snakefile=ROOT / "Snakefile", settings=settings))
     options = ("--rerun-triggers", "mtime", "--forcerun", "tabulate_rule_costs", "--", "tabulate_rule_costs")
     assert plan(tmp_path, *options) == {"tabulate_rule_costs": 1}
     snakemake(tmp_path, *options)
@@ -136,7 +136,7 @@ def test_packages_of_another_checkout_are_refused(checkout):
 
 
 def test_module_with_packages_of_another_checkout_is_refused(checkout, tmp_path):
-    (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=checkout / "workflow/Snakefile"))
+    (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=checkout / "Snakefile"))
     output = snakemake(tmp_path, "--dry-run", project=ROOT, fails=True)
     assert output.splitlines()[-1].startswith(f"Error: this Snakemake uses viscorough of {ROOT}/src, not of this")
 

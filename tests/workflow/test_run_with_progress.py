@@ -1,11 +1,14 @@
 """One line of progress from Snakemake's output; errors are shown, and the exit code is kept."""
 
 import contextlib
+import fcntl
 import io
 import os
 import re
 import signal
+import struct
 import sys
+import termios
 
 import pandas as pd
 import pytest
@@ -84,6 +87,22 @@ def test_progress_on_a_terminal_is_one_redrawn_line(run, monkeypatch):
     assert any(re.fullmatch(r"1 of 41: Curves of lines \|.*\| [\d:]+ left", line.strip()) for line in lines)
     assert "\n" not in shown.getvalue()
     assert last.strip() == ""
+
+
+def test_terminal_of_zero_width_shows_progress(monkeypatch):
+    """Some terminals in containers state this width."""
+    controller, terminal = os.openpty()
+    with open(terminal, "w") as stream:
+        fcntl.ioctl(stream, termios.TIOCSWINSZ, struct.pack("HHHH", 0, 0, 0, 0))
+        monkeypatch.setattr("sys.stderr", stream)
+        progress = Progress(pd.Series({"indent": 10.0, "plot": 1.0}))
+        for line in STARTED.splitlines():
+            progress.read(line)
+        os.set_blocking(controller, False)
+        shown = os.read(controller, 10000).decode()
+        progress.bar.close()
+    os.close(controller)
+    assert "0 of 41: Figure 1 |" in shown
 
 
 def test_run_continues_if_the_progress_stream_is_closed(run, tmp_path, monkeypatch):

@@ -155,7 +155,7 @@ def digest(script, figure=None):
     """Return a digest of the source code that a job uses, so that a change of this code reruns the job.
 
     The param `source` of every rule with a script is this digest. It replaces Snakemake's trigger `code`, which
-    workflow/profiles/default switches off: that trigger does not see changes of the modules that a script imports, and it reruns
+    profiles/default switches off: that trigger does not see changes of the modules that a script imports, and it reruns
     a job when only comments have changed.
 
     script : name of the script in workflow/scripts

@@ -2,19 +2,18 @@
 
 from importlib import import_module
 
-from viscorough_study.figures import inputs
 from viscorough_study.figures.style import save_figure
 from viscorough_study.run.job_log import run_job
 from viscorough_study.run.tables import read_table
 
-# Functions that read those arguments of the drawing functions that are not tables.
-READERS = {
-    "examples": inputs.examples,
-    "ensembles": inputs.ensembles,
-    "discs": inputs.discs,
-    "lines": inputs.lines,
-    "groups": inputs.groups,
-}
+
+def read(argument, path):
+    """Read an argument of the drawing function: a table from a CSV file, surfaces or ensembles from a NetCDF file."""
+    if path.endswith(".csv"):
+        return read_table(path)
+    from viscorough_study.figures.inputs import READERS  # this import takes long, and most figures do not need it
+
+    return READERS[argument](path)
 
 
 def main(path, *, figure, options=None, **files):
@@ -25,7 +24,7 @@ def main(path, *, figure, options=None, **files):
     files : for each other argument of the drawing function, the path of the file with its data
     """
     plot = getattr(import_module(f"viscorough_study.figures.{figure}"), f"plot_{figure}")
-    data = {argument: READERS.get(argument, read_table)(file) for argument, file in files.items()}
+    data = {argument: read(argument, file) for argument, file in files.items()}
     save_figure(plot(**data, **(options or {})), path)
 
 

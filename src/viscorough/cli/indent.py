@@ -88,7 +88,8 @@ def indent(
     With --error 5% the curve is computed on every n-th point of the map. n and the tolerance are chosen as large as
     possible, so that the estimated error of the velocity, compared with the curve of all points, is at most 5 %. This
     error is the root mean square over the forces F/G from h L/25 on (h the rms height, L the diameter of a disc of the
-    same area). The closing line states the choice.
+    same area). A few contacts of all points confirm the estimate; if they do not, more points are used. The closing
+    line states the choice. --until-fraction refers to all points.
 
     Several files of HEIGHTS need a table, -o TABLE.csv. The table has one row for each file and level, with lengths in
     um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or

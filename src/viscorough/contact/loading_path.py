@@ -14,7 +14,6 @@ the tolerance need not join the contact, so the last elements might never join.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import accumulate, islice
@@ -101,7 +100,8 @@ def indent(
         few levels, and the error of interpolation between them may exceed the tolerance. Ignored if depths or forces
         are given.
     until_fraction : float, optional
-        Largest contact fraction of the curve, in (0, 1]; ignored if depths or forces are given.
+        Largest contact fraction of the curve, in (0, 1], of all points of the map; ignored if depths or forces are
+        given.
     until_force : float or str, optional
         Largest F/G of the curve [length²]; ignored if depths or forces are given.
     shear_modulus : float or str, optional
@@ -120,9 +120,10 @@ def indent(
     error : float, optional
         Allowed relative error of the velocity, from 1e-3 to 0.5, instead of a tolerance. The curve is computed to a
         loose tolerance on every n-th point of the map in both directions. The step n is a power of two and is halved
-        until the estimated error is small enough. The error is relative to the curve of all points. It is the root mean
-        square over all forces F/G from hL/25 on, with the rms height h of the map and the diameter L of a disc of the
-        same area. The result states the step n as `sampling`, and the reason for it as `choice`.
+        until the estimated error is small enough, and the curve agrees with a few contacts of all points. The error is
+        relative to the curve of all points. It is the root mean square over all forces F/G from hL/25 on, with the rms
+        height h of the map and the diameter L of a disc of the same area. The result states the step n as `sampling`,
+        and the reason for it as `choice`. Its contact fractions are those of the used points.
     estimate_grid_error : bool, optional
         Estimate the error due to the spacing of the map from a second curve on every second point; the result contains
         it as `grid_error`. The second curve takes 0.2 to 0.6 times as long as the first. With `error` the error of the
@@ -190,7 +191,7 @@ def indent(
     )
     progress = progress or (lambda done: None)
     if error is not None:
-        curve = curve_within(error, indenter, functools.partial(_curve, request), progress)
+        curve = _curve_within(error, request, indenter, progress)
     elif estimate_grid_error:
         curve = _curve_with_grid_errors(request, indenter, tolerance, progress)
     else:
@@ -285,6 +286,22 @@ def _check_error(error: float | None, **others: Any) -> float | None:
             text = f"{argument('error', of='indent')} and {argument(name)} exclude each other"
             raise ValueError(f"{text}: {why}")
     return error
+
+
+def _curve_within(error: float, request: _CurveRequest, indenter: Indenter, progress: Progress) -> LoadingCurve:
+    """Return the LoadingCurve of a map within a requested error of the velocity (see contact.sampling)."""
+
+    def compute(
+        sampled: Indenter, tolerance: float, until_fraction: float, until_force: float, progress: Progress
+    ) -> LoadingCurve:
+        changed = replace(request, until_fraction=until_fraction, until_force=until_force)
+        return _curve(changed, sampled, tolerance, progress)
+
+    def solver(tolerance: float) -> ContactSolver:
+        return ContactSolver(indenter, tolerance, request.options, request.threads, whole=False)
+
+    limits = request.until_fraction, request.until_force
+    return curve_within(error, indenter, *limits, compute=compute, solver=solver, progress=progress)
 
 
 def _curve_with_grid_errors(
@@ -393,14 +410,14 @@ class _LoadingPath:
 
     def _is_unfinished(self) -> bool:
         contact, every = self._contact, self._solver.elements.count
-        if contact.pressure_sum >= self._until_pressure_sum or contact is self._complete:
+        if contact.pressure_sum >= self._until_pressure_sum or contact is self._complete or self._solver.is_flat:
             return False
         if contact.count < every or isinstance(contact, DenseContact):
             # A DenseContact was solved directly, with a dense matrix, so its number of elements in contact is exact.
             return contact.count < self._until_count
         # All elements are in contact on the grid, but contact need not be complete yet. Gaps on the grid are accurate
         # only to the tolerance, so elements may join slightly too early.
-        return self._until_count > every - 1 and not self._solver.is_flat
+        return self._until_count > every - 1
 
     def _advance_to(self, depth: float) -> ContactState:
         """Return the contact at `depth`, or at the depth of complete contact if this depth is smaller than `depth`.

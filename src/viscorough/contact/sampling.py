@@ -3,21 +3,27 @@
 1. Choose the tolerance so that it causes only a part of the requested error.
 2. Compute the curve on every n-th point of the map, beginning with a large step n, a power of two.
 3. Halve n, compute the curve again, and estimate its error by a comparison with the previous curve (see grid_error).
-4. Repeat step 3 until the estimated error is within the requested error, or n = 1.
+4. If the estimate is within the requested error, solve a few contacts of the full map, and compare them with the curve.
+   They detect features that both samplings miss, such as a spike, or that both misrepresent, such as a fine texture.
+5. Repeat steps 3 and 4 until estimate and comparison are within the requested error, or n = 1.
 
-Most of the time is spent on the last curve: the previous curve has a quarter of the points and takes about a quarter of
-the time.
+Most of the time is spent on the last curve and on the contacts of the full map: the previous curve has a quarter of the
+points and takes about a quarter of the time.
 """
 
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from viscorough.basics.errors import AccuracyWarning
-from viscorough.basics.types import Progress
-from viscorough.contact.grid_error import every_nth_point, highest_missed, ordinal, with_grid_errors
+from viscorough.basics.types import Array, Progress
+from viscorough.contact.grid_error import every_nth_point, highest_missed, lowest_force, ordinal, with_grid_errors
+from viscorough.contact.prescribed_depth import ContactSolver
+from viscorough.contact.state import ContactState
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 
@@ -29,6 +35,9 @@ _ERROR_PER_ROOT = 0.12
 # Share of the requested error that the tolerance may cause. The squares of independent errors add up, so a share of
 # √(1 − 0.4²) = 92 % is left for the error of the grid.
 _SHARE_OF_TOLERANCE = 0.4
+# A tolerance is relative to the depth. It is reduced if the depth at light loads exceeds this multiple of the rms
+# height, as under a spike, since the roughness below the spike would otherwise be lost.
+_DEPTH_OVER_RMS = 3.0
 # Largest tolerance that is chosen, however large the requested error is.
 _LOOSEST_TOLERANCE = 0.1
 # The map of every n-th point is used for n above 2 only if it has at least this number of rows and of columns. On
@@ -37,50 +46,257 @@ _FEWEST_POINTS = 16
 # The map of every n-th point is used for n above 2 only if at least this number of its points are not nan. On fewer
 # points, two curves can agree by chance.
 _FEWEST_ELEMENTS = 100
+# Number of contacts of the full map that are compared with a curve, and position of the last of them in the range of
+# ln F from the lowest force of mean errors (0) to the end of the curve (1). Missed features cause the largest
+# differences at light loads, because they touch first, and fine textures at middle loads.
+_CONTACTS, _LAST_CONTACT = 7, 0.55
+# Largest number of contacts that are added if the first do not suffice for a decision.
+_FURTHER_CONTACTS = 6
+# A contact at lighter load is added if ln F of the lightest contact exceeds that of the lowest force by more than this.
+_LARGEST_GAP = 1.0
+# A curve is accepted if it differs from the full map by at most this share of the requested error, with the larger
+# difference of two neighbouring contacts between them.
+_CLEARLY_WITHIN = 0.7
+# After all further contacts, a curve is accepted if it differs by at most this share of the requested error, with
+# differences that are linear between the contacts. The rest is left for the forces between the contacts.
+_WITHIN = 0.8
+# Curves are compared at forces from this share of their last force on, if the rms height is 0.
+_LEAST_RANGE = 1e-3
+# Number of forces from which the depths of the contacts are interpolated.
+_POINTS = 200
+# Ratios of successive depths at which the end of the curve is searched for on the full map. Small ratios come first,
+# since long steps would lead far beyond the end. If no depth suffices, the curve ends at complete contact.
+_RATIOS_TO_THE_END = 1.1, 1.3, 1.5, *[2.0] * 10
+# Work for contacts of the full map, relative to its whole curve. It only affects the reported progress.
+_SHARE_OF_CONTACTS = 0.2
+# Names of the quantities of a LoadingCurve that have a value for each level (computed point).
+_LEVELS = "depth", "force", "stiffness", "contact_count", "residual", "grid_error", "force_grid_error", "area_change"
+# Relative difference of two forces that may be due to rounding.
+_ROUNDING = 1e-9
 
-# Function that computes the loading curve of a map to a tolerance and reports its progress.
-Compute = Callable[[Indenter, float, Progress], LoadingCurve]
+# Function that computes the loading curve of a map to a tolerance, up to a contact fraction or F/G [length²], whichever
+# comes first, and reports its progress.
+Compute = Callable[[Indenter, float, float, float, Progress], LoadingCurve]
 
 
-def curve_within(error: float, indenter: Indenter, compute: Compute, progress: Progress) -> LoadingCurve:
+def curve_within(
+    error: float,
+    indenter: Indenter,
+    until_fraction: float,
+    until_force: float,
+    *,
+    compute: Compute,
+    solver: Callable[[float], ContactSolver],
+    progress: Progress,
+) -> LoadingCurve:
     """Return the LoadingCurve of a map within a requested error of the velocity.
 
-    The curve may be computed on every n-th point of the map. Depths are counted from the highest point of the full map.
-    If the estimated error exceeds the requested error even on the full map, an AccuracyWarning is given.
+    The curve may be computed on every n-th point of the map. Depths are counted from the highest point of the full map,
+    and the contact fraction at the end of the curve refers to the full map. If the estimated error exceeds the
+    requested error even on the full map, an AccuracyWarning is given.
 
     error : requested relative error, as root mean square over the forces from `grid_error.lowest_force` on
     indenter : full map
-    compute : function of a map, a tolerance and a Progress that returns the LoadingCurve of this map
+    until_fraction : largest contact fraction of the full map
+    until_force : largest F/G of the curve [length²]
+    compute : function that computes the LoadingCurve of a map
+    solver : function of a tolerance that returns a ContactSolver of the full map
     progress : function that is called with the finished share of the computation
     """
     tolerance, steps = tolerance_for(error), _steps(indenter)
-    ends = np.cumsum([0.0, *(1.0 / step**2 for step in steps)])
+    ends = np.cumsum([0.0, *(1.0 / step**2 for step in steps[:-1]), 1.0 + _SHARE_OF_CONTACTS])
     ends /= ends[-1]
     sampled = every_nth_point(indenter, steps[0])
-    curve = compute(sampled, tolerance, part_of(progress, *ends[:2]))
-    before = np.inf
-    for step, start, end in zip(steps[1:], ends[1:], ends[2:], strict=True):
+    curve = compute(sampled, tolerance, until_fraction, until_force, part_of(progress, *ends[:2]))
+    tolerance *= _share_of_depth(indenter, curve, sampled)
+    full_map = _FullMap(indenter, solver(tolerance))
+    last_force, rejected = until_force, ""
+    for step, start, end in zip(steps[1:-1], ends[1:], ends[2:], strict=False):
         coarse, coarse_map, sampled = curve, sampled, every_nth_point(indenter, step)
-        curve = compute(sampled, tolerance, part_of(progress, start, end))
+        if step == steps[1]:
+            last_force = full_map.last_force(coarse, coarse_map, until_fraction, until_force)
+        curve = compute(sampled, tolerance, 1.0, last_force, part_of(progress, start, end))
         curve = with_grid_errors(curve, coarse, indenter, highest_missed(sampled, coarse_map))
-        estimate = float(curve.mean_grid_error or 0.0)
-        if estimate <= error or step == 1:
-            break
-        before = estimate
+        estimate = curve.mean_grid_error or 0.0
+        rejected = f"; on every {ordinal(step)} point it is {_percent(estimate)}"
+        if estimate > error:
+            continue
+        completed = full_map.completed(curve, sampled, last_force)
+        difference, is_within = full_map.compare(completed, error)
+        if is_within:
+            choice = f"every {ordinal(step)} point, {_size(sampled)} of {_size(indenter)}, and {_stated(tolerance)}"
+            choice += f": estimated error {_percent(estimate)}, within the requested {_percent(error)}"
+            choice += f"; contacts of all points differ by {_percent(difference)}"
+            return replace(completed, sampling=step, choice=choice)
+        rejected = f"; on every {ordinal(step)} point, contacts of all points differ by {_percent(difference)}"
+    del full_map  # frees its memory for the curve of the full map
+    whole = compute(indenter, tolerance, until_fraction, until_force, part_of(progress, *ends[-2:]))
+    whole = with_grid_errors(whole, curve, indenter, highest_missed(indenter, sampled))
+    estimate = whole.mean_grid_error or 0.0
     if estimate > error:
         text = f"an error of {_percent(error)} is out of reach of this map: the estimated error of its grid is"
         warnings.warn(f"indent: {text} {_percent(estimate)}; a finer scan is needed", AccuracyWarning, 3)
-    choice = _choice(indenter, sampled, step, tolerance)
-    choice += f": estimated error {_percent(estimate)}, {'within' if estimate <= error else 'above'} the requested "
-    choice += _percent(error)
-    if np.isfinite(before):
-        choice += f"; on every {ordinal(2 * step)} point it is {_percent(before)}"
-    return replace(curve, depth=curve.depth + highest_missed(indenter, sampled), sampling=step, choice=choice)
+    choice = f"all {_size(indenter)} points and {_stated(tolerance)}: estimated error {_percent(estimate)}, "
+    choice += f"{'within' if estimate <= error else 'above'} the requested {_percent(error)}"
+    return replace(whole, choice=choice + rejected)
+
+
+class _FullMap:
+    """Contacts of the full map, with which curves of every n-th point are compared.
+
+    Contacts are solved when they are first needed, and are kept for later comparisons.
+    """
+
+    def __init__(self, indenter: Indenter, solver: ContactSolver) -> None:
+        self._indenter, self._solver = indenter, solver
+        self._contacts: list[_ContactValues] = []
+        self._reaches_light_loads = False
+
+    @cached_property
+    def _first(self) -> ContactState:
+        """Return the contact at the end of the straight first part of the curve."""
+        return self._solver.first_contact()
+
+    def last_force(self, curve: LoadingCurve, sampled: Indenter, until_fraction: float, until_force: float) -> float:
+        """Return the force F/G at which the full map reaches a contact fraction, but at most `until_force`.
+
+        The search begins at the depth where a sampled map reaches this contact fraction.
+
+        curve : curve of `sampled` up to the contact fraction
+        """
+        if curve.force[-1] >= until_force or self._solver.is_flat:
+            return until_force
+        contact, depth = self._solver.unloaded_state(), curve.depth[-1] + highest_missed(self._indenter, sampled)
+        for ratio in _RATIOS_TO_THE_END if until_fraction < 1 else ():
+            depth *= ratio
+            contact = self._solver.advance(contact, depth)
+            if contact.count >= until_fraction * self._solver.elements.count:
+                self._contacts.append(_ContactValues.of(contact))
+                return min(contact.force, until_force)
+        return min(self._solver.complete_contact().force, until_force)
+
+    def completed(self, curve: LoadingCurve, sampled: Indenter, last_force: float) -> LoadingCurve:
+        """Return the curve of a sampled map with depths from the highest point of the full map, and with both ends.
+
+        - If the sampling misses the highest elements of the full map, these alone carry the load at first. The curve
+          then begins with the first level of the full map. The first levels of the sampled map are left out if they
+          carry less than the highest elements would at the same depth.
+        - If the sampled map is in complete contact before the last force, a level is added on the straight line that
+          leads to this force.
+        """
+        missed = highest_missed(self._indenter, sampled)
+        levels = {name: getattr(curve, name) for name in _LEVELS if getattr(curve, name) is not None}
+        levels["depth"] = levels["depth"] + missed
+        if missed > 0:
+            levels = _with_first_level(levels, self._first.depth, self._first.force)
+        if curve.contact_count[-1] == curve.elements and curve.force[-1] * (1 + _ROUNDING) < last_force < np.inf:
+            levels = {name: np.append(values, values[-1]) for name, values in levels.items()}
+            levels["depth"][-1] += (last_force - curve.force[-1]) / curve.stiffness[-1]
+            levels["force"][-1] = last_force
+        return replace(curve, **levels)
+
+    def compare(self, curve: LoadingCurve, error: float) -> tuple[float, bool]:
+        """Return the difference of a curve from the full map, and whether it is within a requested error.
+
+        The difference is the relative difference of the velocity, as root mean square over the range of ln F in which
+        the requested error is defined. Further contacts are solved where they are most important, until the decision
+        does not depend on the unknown differences between the contacts.
+        """
+        largest = curve.force[-1]
+        lowest = lowest_force(self._indenter, largest) or _LEAST_RANGE * largest
+        first, last = np.log(lowest), np.log(largest)
+        if not self._reaches_light_loads:
+            self._solve(_depths_to_compare(curve, first, first + _LAST_CONTACT * (last - first)))
+            self._reaches_light_loads = True
+        for further in range(_FURTHER_CONTACTS + 1):
+            self._contacts.sort()
+            depth, force, stiffness = np.array(self._contacts).T
+            square = np.log(stiffness / curve.at_force(np.minimum(force, largest))[1]) ** 2
+            # Outside the range of the contacts, the difference is the same as in the first or in the last contact.
+            points = np.clip(np.log(force), first, last)
+            width, ends = np.diff(points), (points[0] - first) * square[0] + (last - points[-1]) * square[-1]
+            linear, upper = width * (square[1:] + square[:-1]) / 2, width * np.maximum(square[1:], square[:-1])
+            mean, most = (float(np.sqrt((parts.sum() + ends) / (last - first))) for parts in (linear, upper))
+            lacks_light_loads = points[0] - first > _LARGEST_GAP
+            is_decided = most <= _CLEARLY_WITHIN * error and not lacks_light_loads
+            if mean > error or is_decided or further == _FURTHER_CONTACTS:
+                break
+            if lacks_light_loads:
+                # Assume F ∝ u² for the depth u, as for a cone.
+                self._solve(depth[:1] * np.exp(0.5 * (first - points[0])))
+            else:
+                between = int(np.argmax(upper - linear))
+                self._solve(0.5 * (depth[between : between + 1] + depth[between + 1]))
+        return mean, most <= _CLEARLY_WITHIN * error or mean <= _WITHIN * error
+
+    def _solve(self, depths: Array) -> None:
+        """Solve contacts of the full map at increasing depths [length], and keep their values."""
+        contact = self._solver.unloaded_state()
+        for depth in depths:
+            contact = self._solver.advance(contact, float(depth))
+            self._contacts.append(_ContactValues.of(contact))
+
+
+class _ContactValues(NamedTuple):
+    """Depth u [length], force F/G [length²] and stiffness k/G [length] of a contact."""
+
+    depth: float
+    force: float
+    stiffness: float
+
+    @classmethod
+    def of(cls, contact: ContactState) -> "_ContactValues":
+        return cls(contact.depth, contact.force, contact.stiffness)
+
+
+def _depths_to_compare(curve: LoadingCurve, first: float, last: float) -> Array:
+    """Return depths of a curve at which to compare it, at equal steps of ln F + ln k with the force F and stiffness k.
+
+    Equal steps of ln F alone could miss the forces just after many elements have touched.
+
+    first, last : ln F at the first and at the last depth
+    """
+    force = np.exp(np.linspace(first, last, _POINTS))
+    depth, stiffness = curve.at_force(force)
+    way = np.log(force) + np.log(stiffness)
+    return np.interp(np.linspace(way[0], way[-1], _CONTACTS), way, depth)
+
+
+def _with_first_level(levels: dict[str, Array], depth: float, force: float) -> dict[str, Array]:
+    """Return the levels of a curve after a straight first part up to a depth u₁ and force F₁.
+
+    The first part is continued until it meets the tangent of a level. Levels that carry less than its continuation are
+    left out.
+
+    levels : {name of a quantity: its values at all levels}
+    depth, force : u₁ [length] and F₁ [length²]
+    """
+    straight = force / depth
+    kept = levels["force"] > straight * levels["depth"] * (1 + _ROUNDING)
+    levels = {name: values[kept] for name, values in levels.items()}
+    after = {name: values[0] for name, values in levels.items()}
+    meeting = (after["stiffness"] * after["depth"] - after["force"]) / (after["stiffness"] - straight)
+    depths = np.array([depth, meeting] if meeting > depth * (1 + _ROUNDING) else [depth])
+    first = {name: np.full_like(values[:1], after[name], shape=depths.size) for name, values in levels.items()}
+    first |= {"depth": depths, "force": straight * depths, "stiffness": np.full(depths.size, straight)}
+    first["contact_count"] = np.ones(depths.size, levels["contact_count"].dtype)
+    return {name: np.append(first[name], values) for name, values in levels.items()}
 
 
 def tolerance_for(error: float) -> float:
     """Return the loosest tolerance that causes at most the share _SHARE_OF_TOLERANCE of a requested velocity error."""
     return min((_SHARE_OF_TOLERANCE * error / _ERROR_PER_ROOT) ** 2, _LOOSEST_TOLERANCE)
+
+
+def _share_of_depth(indenter: Indenter, curve: LoadingCurve, sampled: Indenter) -> float:
+    """Return the factor of the tolerance for a map whose depths at light loads are large (see _DEPTH_OVER_RMS).
+
+    curve : curve of `sampled`, the map of every n-th point
+    """
+    force = max(lowest_force(indenter, curve.force[-1]), curve.force[0])
+    depth = float(curve.at_force(force)[0]) + highest_missed(indenter, sampled)
+    rms = float(np.nanstd(indenter.heights, dtype=float))
+    return min(1.0, _DEPTH_OVER_RMS * rms / depth) if rms > 0 else 1.0
 
 
 def part_of(progress: Progress, start: float, end: float) -> Progress:
@@ -105,14 +321,13 @@ def _steps(indenter: Indenter) -> list[int]:
     return [2**power for power in range(step.bit_length() - 1, -1, -1)]
 
 
-def _choice(indenter: Indenter, sampled: Indenter, step: int, tolerance: float) -> str:
-    """Return a text that states the sampling and the tolerance.
+def _size(indenter: Indenter) -> str:
+    """Return the numbers of rows and columns of a map as a text."""
+    return " x ".join(map(str, indenter.heights.shape))
 
-    indenter, sampled : full map, and map of every n-th point with n = `step`
-    """
-    full, chosen = (" x ".join(map(str, each.heights.shape)) for each in (indenter, sampled))
-    points = f"all {full} points" if step == 1 else f"every {ordinal(step)} point, {chosen} of {full},"
-    return f"{points} and a tolerance of {tolerance:.2g}"
+
+def _stated(tolerance: float) -> str:
+    return f"a tolerance of {tolerance:.2g}"
 
 
 def _percent(error: float) -> str:

@@ -1,5 +1,6 @@
 """Read maps and lines of heights from files of many formats, and convert them to the content of NetCDF files."""
 
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -13,9 +14,15 @@ from viscorough.basics.argument_names import argument
 from viscorough.basics.arrays import positive
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import Array, FilePath
-from viscorough.io import elevation, netcdf
+from viscorough.io import netcdf
 from viscorough.io.atomic import path_named, reading
-from viscorough.io.instruments import holds_instrument_line, is_sdf_text, read_instrument, read_instrument_line
+from viscorough.io.instruments import (
+    holds_instrument_line,
+    is_sdf_text,
+    read_instrument,
+    read_instrument_line,
+    refuse_raster,
+)
 from viscorough.io.profiles import holds_profile, read_profile
 from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
@@ -23,6 +30,8 @@ from viscorough.io.unpacking import unpacked
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.preparation import doubts, prepare
 
+# Suffixes of georeferenced rasters, which are not read.
+_RASTERS = (".adf", ".bil", ".dem", ".flt", ".hgt", ".img", ".dt0", ".dt1", ".dt2", ".vrt")
 # The theory of small slopes is doubtful above this rms slope.
 _STEEP_SLOPE = 0.3
 
@@ -48,8 +57,7 @@ def read_heights(
     ----------
     path : path
         .npy, NetCDF (.nc), text with any suffix (a matrix, an ESRI grid, or columns x, y, z),
-        TIFF, an elevation model such as GeoTIFF (pip install "viscorough[geo]"), or a format of an instrument (pip
-        install "viscorough[formats]").
+        TIFF, or a format of an instrument (pip install "viscorough[formats]").
     spacing : number or text or pair of them, optional
         Distance between neighbouring points, or (dx, dy) from column to column and from row to row. Plain numbers are
         in the unit of the heights; texts have a unit, such as "0.2 um". Needed if the file states no spacing.
@@ -207,7 +215,7 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
 def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
     """Read heights, spacing and units from a file, as a Scan.
 
-    The suffix selects the reader of NetCDF, TIFF and elevation models, and the content of the file all other readers.
+    The suffix selects the reader of NetCDF and TIFF, and the content of the file all other readers.
 
     is_map : True if the user gives both dx and dy. A text file with one or two rows or columns is then read as a map;
         otherwise it is refused, since it may hold a profile
@@ -219,24 +227,34 @@ def _read_scan(path: FilePath, channel: str | None, *, is_map: bool) -> Scan:
         from viscorough.io.tiff import read_tiff
 
         return read_tiff(path, channel)
-    if suffix in elevation.FORMATS:
-        return elevation.read_elevation(path, elevation.FORMATS[suffix], channel)
     if is_npy(path) or not (is_binary(path) or is_sdf_text(path)):
         if channel is not None:
             raise ValueError(f"{argument('channel')} {channel}: a file of this kind holds one map; leave it out")
         return Scan(npy_array(path)) if is_npy(path) else _with_units_of_prj(read_text(path, is_map=is_map), path)
+    if suffix in _RASTERS:
+        refuse_raster()
     return read_instrument(path, channel)
 
 
 def _with_units_of_prj(scan: Scan, path: FilePath) -> Scan:
     """Return the Scan of an ESRI grid with the units that its .prj file states; return other Scans unchanged.
 
-    path : text file from which the Scan was read. The .prj file has the same name with the suffix .prj or .PRJ
+    path : text file from which the Scan was read. The .prj file has the same name with the suffix .prj or .PRJ, and
+        holds a coordinate reference system as text (WKT). The unit of x and y follows the projection, and the unit of
+        heights is in a part VERTCS
+
+    Raises ValueError for coordinates in degrees, and for another text.
     """
-    if scan.corners is None or not any(Path(path).with_suffix(end).exists() for end in (".prj", ".PRJ")):
+    found = [each for end in (".prj", ".PRJ") if (each := Path(path).with_suffix(end)).exists()]
+    if scan.corners is None or not found:
         return scan
-    lateral, vertical = elevation.units_of_prj(path)
-    return scan._replace(unit=vertical, spacing_unit=lateral)
+    with reading(found[0], "a coordinate reference system in projected coordinates is needed"):
+        horizontal, _, vertical = found[0].read_text(encoding="utf-8", errors="replace").partition("VERTCS")
+        metres = [re.findall(r'UNIT\["[^"]*",\s*([\d.eE+-]+)', part) for part in (horizontal, vertical)]
+        if not re.match(r"\s*(?:COMPD_CS\[\"[^\"]*\",\s*)?PROJCS", horizontal) or not metres[0]:
+            raise ValueError("its coordinates are in degrees, or in an unknown system")
+        lateral, height = (f"{float(each[-1])!r} m" if each else units.UNKNOWN for each in metres)
+    return scan._replace(unit=height, spacing_unit=lateral)
 
 
 def is_npy(path: FilePath) -> bool:

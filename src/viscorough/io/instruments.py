@@ -6,7 +6,7 @@ import struct
 import warnings
 import zipfile
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -94,6 +94,12 @@ def read_instrument(path: FilePath, channel: str | None = None, *, profile: bool
     if spacing is not None and unit != units.UNKNOWN:
         _check_field(path, spacing, unit, heights.shape)
     return Scan(heights, unit, spacing, unit)
+
+
+def refuse_raster() -> NoReturn:
+    """Raise ValueError for a georeferenced raster, such as GeoTIFF, with the way to convert it."""
+    text = "a georeferenced raster is not read; an ESRI ASCII grid in projected coordinates is needed"
+    raise ValueError(f"{text}, as 'gdal_translate -of AAIGrid FILE NEW.asc' writes")
 
 
 def is_sdf_text(path: FilePath) -> bool:

@@ -1,7 +1,6 @@
 """Read maps of heights from TIFF files of one channel, with the spacing that the program ImageJ writes into them.
 
-TIFF files of elevation models (GeoTIFF) and of Park Systems microscopes are passed on to io.elevation and
-io.instruments.
+TIFF files of Park Systems microscopes are passed on to io.instruments. Georeferenced rasters (GeoTIFF) are refused.
 """
 
 import logging
@@ -14,14 +13,13 @@ from viscorough.basics import units
 from viscorough.basics.argument_names import argument
 from viscorough.basics.types import FilePath
 from viscorough.io.atomic import reading
-from viscorough.io.elevation import read_elevation
-from viscorough.io.instruments import read_instrument
+from viscorough.io.instruments import read_instrument, refuse_raster
 from viscorough.io.scan import Scan
 
 _PARK_SYSTEMS = 50432  # TIFF tag of Park Systems microscopes, whose files hold the heights outside the picture
 # TIFF tags of GeoTIFF (scale, place and rotation of the pixels, geographic keys) and of GDAL (metadata, value for
 # missing data).
-_ELEVATION_TAGS = (33550, 33922, 34264, 34735, 42112, 42113)
+_RASTER_TAGS = (33550, 33922, 34264, 34735, 42112, 42113)
 _MASK = 4  # bit in the tag NewSubfileType that is set if a page is a mask
 # Endings of the names of GDAL's companion files. They hold the mask, the units and the value for missing data of a
 # TIFF file.
@@ -33,11 +31,10 @@ logging.getLogger("tifffile").addHandler(logging.NullHandler())
 def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
     """Read a map of heights from a TIFF file, as a Scan with its spacing and units.
 
-    A file with a tag of GeoTIFF or GDAL, a mask, or a companion file of GDAL is read as an elevation model.
-
     channel : number of the page, from 0; needed if the file has several pages. Pages of reduced size are not counted
 
-    Raises a one-line ValueError for a picture in colours, and for geographic coordinates in degrees.
+    Raises a one-line ValueError for a picture in colours, and for a file with a tag of GeoTIFF or GDAL, a mask, or a
+    companion file of GDAL.
     """
     import tifffile
 
@@ -47,10 +44,12 @@ def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
         if not pages:
             raise ValueError("it has no picture")
         is_park_systems = _PARK_SYSTEMS in pages[0].tags
-        is_elevation = any(page.subfiletype & _MASK or set(_ELEVATION_TAGS) & set(page.tags.keys()) for page in pages)
-        if not (is_park_systems or is_elevation or any(os.path.exists(f"{path}{end}") for end in _SIDECARS)):
+        is_raster = any(page.subfiletype & _MASK or set(_RASTER_TAGS) & set(page.tags.keys()) for page in pages)
+        if not is_park_systems:
+            if is_raster or any(os.path.exists(f"{path}{end}") for end in _SIDECARS):
+                refuse_raster()
             return _scan(file, pages, channel)
-    return read_instrument(path, channel) if is_park_systems else read_elevation(path, "GTiff", channel)
+    return read_instrument(path, channel)
 
 
 def _scan(file: Any, pages: list[Any], channel: str | None) -> Scan:

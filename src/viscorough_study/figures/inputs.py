@@ -37,3 +37,7 @@ def lines(path):
 def groups(path):
     """Read the measured surfaces; return {name of a group of scans: ensemble of this group}."""
     return pool.ensembles(read_dataset(path), "group")
+
+
+# {argument of functions that draw figures: function that reads it}
+READERS = {"examples": examples, "ensembles": ensembles, "discs": discs, "lines": lines, "groups": groups}

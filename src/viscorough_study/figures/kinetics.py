@@ -118,4 +118,4 @@ def _mark_windows(axes, looks, scaling, conventions):
         for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():
             axes.plot([row.x_low, row.x_high], [0.03 + 0.035 * rank] * 2, color=look["color"], **bar)
             axes.text(0.8 * row.x_low, 0.03 + 0.035 * rank, f"{hurst:g}", **text)
-    axes.text(0.97, 0.025, "bars: region (b), with $H$", color=style.GREY, transform=axes.transAxes, ha="right")
+    axes.text(0.97, 0.025, "bars: region (b)", color=style.GREY, transform=axes.transAxes, ha="right")

@@ -13,7 +13,6 @@ import numpy as np
 import pandas as pd
 from matplotlib import colormaps, rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
@@ -150,6 +149,8 @@ def save_figure(figure, *paths):
 
 
 def _write_pdf(figure, path):
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf  # this import takes long, and PDF files are rare
+
     # Figure.savefig is not used, because it would draw everything twice.
     FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None})
 

@@ -9,6 +9,7 @@ def readable(value):
         return "–"
     if np.isinf(value):
         return "∞"
+    value = float(f"{value:.12g}")  # a quotient such as 100000.00000000001 is meant to be an integer
     if value == round(value) and abs(value) < 1e6:
         return f"{value:.0f}".replace("-", "−")
     if 1e-3 <= abs(value) < 1e4:

@@ -5,7 +5,7 @@ This command checks that a settings file can be read:
     python -m viscorough_study.run.settings_files mine.yaml
 
 Snakemake reads the files given with --configfile before it reads the Snakefile, and its own messages name neither file
-nor line. Therefore workflow/profiles/default calls `check_command_line` before Snakemake reads the files.
+nor line. Therefore profiles/default calls `check_command_line` before Snakemake reads the files.
 """
 
 import sys

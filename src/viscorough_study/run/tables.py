@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from viscorough.io import netcdf
 from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.netcdf import opened
 
@@ -28,24 +29,23 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
     Each row is one observation. Floats in the CSV file have as many digits as needed to read them back exactly; missing
     values are empty. Raises ValueError if `columns` and the columns of the table differ.
     """
-    import xarray as xr  # imported here, since the import takes long and only writing needs it
-
-    from viscorough.io.datasets import write_dataset
-
     if differing := sorted(set(columns) ^ set(table.columns)):
         raise ValueError(f"{nc_path}: table and descriptions differ in {', '.join(differing)}; both are needed")
     csv = table.to_csv(index=False, lineterminator="\n").encode()
-    ds = xr.Dataset(attrs={"title": title} | (attributes or {}) | {CSV_DIGEST: sha256(csv).hexdigest()})
+    if dimension in columns and table[dimension].dtype.kind not in "biuf":
+        dimension = f"{dimension}_index"  # the CF conventions forbid coordinates of texts
+    variables = {}
     for name, (long_name, units) in columns.items():
-        values, attributes = table[name].to_numpy(), {"long_name": long_name, "units": units}
+        values, described = table[name].to_numpy(), {"long_name": long_name, "units": units}
         if not values.size:  # an empty column has no type, so its type follows from its units
             values = values.astype(float if units else str)
-        if values.dtype.kind not in "biuf":
-            values, attributes = values.astype(str), {"long_name": long_name}
-            # An empty array of texts stays as it is; as an array of objects it would be stored as numbers.
-            values = values.astype(object) if values.size else values
-        ds[name] = (dimension, values, attributes)
-    write_dataset(ds, nc_path)
+        if values.dtype.kind == "b":  # NetCDF has no truth values; xarray understands this attribute
+            values, described = values.astype("i1"), described | {"dtype": "bool"}
+        if values.dtype.kind not in "iuf":
+            values, described = values.astype(str), {"long_name": long_name}
+        variables[name] = netcdf.Variable((dimension,), values, described)
+    written = {"title": title} | (attributes or {}) | {CSV_DIGEST: sha256(csv).hexdigest()}
+    netcdf.write(netcdf.Content(variables, written), nc_path)
     with atomic_write(csv_path) as temporary:
         temporary.write_bytes(csv)
 

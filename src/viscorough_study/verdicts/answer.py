@@ -90,9 +90,8 @@ def _boundary_elements(table):
     holding, parts = [case["difference"] for case in cases.values() if case["verdict"] in HELD], []
     if holding:
         within = np.ceil(100 * np.abs(holding).max()) / 100
-        parts.append(
-            f"is within {within:.2f} of H/(1 + H) at H = {_joined(_hursts(cases, HELD))} (the paper: above 0.4)"
-        )
+        hursts = _joined(_hursts(cases, HELD))
+        parts.append(f"is within {within:.2f} of H/(1 + H) at H = {hursts} (the paper: “at least for H > 0.4”)")
     differences = [(case["difference"], hurst) for hurst, case in cases.items() if case["verdict"] == "not reproduced"]
     for sign, word in ((1, "larger"), (-1, "smaller")):
         named = [f"by {abs(d):.2f} at {hurst:g}" for d, hurst in reversed(differences) if d * sign > 0]

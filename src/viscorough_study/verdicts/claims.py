@@ -216,15 +216,17 @@ def verdict_text(rows):
 
 
 def case_counts(rows):
-    """Return how many cases of a claim hold and how many are undecided, as text such as "2 of 4 cases, 1 undecided".
+    """Return how many cases of a claim hold or fail, as text such as "2 of 4 cases hold, 1 undecided".
 
     rows : rows of the table of verdicts for one claim, one for each case, such as a Hurst exponent. The text is empty
-        if all cases hold or all cases fail
+        if all cases have the same outcome. Undecided cases are counted if other cases fail
     """
     held, undecided = int(rows["verdict"].isin(HELD).sum()), int((rows["verdict"] == "undecided").sum())
-    if held == len(rows) or held + undecided == 0:
+    failed = len(rows) - held - undecided
+    if len(rows) in (held, failed, undecided):
         return ""
-    return f"{held} of {len(rows)} cases" + (f", {undecided} undecided" if undecided else "")
+    text = f"{held} of {len(rows)} cases hold" if held else f"{failed} of {len(rows)} cases fail"
+    return text + (f", {undecided} undecided" if undecided and failed else "")
 
 
 def findings(table, claims):

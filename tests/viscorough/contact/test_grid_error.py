@@ -1,11 +1,23 @@
 """Errors of the grid against Hertz, their definition and finer maps; curves to a requested error."""
 
+import warnings
+
 import numpy as np
 import pytest
 
 from support.contract import refused
-from viscorough import AccuracyWarning, Indenter, indent, reference, self_affine_disc
-from viscorough.contact.grid_error import SAFETY_FACTOR
+from support.curves import curve_of_body
+from viscorough import (
+    AccuracyWarning,
+    Indenter,
+    Load,
+    contact_at,
+    indent,
+    kinetics,
+    reference,
+    self_affine_disc,
+)
+from viscorough.contact.grid_error import FORCE_SAFETY_FACTOR, SAFETY_FACTOR, lowest_force, with_grid_errors
 
 HALF_A_DECADE = np.log(10) / 2
 BALL = reference.sphere(2.0)
@@ -69,6 +81,23 @@ def test_grid_error_of_a_flat_punch(shape):
     assert curve.area_change == pytest.approx([punch.elements / (4 * every_second(punch).elements) - 1])
 
 
+def test_coarse_curve_is_continued_as_a_straight_line():
+    """The curve of every second point ends at half of the depth; its stiffness stays the same from there on."""
+    depth = np.geomspace(0.01, 1.0, 200)
+    curve, coarse = curve_of_body(BALL, depth), curve_of_body(BALL, depth[depth <= 0.5])
+    end = coarse.depth[-1]
+    curve = with_grid_errors(curve, coarse, BALL.indenter(33, width=2), 0.0)
+    force = np.geomspace(curve.force[-1] / np.sqrt(10), curve.force[-1], 2001)
+    depth = (force / BALL.force(1.0)) ** (2 / 3)
+    beyond = np.maximum(depth - end, 0.0)
+    straight = BALL.force(np.minimum(depth, end)) + BALL.stiffness(end) * beyond
+    assert curve.force_grid_error[-1] == pytest.approx(
+        FORCE_SAFETY_FACTOR * root_mean_square(1 - straight / force), rel=0.02
+    )
+    ratio = BALL.stiffness(depth) / BALL.stiffness(np.minimum(depth, end))
+    assert curve.grid_error[-1] == pytest.approx(SAFETY_FACTOR * root_mean_square(np.log(ratio)), rel=0.02)
+
+
 def test_given_levels_have_grid_errors():
     disc = self_affine_disc(0.8, 65, rms=0.02, seed=1)
     whole = indent(disc, estimate_grid_error=True)
@@ -126,6 +155,78 @@ def test_depths_count_from_the_highest_point_of_the_whole_map():
     level = np.searchsorted(curve.contact_count, 32)
     assert missed > 0.03 * curve.depth[level]
     assert curve.depth[level] == pytest.approx((curve.force[level] / BALL.force(1.0)) ** (2 / 3), rel=0.005)
+
+
+def spiked():
+    """A single bad pixel, 20 rms heights high, lies between the points of every sampling."""
+    disc = self_affine_disc(0.8, 129, rms=0.05, seed=1)
+    heights = disc.heights.copy()
+    heights[61, 45] = 1.0
+    return Indenter(heights, disc.spacing)
+
+
+def with_grain():
+    """A grain of 3 x 3 points, ten rms heights high."""
+    disc = self_affine_disc(0.8, 129, rms=0.05, seed=1)
+    heights = disc.heights.copy()
+    heights[60:63, 44:47] += 0.5
+    return Indenter(heights, disc.spacing)
+
+
+def sine():
+    """A texture of 4.03 points: every 4th point is a wave of 541 points."""
+    phase = 2 * np.pi * np.arange(128) / 4.03
+    return Indenter(0.05 * (np.sin(phase)[:, None] + np.sin(phase)), 0.01)
+
+
+def sawtooth():
+    """Turned grooves that are sharp on one side, on a rough disc."""
+    disc = self_affine_disc(0.9, 129, rms=0.001, seed=1)
+    return Indenter(disc.heights + 0.05 * (np.arange(129) / 12.37 % 1), disc.spacing)
+
+
+@pytest.mark.parametrize("error", [0.05, 0.2])
+@pytest.mark.parametrize("surface", [spiked, with_grain, sine, sawtooth])
+def test_features_that_a_sampling_misses_are_found(surface, error):
+    """The curves of two samplings agree, but the curve of all points differs from both by up to a factor of ten."""
+    indenter = surface()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AccuracyWarning)  # the full map may be too coarse for the request
+        curve = indent(indenter, error=error)
+    full = indent(indenter)
+    lowest = lowest_force(indenter, full.force[-1])
+    force = np.geomspace(lowest, min(full.force[-1], curve.force[-1]) * (1 - 1e-9), 1001)
+    assert root_mean_square(velocity_change(full, curve, force)) < 1.3 * error
+
+
+@pytest.mark.parametrize("fraction", [0.3, 0.9])
+def test_contact_fraction_at_the_end_is_that_of_the_whole_map(fraction):
+    disc = self_affine_disc(0.7, 129, rms=0.02, seed=3)
+    curve = indent(disc, error=0.2, until_fraction=fraction)
+    assert curve.sampling > 1
+    assert fraction <= contact_at(disc, force=curve.force[-1] * (1 + 1e-9)).contact_fraction < 0.1 + fraction
+    assert indent(disc, error=0.2, until_force=0.01).force[-1] == pytest.approx(0.01, rel=0.1)
+
+
+def test_curve_begins_where_the_highest_element_of_the_whole_map_touches():
+    """Motions then begin at force 0, although the highest point that was sampled is far below the spike."""
+    disc = self_affine_disc(0.8, 129, rms=0.02, seed=3)
+    full, curve = indent(disc), indent(disc, error=0.2)
+    assert curve.sampling > 1
+    assert np.nanmax(disc.heights) > np.nanmax(disc.heights[:: curve.sampling, :: curve.sampling])
+    assert curve.starts_straight
+    assert curve.force[0] == pytest.approx(full.force[0])
+    assert (np.diff(curve.stiffness) >= -1e-6 * curve.stiffness[:-1]).all()
+    motion = kinetics(curve, Load([0.0, 1.0, 2.0], force=[0.0, 0.01, 0.0]), 1.0)
+    assert motion.depth == pytest.approx(
+        kinetics(full, Load([0.0, 1.0, 2.0], force=[0.0, 0.01, 0.0]), 1.0).depth, rel=0.05
+    )
+
+
+def test_flat_map_needs_few_points():
+    curve = indent(Indenter(np.zeros((65, 65)), 1.0), error=0.1)
+    assert curve.sampling > 1
+    assert curve.stiffness == pytest.approx(indent(Indenter(np.zeros((65, 65)), 1.0)).stiffness, rel=0.1)
 
 
 def test_error_that_cannot_be_reached_is_a_warning():

@@ -327,3 +327,53 @@ def test_bad_texts_are_one_line(tmp_path, name, text, what):
     with refused(what) as error:
         read_heights(tmp_path / name)
     assert str(error.value).count(name) == 1
+
+
+ESRI = "ncols 4\nnrows 3\nxll{0} {1}\nyll{0} {2}\ncellsize {3}\nNODATA_value -9999\n1 2 3 4\n5 6 7 9\n2 8 1 3\n"
+
+
+@pytest.mark.parametrize(
+    ("place", "is_refused"),
+    [
+        (("corner", -105.56, 40.09, 0.000833333333), True),
+        (("center", -180, -90, 90), True),  # whole Earth, points at the poles
+        (("corner", 0, -45, 30), True),  # longitudes may count to 360
+        (("corner", 178, 0, 1), True),
+        (("corner", -180.5, -90.5, 1), True),  # points at -180 and -90
+        (("corner", 356.5, 87.5, 1), True),  # points at 360 and 90
+        (("corner", 358, 0, 1), False),
+        (("corner", 0, 88, 1), False),
+        (("corner", 500000, 40, 1), False),
+    ],
+)
+def test_esri_grids_that_may_be_in_degrees_need_a_unit(tmp_path, place, is_refused):
+    path = tmp_path / "a.asc"
+    path.write_text(ESRI.format(*place))
+    if is_refused:
+        with refused(r"a\.asc: x from .* may be degrees"):
+            read_heights(path)
+    else:
+        assert read_heights(path).spacing == place[-1]
+    assert read_heights(path, unit="m").spacing == place[-1]
+
+
+GEOGRAPHIC = (
+    'GEOGCS["GCS",DATUM["D",SPHEROID["S",6378137.0,298.257]],PRIMEM["G",0.0],UNIT["Degree",0.0174532925199433]]'
+)
+PROJECTED = (
+    f'PROJCS["P",{GEOGRAPHIC},PROJECTION["Conic"],PARAMETER["False_Easting",984250.0],UNIT["Foot_US",0.3048006096]]'
+)
+HEIGHT_SYSTEM = 'VERTCS["V",VDATUM["N"],PARAMETER["Direction",1.0],UNIT["Meter",1.0]]'
+
+
+def test_prj_file_states_the_units_of_an_esri_grid(tmp_path):
+    path = tmp_path / "a.asc"
+    path.write_text(ESRI.format("corner", 10, 20, 2))
+    for text, options in ((PROJECTED, {"unit": "m"}), (f"{PROJECTED},{HEIGHT_SYSTEM}", {})):
+        (tmp_path / "a.prj").write_text(text)
+        indenter = read_heights(path, **options)
+        assert (indenter.spacing, indenter.heights[0, 3]) == (pytest.approx(2 * 0.3048006096, rel=1e-12), 4)
+    for text in (GEOGRAPHIC, "Projection UTM\nUnits FEET\n"):
+        (tmp_path / "a.prj").write_text(text)
+        with refused(r"a.prj: .*in degrees, or in an unknown system.*projected coordinates is needed"):
+            read_heights(path, unit="m")

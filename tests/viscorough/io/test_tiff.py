@@ -1,4 +1,4 @@
-"""Maps of heights in TIFF files of microscopes, with the tags that ImageJ defines. GeoTIFF: test_elevation."""
+"""Maps of heights in TIFF files of microscopes, with the tags of ImageJ; georeferenced rasters are refused."""
 
 import logging
 import re
@@ -86,3 +86,14 @@ def test_log_of_the_tiff_library_is_not_printed(tmp_path, monkeypatch, capsys):
     with refused(r"empty\.tif: not readable \(it has no picture\)"):
         read_heights(tmp_path / "empty.tif", 1)
     assert capsys.readouterr().err == ""
+
+
+def test_georeferenced_rasters_are_refused_with_the_way_to_convert_them(tmp_path):
+    heights = np.random.default_rng(1).random((4, 5), dtype="f4")
+    tifffile.imwrite(tmp_path / "a.tif", heights, extratags=[(33550, "d", 3, (2.0, 3.0, 0.0), True)])
+    tifffile.imwrite(tmp_path / "b.tif", heights)
+    (tmp_path / "b.tif.aux.xml").touch()
+    (tmp_path / "c.img").write_bytes(bytes(range(256)))
+    for name in ("a.tif", "b.tif", "c.img"):
+        with refused(rf"{name}: .*a georeferenced raster is not read; .* 'gdal_translate -of AAIGrid FILE NEW.asc'"):
+            read_heights(tmp_path / name, 1.0)

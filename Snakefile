@@ -6,7 +6,7 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
-include: "rules/common.smk"
+include: "workflow/rules/common.smk"
 
 
 # True unless another workflow, which uses this workflow as a module, has defined rules before: its first rule then
@@ -18,7 +18,7 @@ settings, MEASURED = complete(config, workflow.overwrite_configfiles, workflow.c
 config.update(settings)
 
 
-report: "report/workflow.rst"
+report: "workflow/report/workflow.rst"
 
 
 DISCS = cases.disc_cases(config)
@@ -39,14 +39,14 @@ wildcard_constraints:
 
 
 # The chain from surfaces to the page. Each file uses the results of the files before it.
-include: "rules/surfaces.smk"
-include: "rules/curves.smk"
-include: "rules/fits.smk"
-include: "rules/comparisons.smk"
-include: "rules/timings.smk"
-include: "rules/verdicts.smk"
-include: "rules/figures.smk"
-include: "rules/page.smk"
+include: "workflow/rules/surfaces.smk"
+include: "workflow/rules/curves.smk"
+include: "workflow/rules/fits.smk"
+include: "workflow/rules/comparisons.smk"
+include: "workflow/rules/timings.smk"
+include: "workflow/rules/verdicts.smk"
+include: "workflow/rules/figures.smk"
+include: "workflow/rules/page.smk"
 
 
 onstart:

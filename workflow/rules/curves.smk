@@ -36,6 +36,7 @@ rule reduce_lines:
         "results/logs/reduce_lines/{line}/{batch}.log",
     benchmark:
         "results/benchmarks/reduce_lines/{line}/{batch}.tsv"
+    priority: 1  # as for discs, so that the lines are aggregated while the last discs are indented
     conda:
         "../envs/viscorough.yaml"
     resources:
@@ -84,6 +85,7 @@ rule aggregate_curves:
         "results/logs/aggregate_curves/{pool}.log",
     benchmark:
         "results/benchmarks/aggregate_curves/{pool}.tsv"
+    priority: 1
     localrule: True
     conda:
         "../envs/viscorough.yaml"

@@ -110,6 +110,9 @@ def other_runs(table):
         with_seeds = dict(tuple(published_claims("docs/seeds.csv").groupby("seed")))
         runs += with_seeds.values()
         seeds = f" and also with {len(with_seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)),"
+    # A run that was published before a criterion changed has no verdict by the new criterion.
+    criteria = dict(zip(table["claim"], table["criterion"], strict=True))
+    runs = [run[run["claim"].map(criteria) == run["criterion"]] for run in runs]
     of_runs = [overall(run) for run in runs]
     for claim, verdict in overall(table).items():
         # A run that was published before a claim was added has no verdict on it.

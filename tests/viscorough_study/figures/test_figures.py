@@ -63,7 +63,8 @@ def expected_points(scaling):
         for name in interval:
             less = rows[name] - rows["hurst"] / (1 + rows["hurst"])
             yield "conventions", 0, points(rows.assign(less=less), "less", None)
-        yield "conventions", 1, points(rows.assign(over=rows["zeta"] / (2 - rows["hurst"])), "over", None)
+        rows = rows[rows["residual_fixed"] <= 0.1]
+        yield "conventions", 1, points(rows.assign(over=rows["zeta_fixed"] / (2 - rows["hurst"])), "over", None)
     for panel, name in ((0, "stiffness"), (2, "area"), (3, "gap")):
         columns = [f"{name}_ratio{end}" for end in ("", "_low", "_high")]
         yield "reduction", panel, points(reduction.dropna(subset=columns), "x", *columns)

@@ -6,7 +6,8 @@ import subprocess
 from html.parser import HTMLParser
 
 VOID = {"meta", "img", "br", "link", "input", "hr"}
-QUOTED = {"var", "i", "code", "cite", "details", "dl"}  # formulas, names and explanations, which state no results
+# Formulas, names and explanations, which state no results.
+QUOTED = {"var", "i", "code", "cite", "details", "dl", "math", "figcaption"}
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
 

@@ -73,9 +73,15 @@ function entered(form, table) {
   return values;
 }
 
+/** Tell the chart of Figure 2 where the estimate lies: {x, velocity} with vt/h as velocity, or null. */
+function announce(detail) {
+  document.dispatchEvent(new CustomEvent("estimate", { detail }));
+}
+
 /** Write the estimate for the values of the form into the page. */
 function update(form, table, output) {
   const values = entered(form, table);
+  announce(null);
   if (typeof values === "string") {
     output.textContent = values;
     return;
@@ -88,6 +94,7 @@ function update(form, table, output) {
     output.textContent = `X = ${readable(result.x)} is ${result.where} its range: no estimate. ${range}.`;
     return;
   }
+  announce({ x: result.x, velocity: (result.velocity[0] * values.time) / values.rms });
   const text = ([value, low, high]) => `${readable(1e6 * value)} [${readable(1e6 * low)}, ${readable(1e6 * high)}]`;
   output.textContent =
     `Depth ${text(result.depth)} µm, velocity ${text(result.velocity)} µm/s, at X = ${readable(result.x)}. ${range}.`;

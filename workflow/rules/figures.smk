@@ -91,7 +91,6 @@ use rule plot_surfaces as plot_master_curve with:
 use rule plot_surfaces as plot_exponent with:
     input:
         scaling="results/tables/scaling.csv",
-        fine_exponents="results/tables/fine_exponents.csv",
     output:
         path=report(
             "results/figures/fig4_exponent.{format}",
@@ -403,25 +402,27 @@ use rule plot_surfaces as plot_sizes with:
         "Figure: exponents on grids from coarse to fine"
 
 
-use rule plot_surfaces as plot_local_exponent with:
+use rule plot_surfaces as plot_collapse with:
     input:
-        exponents="results/tables/fine_exponents.csv",
+        curves="results/tables/collapse_curves.csv",
+        collapse="results/tables/collapse.csv",
+        infinite="results/tables/infinite_grid.csv",
     output:
         path=report(
-            "results/figures/local_exponent.{format}",
-            caption="../report/figures/local_exponent.rst",
+            "results/figures/collapse.{format}",
+            caption="../report/figures/collapse.rst",
             category=category("8 Beyond the paper"),
-            labels={"result": "local exponent over X", "kind": "figure"},
+            labels={"result": "collapse of the curves of all grids", "kind": "figure"},
         ),
     log:
-        "results/logs/plot_local_exponent/{format}.log",
+        "results/logs/plot_collapse/{format}.log",
     benchmark:
-        "results/benchmarks/plot_local_exponent/{format}.tsv"
+        "results/benchmarks/plot_collapse/{format}.tsv"
     params:
-        figure="local_exponent",
-        source=digest("plot", figure="local_exponent"),
+        figure="collapse",
+        source=digest("plot", figure="collapse"),
     message:
-        "Figure: local exponent over X"
+        "Figure: collapse of the curves of all grids"
 
 
 use rule plot_surfaces as plot_measured with:
@@ -477,7 +478,7 @@ rule figures:
                 "media",
                 "histories",
                 "sizes",
-                "local_exponent",
+                "collapse",
             ],
         ),
 
@@ -521,7 +522,7 @@ rule stability:
 
 
 rule sizes:
-    """Exponents on grids from coarse to fine, and of an infinitely fine grid."""
+    """Exponents on grids from coarse to fine."""
     input:
         "results/figures/sizes.png",
-        "results/figures/local_exponent.png",
+        "results/figures/collapse.png",

@@ -225,35 +225,30 @@ rule compare_grids:
         "../scripts/compare_grids.py"
 
 
-rule fit_fine_grids:
+rule fit_collapse:
     input:
-        curves=expand("results/curves/nested/{nested}.nc", nested=NESTED),
+        discs="results/ensembles/size_discs.nc",
+        lines="results/ensembles/size_lines.nc",
     output:
-        csv=[
-            "results/tables/fine_exponents.csv",
-            "results/tables/fine_velocities.csv",
-            "results/tables/fine_costs.csv",
-        ],
-        nc=[
-            "results/tables/fine_exponents.nc",
-            "results/tables/fine_velocities.nc",
-            "results/tables/fine_costs.nc",
-        ],
+        csv=["results/tables/collapse.csv", "results/tables/infinite_grid.csv", "results/tables/collapse_curves.csv"],
+        nc=["results/tables/collapse.nc", "results/tables/infinite_grid.nc", "results/tables/collapse_curves.nc"],
     log:
-        "results/logs/fit_fine_grids.log",
+        "results/logs/fit_collapse.log",
     benchmark:
-        "results/benchmarks/fit_fine_grids.tsv"
+        "results/benchmarks/fit_collapse.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=2000,
+        mem_mb=1000,
     params:
-        elements_min=config["nested_grids"]["elements_min"],
+        ranges=config["collapse"],
+        conventions=config["figures"],
         tolerance=paper("claims")["beta"]["tolerance"],
+        fraction_min=config["scaling"]["fraction_min"],
         seed=config["seed"],
-        source=digest("fit_fine_grids"),
+        source=digest("fit_collapse"),
     message:
-        "Exponents of small X on fine grids, and of an infinitely fine grid"
+        "Collapse of the curves of all grids, and the exponent of an infinitely fine grid"
     script:
-        "../scripts/fit_fine_grids.py"
+        "../scripts/fit_collapse.py"

@@ -36,9 +36,9 @@ rule tables:
                 "failure_knobs",
                 "sizes",
                 "grid_dependence",
-                "fine_exponents",
-                "fine_velocities",
-                "fine_costs",
+                "collapse",
+                "infinite_grid",
+                "collapse_curves",
                 "media",
             ],
             kind=["csv", "nc"],
@@ -105,7 +105,7 @@ PAGE_FIGURES = [
     "media",
     "histories",
     "sizes",
-    "local_exponent",
+    "collapse",
 ]
 # {table whose numbers the page states: rule that makes the table}
 PAGE_TABLES = {
@@ -125,7 +125,7 @@ if MEASURED:
     PAGE_TABLES["measured_fits"] = "evaluate_measured"
 # Further files that the page shows or quotes.
 PAGE_TEXTS = [
-    *sorted((WORKFLOW / "page").iterdir()),
+    *sorted(path for path in (WORKFLOW / "page").rglob("*") if path.is_file()),
     *sorted((WORKFLOW / "report").rglob("*.rst")),
     PROJECT / "resources/published/other_solvers.csv",
     PROJECT / "docs/claims.csv",
@@ -158,6 +158,7 @@ rule make_page:
     params:
         claims=paper("claims"),
         numbers=paper("numbers"),
+        fraction_min=config["scaling"]["fraction_min"],
         made_by=PAGE_TABLES,
         source=[digest("make_page"), *text_digests(PAGE_TEXTS)],
     message:

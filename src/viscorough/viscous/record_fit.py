@@ -17,8 +17,7 @@ from scipy.special import fdtri
 
 from viscorough.basics.argument_names import spelled
 from viscorough.basics.types import Array
-from viscorough.media.kinds import Prony, Springpot
-from viscorough.media.table import FreeForm
+from viscorough.media.kinds import CreepTable, Prony, Springpot
 
 # A record counts as exact if its scatter, divided by its largest value, is below this number.
 ROUNDING = 1e-9
@@ -54,7 +53,7 @@ class RecordFit(NamedTuple):
     shift_low, shift_high : ends of the confidence intervals of the quantities in `shift`
     """
 
-    medium: FreeForm | Prony | Springpot
+    medium: CreepTable | Prony | Springpot
     time: Array
     compliance: Array
     modulus: Array | None

@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.patheffects import withStroke
 
 from viscorough import reference
+from viscorough_study.ensembles.mean_curve import mean_curve
 from viscorough_study.ensembles.pool import elements_across
 from viscorough_study.figures import style
-from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.fits.conventions import fits
 from viscorough_study.run.readable import readable
 
@@ -65,7 +65,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     collapsed.tick_params(axis="x", which="both", top=False)
     _mark_limits(collapsed, elements_across(ensembles[0]["elements"].item()))
     _mark_windows(collapsed, looks, scaling, conventions)
-    realizations = f"each a mean over {realizations_text(ensembles)} discs"
+    realizations = f"each a mean over {style.realizations_text(ensembles)} discs"
     handles = style.hurst_handles(looks, marker="")
     collapsed.legend(handles=handles, loc="upper left", title=realizations, alignment="left")
     _tabulate(below.subplots(), {_combination(case): at for case, at in combinations.items()})

@@ -3,10 +3,13 @@
 import numpy as np
 
 from viscorough import reference
+from viscorough_study.ensembles.mean_curve import mean_curve
 from viscorough_study.figures import style
-from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.fits.conventions import fits
 
+# Largest root mean square of ln(vt/h) less a law with the exponent H/(1 + H), over region (b), for which the prefactor
+# of this law is defined (claim zeta_viscous).
+DEFINED = 0.1
 CONSTANT = {"color": style.GREY, "linestyle": "-", "linewidth": 0.6, "zorder": 1}
 
 
@@ -54,8 +57,8 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     handles = [
         *style.hurst_handles(looks, linestyle="-"),
         style.handle(f"{style.count_text(in_region)} discs, region (b)", **symbol),
-        style.handle(f"{realizations_text(discs)} discs, elsewhere", **symbol, markerfacecolor="white"),
-        style.handle(f"{realizations_text(lines)} lines (MDR)", color=style.GREY),
+        style.handle(f"{style.realizations_text(discs)} discs, elsewhere", **symbol, markerfacecolor="white"),
+        style.handle(f"{style.realizations_text(lines)} lines (MDR)", color=style.GREY),
         style.handle("Eq. 12", color="black", linestyle="--"),
         style.handle(f"Eq. 12 times {constant:.2f}", **CONSTANT),
     ]
@@ -69,7 +72,7 @@ def _constant(scaling, conventions):
     Hurst exponents count if a law with the exponent H/(1 + H) describes their curves, so that its prefactor is defined.
     """
     discs = fits(scaling, conventions | {"gamma": "with"}, source="discs", case_group="base")
-    discs = discs[discs["residual_fixed"] <= style.DEFINED]
+    discs = discs[discs["residual_fixed"] <= DEFINED]
     return np.exp(np.log(reference.zeta_viscous(discs["hurst"]) / discs["zeta_fixed"]).mean())
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from viscorough_study.ensembles.mean_curve import mean_curve
 from viscorough_study.figures import style
-from viscorough_study.figures.mean_curve import mean_curve
 from viscorough_study.fits.conventions import fits
 
 _LINES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))

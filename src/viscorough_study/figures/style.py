@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from matplotlib import colormaps, rc_context
+from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -19,6 +19,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocat
 from PIL import Image  # matplotlib depends on Pillow, so it is installed
 
 from viscorough.io.atomic import atomic_write
+from viscorough_study.run.hurst_colors import hurst_color
 from viscorough_study.run.readable import readable
 
 MM = 1 / 25.4
@@ -26,9 +27,6 @@ WIDE, NARROW = 170 * MM, 85 * MM  # widths of figures over two columns of a page
 SMALL = 7  # size of the smallest text [points]
 DPI = 200  # resolution of PNG files [dots per inch]
 FEW_DECADES = 2.1  # logarithmic axes that span fewer decades also have ticks between decades
-# Largest root mean square of ln(vt/h) less a law with the exponent H/(1 + H), over region (b), for which the prefactor
-# of this law is defined (claim zeta_viscous).
-DEFINED = 0.1
 GREY, PALE = "0.4", "0.8"
 # The colours of Okabe and Ito, distinguishable with any colour vision.
 BLACK, BLUE, SKY_BLUE, GREEN = "#000000", "#0072b2", "#56b4e9", "#009e73"
@@ -177,8 +175,8 @@ def hurst_looks(exponents):
     looks = {}
     for hurst in sorted(set(exponents)):
         # The ranks, and therefore the markers, of all multiples of 0.1 are different. Neighbouring exponents also have
-        # different markers. The power 1.5 spreads the colours near H = 1.
-        rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["viridis"](0.85 * hurst**1.5)
+        # different markers.
+        rank, color = round(20 * hurst) % len(HURST_MARKERS), hurst_color(hurst)
         looks[hurst] = {"color": color, "marker": HURST_MARKERS[rank], "linestyle": HURST_LINES[rank]}
     return looks
 
@@ -193,6 +191,18 @@ def count_text(counts):
     """Return the smallest and the largest count as text, such as "6 to 54", or "6" if all counts are equal."""
     low, high = min(counts), max(counts)
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"
+
+
+def realizations_text(ensembles):
+    """Return the smallest and the largest number of averaged realizations as text, such as "6 to 54".
+
+    The smallest number is the number of curves that were computed up to the largest X.
+    """
+    counts = []
+    for ensemble in ensembles:
+        until_x = np.broadcast_to(ensemble["until_x"].values, ensemble.sizes["realization"])
+        counts += [until_x.size, int((until_x == until_x.max()).sum())]
+    return count_text(counts)
 
 
 def handle(label, **look):

@@ -9,7 +9,7 @@ from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import read_recorded
-from viscorough_study.verdicts.answer import answer
+from viscorough_study.verdicts.answer import answer, short_answer
 from viscorough_study.verdicts.claims import findings
 
 
@@ -34,6 +34,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers, made_by):
         "readable": readable,
         "scale": scale,
         "answer": answer(results.tables["claims"]),
+        "short_answer": short_answer(results.tables["claims"]),
         "answers": answers.answers(results),
         "findings": findings(results.tables["claims"], claims),
         "verdict_counts": answers.verdict_counts(results, published),

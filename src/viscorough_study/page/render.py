@@ -7,11 +7,22 @@ from pathlib import Path
 
 import jinja2
 from docutils.core import publish_parts
+from docutils.utils.math.latex2mathml import tex2mathml
 from markupsafe import Markup
 
 from viscorough_study.run.readable import readable
 
 SCALE = 0.675  # ratio of the width of a figure on the page to its width in the PNG file, both in pixels
+# {formula in texts of the page: the same in LaTeX}; a formula precedes its parts
+TYPESET = {
+    "β = H/(1 + H)": r"\beta = H/(1+H)",
+    "H/(1 + H)": r"H/(1+H)",
+    "H > 0.4": "H > 0.4",
+    "ζ = π(3 − H)/10": r"\zeta = \pi(3-H)/10",
+    "ζ = 2 − H": r"\zeta = 2-H",
+    "1/Γ(2 − α)": r"1/\Gamma(2-\alpha)",
+    "vt/h": "vt/h",
+}
 WIDE = 600  # on a phone, images that are wider than this number of pixels can be scrolled
 
 
@@ -25,13 +36,24 @@ def render(template, style, figures, captions, *, conventions, **content):
     content : variables of the template
     """
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True)
-    environment.filters |= {"number": number, "percent": percent}
+    environment.filters |= {"number": number, "percent": percent, "tex": tex, "formulas": formulas}
     environment.globals |= {
         "image": {name: embedded_png(Path(path).read_bytes()) for name, path in figures.items()},
         "caption": {name: caption(Path(path).read_text("utf-8"), conventions) for name, path in captions.items()},
         "style": Markup(style),
     }
     return environment.from_string(template).render(content)
+
+
+def tex(text):
+    """Return a formula in LaTeX as MathML, which browsers typeset."""
+    return Markup(tex2mathml(text, as_block=False).replace("\n", ""))
+
+
+def formulas(text):
+    """Return plain text as HTML in which the formulas of `TYPESET` are typeset."""
+    parts = re.split("(" + "|".join(map(re.escape, TYPESET)) + ")", text)
+    return Markup("").join(tex(TYPESET[part]) if part in TYPESET else part for part in parts)
 
 
 def number(value, scale=1, unit=""):

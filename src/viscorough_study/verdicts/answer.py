@@ -33,13 +33,40 @@ def answer(table):
         EQUIVALENCE.get(verdicts["equivalence"], ""),
         COLLAPSE[verdicts["collapse"]],
         _boundary_elements(table),
-        _fine_grids(table),
         _reduction(table),
         _master_curve(table, verdicts),
         GAMMA.get(verdicts["gamma"], ""),
         _region_c(table, verdicts),
     ]
     return " ".join(f"{sentence}." for sentence in sentences if sentence)
+
+
+def short_answer(table):
+    """Return the answer in at most three short sentences, from a table of verdicts (verdicts.claims.judge).
+
+    They state the equivalence and the collapse, the exponent by boundary elements, and what fails of the prefactor.
+    Claims that the data do not decide are left out, except the claim on the collapse.
+    """
+    verdicts = {claim: _outcome(verdict) for claim, verdict in overall(table).items()}
+    collapse = COLLAPSE[verdicts["collapse"]]
+    if verdicts["equivalence"] and verdicts["collapse"]:
+        collapse = f"The viscous problem is equivalent to the elastic one, and t{collapse[1:]}"
+    cases, parts = _exponents(table, "beta", "discs"), []
+    if holding := _hursts(cases, HELD):
+        within = np.ceil(100 * max(abs(case["difference"]) for case in cases.values() if case["verdict"] in HELD)) / 100
+        parts.append(f"is H/(1 + H) within {within:.2f} at H = {_joined(holding)}")
+    for sign, word in ((1, "larger"), (-1, "smaller")):
+        apart = {h: case for h, case in cases.items() if sign * case["difference"] > 0}
+        if named := _hursts(apart, ("not reproduced",)):
+            parts.append(f"{word} at {_joined(named)} on the paper's grid")
+    failing = ["the prefactor differs from the paper's"] if verdicts["master_curve"] is False else []
+    failing += ["direct integration does not have the factor 1/Γ(2 − α)"] if verdicts["gamma"] is False else []
+    sentences = [
+        collapse,
+        f"Their exponent {_joined(parts, comma=True)}" if parts else "",
+        _joined(failing or [""], comma=True),
+    ]
+    return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences if sentence)
 
 
 def _outcome(verdict):
@@ -98,21 +125,6 @@ def _boundary_elements(table):
         parts += [f"{word} {_joined(named)}"] if named else []
     parts += [f"undecided at {_joined(_hursts(cases, ('undecided',)))}"] if _any(cases, ("undecided",)) else []
     return f"By boundary elements on the paper's grid the exponent {_joined(parts, comma=True)}" if parts else ""
-
-
-def _fine_grids(table):
-    """Return the sentence on the exponent β on fine grids and at small X, or "" if there are no results."""
-    rows = table[(table["claim"] == "exponent_limit") & table["value"].notna()]
-    words = {
-        "reproduced": "tends to H/(1 + H)",
-        "not reproduced": "departs from H/(1 + H)",
-        "undecided": "is undecided",
-    }
-    parts = []
-    for verdict, word in words.items():
-        hursts = [f"{_hurst(case):g}" for case in rows.loc[rows["verdict"] == verdict, "case"]]
-        parts += [f"{word} at H = {_joined(hursts)}"] if hursts else []
-    return f"On finer grids and at smaller X it {_joined(parts, comma=True)}" if parts else ""
 
 
 def _reduction(table):

@@ -1,10 +1,8 @@
-"""Select the mean velocity of an ensemble that the figures show, by the kind of mean and the definition of h."""
+"""Select the mean velocity of an ensemble that figures and page show, by the kind of mean and the definition of h."""
 
 from types import SimpleNamespace
 
 import numpy as np
-
-from viscorough_study.figures.style import count_text
 
 
 def mean_curve(ensemble, conventions, fraction_min):
@@ -17,6 +15,7 @@ def mean_curve(ensemble, conventions, fraction_min):
     x : abscissae X
     velocity : mean of vt/h over the realizations that have a value, nan if the mean is biased
     error : two standard errors of ln(vt/h)
+    elements : median number of elements in contact
     several : True if the mean is unbiased and several elements are in contact, that is, beyond region (a)
     """
     # For lines, h is measured in only one way, so `rms_convention` has a single value.
@@ -27,17 +26,6 @@ def mean_curve(ensemble, conventions, fraction_min):
         x=mean["x"].values,
         velocity=np.where(defined, mean[f"velocity_{conventions['average']}"].values, np.nan),
         error=2 * mean["velocity_spread"].values / np.sqrt(np.maximum(mean["realizations_defined"].values, 1)),
+        elements=mean["contact_count_median"].values,
         several=defined & (mean["contact_count_median"].values > 1),
     )
-
-
-def realizations_text(ensembles):
-    """Return the smallest and the largest number of averaged realizations as text, such as "6 to 54".
-
-    The smallest number is the number of curves that were computed up to the largest X.
-    """
-    counts = []
-    for ensemble in ensembles:
-        until_x = np.broadcast_to(ensemble["until_x"].values, ensemble.sizes["realization"])
-        counts += [until_x.size, int((until_x == until_x.max()).sum())]
-    return count_text(counts)

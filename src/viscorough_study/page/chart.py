@@ -1,0 +1,61 @@
+"""Write the interactive Figure 2 of the page, and collect its curves.
+
+The page embeds uPlot, a library for charts (workflow/page/uplot), and workflow/page/chart.js, which uses it.
+"""
+
+import json
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.colors import to_hex
+
+from viscorough.io.datasets import read_dataset
+from viscorough_study.ensembles import pool
+from viscorough_study.ensembles.mean_curve import mean_curve
+from viscorough_study.run.hurst_colors import hurst_color
+
+DIGITS = 4  # significant digits of the numbers in the page
+
+
+def chart(discs, conventions, fraction_min, *, library, style, script):
+    """Return the chart as HTML: its data, the library with its style, and a script that draws it.
+
+    discs, conventions, fraction_min : see `chart_data`
+    library, style, script : texts of uPlot.iife.min.js, uPlot.min.css and chart.js
+    """
+    data = json.dumps(chart_data(discs, conventions, fraction_min), separators=(",", ":"))
+    parts = f'<style>\n{style}</style>\n<script id="curves" type="application/json">{data}</script>\n'
+    return Markup(f"{parts}<script>\n{library}</script>\n<script>\n{script}</script>\n")
+
+
+def chart_data(discs, conventions, fraction_min):
+    """Return the mean curves of Figure 2, {"x": abscissae X, "curves": list of dicts}.
+
+    A curve is a dict with
+        hurst, combination : Hurst exponent, and name of the combination of force, viscosity, diameter and rms height
+        color : its colour as a text like #31688e
+        velocity : vt/h at the abscissae, None at abscissae without a mean
+        elements : median number of elements in contact at the abscissae
+
+    As in Figure 2, the curves begin a decade before the first X with several elements in contact.
+
+    discs : NetCDF file with the loading curves of all discs (ensembles.pool)
+    conventions, fraction_min : see ensembles.mean_curve
+    """
+    ensembles = list(pool.ensembles(pool.select(read_dataset(discs), group="base"), "case").values())
+    means = [mean_curve(ensemble, conventions, fraction_min) for ensemble in ensembles]
+    start = min((mean.x[mean.several][0] for mean in means if mean.several.any()), default=0.0) / 10
+    curves = []
+    for ensemble, mean in zip(ensembles, means, strict=True):
+        shown, hurst = mean.x >= start, ensemble["hurst"].item()
+        curve = {"hurst": hurst, "combination": ensemble["case"].item().partition("_")[2]}
+        curve["color"] = to_hex(hurst_color(hurst))
+        curve["velocity"] = _rounded(mean.velocity[shown])
+        curve["elements"] = _rounded(np.where(np.isfinite(mean.velocity), mean.elements, np.nan)[shown])
+        curves.append(curve)
+    return {"x": _rounded(means[0].x[means[0].x >= start]), "curves": curves}
+
+
+def _rounded(values):
+    """Return the values as a list of numbers with `DIGITS` significant digits; None for nan."""
+    return [float(f"{value:.{DIGITS}g}") if np.isfinite(value) else None for value in values]
